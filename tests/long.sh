@@ -134,6 +134,8 @@ run 'a hunt for wrong answers, 200 rooms' hunt-long \
 of "$review scenes tests/image"
 run 'a glare review, thirty hours of weather' review-long \
     python3 tests/image/review.py --all $program
+run 'symbols half in the sun, twenty edges' worst-part-long \
+    python3 tests/image/worst_part.py --all $program
 run 'years recounted, every hour' year-long python3 tests/image/year.py --all $program
 run 'all variants of a review, slopes, mends' variants-long \
     python3 tests/image/variants.py --all $program

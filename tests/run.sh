@@ -57,6 +57,8 @@ start 'a glare review' review python3 tests/image/review.py $program
 start 'a year recounted' year python3 tests/image/year.py $program
 start 'a hunt for wrong answers' hunt python3 tests/hunt/hunt.py --count 3 --unguided $program
 start 'discomfort beside closed forms' glare python3 tests/image/glare.py $program
+start 'symbols that lie half in the sun' worst-part \
+    python3 tests/image/worst_part.py $program
 start 'variants of a review' variants python3 tests/image/variants.py $program
 start 'the README as written, its review met' guides guides_and_meeting
 start 'the command line' cli python3 tests/hostile/cli.py $program

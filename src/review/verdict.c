@@ -52,6 +52,7 @@ ReviewCase review_case_unknown(void)
     c.eye_failed_share = c.precision_asked = c.precision_reached = (double)NAN;
     c.paths_to_decide = c.minutes_to_decide = (double)NAN;
     c.glare = review_glare_unknown();
+    c.whole = case_whole_unknown();
     return c;
 }
 
@@ -59,4 +60,10 @@ bool review_case_counts(const ReviewCase *c)
 {
     if (c->verdict != VERDICT_UNJUDGED) return true;
     return c->unjudged != UNJUDGED_LIMIT && !(c->is_optional && c->unjudged == UNJUDGED_HIDDEN);
+}
+
+CaseWhole case_whole_unknown(void)
+{
+    const double nan = (double)NAN;
+    return (CaseWhole){{nan, nan, nan, nan}, nan, {nan, nan}, nan, nan};
 }

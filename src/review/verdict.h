@@ -192,6 +192,8 @@ typedef struct CaseWhole {
     double  lit_share;            /* of it, 0..1, in the direct sun; NaN: there is none */
 } CaseWhole;
 
+CaseWhole case_whole_unknown(void);
+
 #define CASE_BATCHES 32
 
 typedef struct ReviewCase {

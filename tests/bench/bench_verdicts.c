@@ -45,19 +45,22 @@ static double true_contrast(const Verdicts *v, Arena arena)
     Profile        open = {.id = "none"};
     Trial         *list = ARENA_NEW(&arena, Trial, TRUTH_RUNS);
     CaseLuminances l = {0};
+    CaseBox        part = {0};
     r->precision_contrast = r->precision_clear = NEVER;
     r->precision_paths = TRUTH_PATHS;
     for (int i = 0; i < TRUTH_RUNS; i++) {
         ReviewCase c = judged(v, &open, (1u << 28) + (unsigned)i);
         l = c.luminance_cd_m2;
+        part = c.whole.part; /* the same of all seeds */
         list[i].found = l.reflected;
     }
     *r = asked;
     Truth  truth = trials_mean(list, TRUTH_RUNS);
     double ratio = luminance_contrast(l.foreground, l.background, truth.value);
     double off = luminance_contrast(l.foreground, l.background, truth.value + truth.error);
-    printf("%s\ttruth\t%.5f\t%.4f\t%.6g\t%.6g\n", v->setup->condition->name, ratio,
-           100 * fabs(off / ratio - 1), l.foreground, l.background);
+    printf("%s\ttruth\t%.5f\t%.4f\t%.6g\t%.6g\t%.9g\t%.9g\t%.9g\t%.9g\n",
+           v->setup->condition->name, ratio, 100 * fabs(off / ratio - 1), l.foreground,
+           l.background, part.left, part.top, part.right, part.bottom);
     fflush(stdout);
     return ratio;
 }

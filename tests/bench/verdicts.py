@@ -99,14 +99,15 @@ def window_light(panel, at, eye, steps=40):
     return sum(v[0] * share for v, share in zip(panel.ask(eye, lights), shares))
 
 
-def closed_form(light, program, folder, shown, points=5):
-    """Contrast of what is shown and what the panel reflects: the mean over the symbol, points
-    to a side."""
+def closed_form(light, program, folder, shown, part, points=5):
+    """Contrast of what is shown and what the panel reflects: the mean over the judged part,
+    points to a side."""
     panel = reflection.Panel(program, os.path.join(folder, "ips.panel"), folder)
     total = 0
     for i in range(points):
         for j in range(points):
-            u, v = (0.1 + 0.8 * (k + 0.5) / points for k in (i, j))
+            u, v = (part[k] + (part[k + 2] - part[k]) * (n + 0.5) / points
+                    for k, n in ((0, i), (1, j)))
             at = [0.3 * (u - 0.5), 0.15 * (0.5 - v), 0]
             total += light(panel, at, unit([e - p for e, p in zip(EYE, at)]))
     reflected = total / points ** 2
@@ -187,7 +188,7 @@ def print_truth(room, words, build, folder):
         return False
     shown = float(words[4]), float(words[5])
     program = os.path.join(os.path.abspath(build), "parhelion")
-    closed = closed_form(CLOSED[room], program, folder, shown)
+    closed = closed_form(CLOSED[room], program, folder, shown, [float(w) for w in words[6:10]])
     print(f"{room}: in closed form {closed:.5g}, {100 * (ratio / closed - 1):+.2f} %")
     return abs(ratio / closed - 1) > CLOSED_WITHIN + 3 * error / 100
 

@@ -32,7 +32,7 @@ import rooms  # noqa: E402
 TOO_FAR = 4       # standard errors
 SIZE, SAMPLES = "96x54", 12
 SWEEP_EVERY = 16      # rooms: a response costs as much as all else together
-FRAME_SHARE = 0.003   # of what the frame shows: pixels on the symbol's rim are in or out whole
+FRAME_SHARE = 0.008   # of what the frame shows: pixels on the part's rim are in or out whole
 CLOSED_SHARE = 0.004  # what the sum over directions, and D65 between wavelengths, leave
 SWEEP_SHARE = 0.01    # a response's triangles, a table of skies: tests/bench/recombination.py
 CLOSED_POINTS = 3     # to a side of the symbol
@@ -81,6 +81,10 @@ def estimate(case):
     return case["luminance_cd_m2"]["reflected"], (high - low) / 3.92
 
 
+def part_of(case):
+    return [case["judged_part_uv"][side] for side in ("left", "top", "right", "bottom")]
+
+
 def reflected_for(light, contrast):
     """What makes (high + R) / (low + R) = contrast."""
     high = max(light["foreground"], light["background"])
@@ -110,10 +114,10 @@ def light_of(condition):
             "{illuminance_lx}".format(**sun)]
 
 
-def of_frame(reviewer, condition, level, more):
-    """Two frames that differ in their seeds: the mean over the symbol by its area, as a review
-    counts, its error by the pixels' differences; and `measure` of one of them, with the mean of
-    that frame's layer by the display's part of each pixel, as it counts."""
+def of_frame(reviewer, condition, level, part, more):
+    """Two frames that differ in their seeds: the mean over the judged part by its area, as a
+    review counts, its error by the pixels' differences; and `measure` of one of them, with the
+    mean of that frame's layer by the display's part of each pixel, as it counts."""
     layers, total, squares, both = [], 0, 0, 0
     for seed in (1, 2):
         name = f"frame{seed}.exr"
@@ -124,7 +128,7 @@ def of_frame(reviewer, condition, level, more):
         assert done.returncode == 0, done.stderr
         layers.append(Frame(os.path.join(reviewer.folder, name)).channels)
     one, two = layers
-    left, top, right, bottom = rooms.SYMBOL_UV
+    left, top, right, bottom = part
     shown = [i for i, display in enumerate(one["id.display"]) if display == 0]
     for i in shown:
         if one["display.coverage"][i] < 1 or not (
@@ -167,11 +171,11 @@ def check_measure(report, name, told, by_part):
 
 # ---- a closed form --------------------------------------------------------------------------
 
-def of_panel(reviewer, room, luminance):
-    """The mean over points of the symbol of the uniform sky's reflection."""
+def of_panel(reviewer, room, part, luminance):
+    """The mean over points of the judged part of the uniform sky's reflection."""
     path = os.path.join(reviewer.folder, room.panel())
     panel = reflection.Panel(reviewer.program, path, reviewer.folder)
-    left, top, right, bottom = rooms.SYMBOL_UV
+    left, top, right, bottom = part
     total = 0
     for i in range(CLOSED_POINTS):
         for j in range(CLOSED_POINTS):
@@ -208,14 +212,15 @@ class Hunt:
                 self.compare(name + ", causes", estimate(case), of_causes(case))
         moments = [c for c in asked["conditions"] if "environment" in c]
         k = seed % len(moments)
-        frame, told, by_part = of_frame(self.reviewer, moments[k], level,
+        frame, told, by_part = of_frame(self.reviewer, moments[k], level, part_of(cases[k]),
                                            self.of_frames)
         name = f"seed {seed}, {moments[k]['name']}"
         self.compare(name + ", frame", estimate(cases[k]),
                      (frame[0], math.hypot(frame[1], FRAME_SHARE * frame[0])))
         check_measure(self.report, name, told, by_part)
         if room.is_empty:
-            wanted = of_panel(self.reviewer, room, moments[0]["environment"]["luminance"])
+            wanted = of_panel(self.reviewer, room, part_of(cases[0]),
+                              moments[0]["environment"]["luminance"])
             self.compare(f"seed {seed}, sky, closed", estimate(cases[0]),
                          (wanted, CLOSED_SHARE * wanted))
 

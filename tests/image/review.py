@@ -105,21 +105,22 @@ def check_figures(report, reviewer):
     shares = [cause["share"] for cause in case["causes"]]
     report.claim(close(sum(shares), 1, 1e-4), f"causes add up to {sum(shares)}")
     report.claim(shares[:-1] == sorted(shares[:-1], reverse=True), "causes by their share")
-    return light["reflected"], (high - low) / 4 / case["contrast_ratio"]
+    return case, (high - low) / 4 / case["contrast_ratio"]
 
 
-def check_frame(report, reviewer, reflected, sure):
-    """The frame's mean over the same rectangle."""
+def check_frame(report, reviewer, case, sure):
+    """The frame's mean over the same part."""
+    reflected, part = case["luminance_cd_m2"]["reflected"], case["judged_part_uv"]
     reviewer.run("render", "dash.gltf", "--environment", "constant:3000", "--size", "96x54",
-                 "--spp", "12", "--layers", "all", "-o", "frame.exr")
+                 "--spp", "48", "--layers", "all", "-o", "frame.exr")
     c = Frame(os.path.join(reviewer.folder, "frame.exr")).channels
     seen = [i for i, display in enumerate(c["id.display"]) if display >= 0 and
-            c["display.coverage"][i] == 1 and 0.1 < c["uv.U"][i] < 0.9 and
-            0.1 < c["uv.V"][i] < 0.9]
+            c["display.coverage"][i] == 1 and part["left"] < c["uv.U"][i] < part["right"] and
+            part["top"] < c["uv.V"][i] < part["bottom"]]
     def mean(name):
         return sum(0.2126 * c[name + ".R"][i] + 0.7152 * c[name + ".G"][i] +
                    0.0722 * c[name + ".B"][i] for i in seen) / len(seen)
-    report.claim(len(seen) > 300, f"{len(seen)} pixels of the display")
+    report.claim(len(seen) > 100, f"{len(seen)} pixels of the part")
     wanted = mean("display.reflected")
     report.claim(abs(reflected / wanted - 1) < 0.01 + 3 * sure,
                  f"reflected {reflected:.5g}, in the frame {wanted:.5g}")
@@ -257,8 +258,10 @@ def check_suns(report, reviewer, count):
     for sun, case in zip(suns, review["cases"]):
         found = float(rows[sun]["reflected_cd_m2"])
         wanted = case["luminance_cd_m2"]["reflected"]
-        report.claim(close(found, wanted, 0.06),
-                     f"sun {sun}: {found:.5g} in the sweep, {wanted:.5g} by itself")
+        mean = case["symbol_mean"]["reflected"]  # as which a step counts all but the sun
+        report.claim(0.94 * min(mean, wanted) <= found <= 1.06 * wanted,
+                     f"sun {sun}: {found:.5g} in the sweep, {wanted:.5g} by itself, of all of "
+                     f"it {mean:.5g}")
         told = case["sun"]["azimuth_deg"], case["sun"]["elevation_deg"]
         off = (told[0] - sun[0] + 180) % 360 - 180, told[1] - sun[1]
         report.claim(max(map(abs, off)) < 0.0005, f"sun {sun}: told as {told}")

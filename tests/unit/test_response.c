@@ -5,6 +5,7 @@
 #include "panel/query/panel_reflection.h"
 #include "review/light/distant_probe.h"
 #include "review/light/light_bands.h"
+#include "review/light/response_suns.h"
 #include "reading_fixture.h"
 
 /* A display that looks along +z, 0.4 m wide, 0.2 m high. */

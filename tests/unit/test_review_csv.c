@@ -5,7 +5,7 @@
 #include "review/output/review_csv.h"
 #include "review_page_fixture.h"
 
-enum { CSV_COLUMNS = 58 };
+enum { CSV_COLUMNS = 61 };
 
 /* One record of RFC 4180 into cells; what follows it. */
 static const char *read_record(const char *at, const char *cell[CSV_COLUMNS], int *count)
@@ -57,6 +57,7 @@ static void assert_csv_says(const Review *review)
     assert_string_equal(header[31], "margin");
     assert_string_equal(header[43], "dgi");
     assert_string_equal(header[51], "smallest_source_sr");
+    assert_string_equal(header[CSV_COLUMNS - 1], "lit_share");
     for (int i = 0; i < review->case_count; i++) {
         const ReviewCase *c = &review->cases[i];
         at = read_record(at, cell, &count);
@@ -81,6 +82,9 @@ static void assert_csv_says(const Review *review)
         assert_same(limit ? limit->high : (double)NAN, number_of(cell[54]));
         assert_same(c->stroke_ratio, number_of(cell[56]));
         assert_string_equal(cell[57], c->unjudged ? unjudged_names[c->unjudged] : "");
+        assert_same(c->whole.reflected, number_of(cell[58]));
+        assert_same(c->whole.contrast_ratio, number_of(cell[59]));
+        assert_same(c->whole.lit_share, number_of(cell[60]));
     }
     assert_int_equal(*at, 0);
 }

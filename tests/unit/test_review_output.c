@@ -98,6 +98,9 @@ static const Member CASE[] = {
     OF(NUMBER, glare.smallest_sr), OF(NUMBER, glare.largest_sr),
     OF(WHOLE, glare.source_count), OF(WHOLE, glare.low_light), OF(TEXT, glare.none),
     OF(NUMBER, eye_failed_share),
+    OF(NUMBER, whole.reflected), OF(NUMBER, whole.reflected_range.low),
+    OF(NUMBER, whole.reflected_range.high), OF(NUMBER, whole.contrast_ratio),
+    OF(NUMBER, whole.lit_share), OF(NUMBER, whole.part.left), OF(NUMBER, whole.part.bottom),
     OF(NUMBER, visible_share), OF(NUMBER, level), OF(NUMBER, display_lux), OF(NUMBER, margin),
     OF(WHOLE, limit_id), OF(WHOLE, verdict), OF(WHOLE, limit_count), OF(WHOLE, cause_count),
     OF(WHOLE, remedy_count), OF(WHOLE, hider_count), OF(NUMBER, without_data_share),
@@ -227,7 +230,7 @@ TEST(json_has_the_promised_keys)
         "jnd", "visibility", "dgp", "ugr", "when", "visible_share", "hidden_by",
         "eye_failed_share", "level", "display_lux", "limit", "limits", "margin", "verdict",
         "causes", "guessed_share", "without_data_share", "empty_seat", "empty_seat_share",
-        "remedies", "frame"};
+        "remedies", "frame", "symbol_mean", "lit_share", "judged_part_uv"};
     Review  review = fixture_review(&arena);
     json_t *json = review_json(&review), *value;
     json_t *first = json_array_get(json_object_get(json, "cases"), 0);
@@ -292,7 +295,8 @@ static bool is_optional(const char *key, const json_t *object)
                                         "stroke_ratio", "dgi", "dgp_interval",
                                         "ugr_interval", "dgi_interval", "glare", "rests_on",
                                         "rests_on_line", "inputs", "guessed_share",
-                                        "empty_seat", "empty_seat_share"};
+                                        "empty_seat", "empty_seat_share",
+                                        "symbol_mean", "lit_share", "judged_part_uv"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)
         if (!strcmp(key, ADDED[i])) return true;
     if (!strcmp(key, "kind") && json_object_get(object, "what")) return true; /* a remedy's */

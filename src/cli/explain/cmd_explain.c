@@ -324,6 +324,7 @@ static bool print_json(const Explained *explained, Error *err)
         json_figure(c->contrast_ratio), "contrast_interval", json_figure(c->contrast_low),
         json_figure(c->contrast_high), "paths", (json_int_t)explained->paths);
     json_object_set_new(out, "visible_share", json_figure(c->visible_share));
+    review_whole_json(c, out);
     json_object_set_new(out, "hidden_by", review_hiders_json(c));
     json_object_set_new(out, "reflected_interval",
                         json_pack("[o,o]", json_figure(c->reflected_range.low),

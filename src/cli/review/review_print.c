@@ -26,6 +26,13 @@ static void print_judged(const ReviewCase *c, Arena *scratch)
     if (c->unjudged) print("; %s", words_unjudged(c, scratch));
 }
 
+/* All figures are of the worst part. */
+static void print_whole(const ReviewCase *c, Arena *scratch)
+{
+    const char *whole = words_whole(c, scratch);
+    if (*whole) print("; of the worst part, %s", whole);
+}
+
 static void print_case(const ReviewCase *c, Arena scratch)
 {
     print("%-16s %s, %s, %s", verdict_names[c->verdict], c->condition, c->eye, c->symbol);
@@ -34,6 +41,7 @@ static void print_case(const ReviewCase *c, Arena scratch)
         print(", reflected %s cd/m2",
               interval_text(c->luminance_cd_m2.reflected, c->reflected_range.low,
                             c->reflected_range.high, &scratch));
+    print_whole(c, &scratch);
     print("%s", words_precision(c, &scratch));
     if (c->minutes_to_decide > 0 && isfinite(c->minutes_to_decide))
         print("; about %.2g minutes more would decide it", fmax(c->minutes_to_decide, 0.1));
@@ -52,6 +60,7 @@ static void print_sweep(const ReviewSweep *s, Arena scratch)
         print("; worst at azimuth %.1f, elevation %.1f", s->worst.sun_azimuth_deg,
               s->worst.sun_elevation_deg);
     print_judged(&s->worst, &scratch);
+    print_whole(&s->worst, &scratch);
     print("%s", words_precision(&s->worst, &scratch));
     print("\n");
 }

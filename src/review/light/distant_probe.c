@@ -9,7 +9,7 @@
 #include "base/units.h"
 #include "render/identity.h"
 #include "review/light/question.h"
-#include "review/light/sun_parts.h"
+#include "review/light/response_suns.h"
 
 /* ---- skies ------------------------------------------------------------------------------- */
 
@@ -480,8 +480,7 @@ void distant_probe_ask_suns(DistantProbe *probe, const DistantTools *tools, Aren
     probe->scattered = ask_scattered(probe, with, &options, &suns, arena);
     suns.by_mirror = true;
     options.paths = response_mirror_paths(&probe->aim, suns.radius);
-    probe->mirror =
-        tools->has_mirror ? ask_suns(probe, with, &options, &suns, arena) : NULL;
+    probe->mirror = tools->has_mirror ? ask_suns(probe, with, &options, &suns, arena) : NULL;
 }
 
 /* Skies of hours are many: their errors are those of an even one. */

@@ -143,6 +143,37 @@ static double share_that_counts(const LightParts *parts, const double *means,
     return spread > by_chance ? 1 - by_chance / spread : 0;
 }
 
+/* Where a part lies along one axis. */
+static double place_along(const LightParts *parts, int part, int axis)
+{
+    int place[2];
+    light_parts_place(parts, part, &place[0], &place[1]);
+    return place[axis];
+}
+
+/* Takes the slope along an axis out of `left`, by least squares, and adds it to `plane`. */
+static void take_slope(const LightParts *parts, int axis, double *left, double *plane)
+{
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    int    count = light_parts_count(parts);
+    for (int i = 0; i < count; i++) {
+        if (isnan(left[i])) continue;
+        double at = place_along(parts, i, axis);
+        n++;
+        x += at;
+        y += left[i];
+        xx += at * at;
+        xy += at * left[i];
+    }
+    double spread = n > 0 ? xx - x * x / n : 0;
+    double slope = spread > 0 ? (xy - x * y / n) / spread : 0;
+    for (int i = 0; i < count && n > 0; i++) {
+        double along = slope * (place_along(parts, i, axis) - x / n);
+        left[i] -= along;
+        plane[i] += along;
+    }
+}
+
 int light_parts_choose(const LightParts *parts, const TargetLight *sampled,
                        const double *known, Arena scratch)
 {
@@ -153,9 +184,11 @@ int light_parts_choose(const LightParts *parts, const TargetLight *sampled,
     int    *counts = ARENA_NEW(&scratch, int, count);
     for (int i = 0; i < targets; i++) values[i] = beside(&sampled[i], known[i]);
     light_parts_worst(parts, values, means, counts, scratch);
+    light_parts_worst(parts, known, with, NULL, scratch);
+    take_slope(parts, 0, means, with);
+    take_slope(parts, 1, means, with);
     double share =
         share_that_counts(parts, means, counts, chance_of(parts, sampled, known));
-    light_parts_worst(parts, known, with, NULL, scratch);
     for (int i = 0; i < count; i++) with[i] += share * means[i];
     return worst_of(parts, with);
 }

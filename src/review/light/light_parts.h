@@ -35,8 +35,8 @@ typedef struct TargetLight {
 } TargetLight;
 
 /* The worst part by known[target] and what samples found besides. Parts that differ by no more
- * than chance does would be chosen by luck, not by light: samples count by the share of their
- * spread over the parts that chance does not explain (Efron and Morris, J. Am. Stat. Assoc. 70
- * (1975) 311). */
+ * than chance does would be chosen by luck, not by light: the even rise of what samples found
+ * counts, and what they found beside that by the share of its spread over the parts that
+ * chance does not explain (Efron and Morris, J. Am. Stat. Assoc. 70 (1975) 311). */
 int light_parts_choose(const LightParts *parts, const TargetLight *sampled,
                        const double *known, Arena scratch);

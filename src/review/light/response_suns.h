@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* response_suns.h -- what the first vertex of a probe's paths sends of suns: exact for each, and
- * by the targets of an aim.
+/* response_suns.h -- what the first vertex of a probe's paths sends of suns: exact for each,
+ * and by the parts of what an eye looks at: a shadow's edge and the sun's image lie on some of
+ * them alone.
  *
  * Units    shares: response.h's.
  * Memory   from the arena.
  * Threads  starts its own; the same numbers for any count.
  */
 #pragma once
+#include "review/light/light_parts.h"
 #include "review/light/response.h"
 
 /* Paths that find what an aim's mirror sends of a sun of that radius (radians) within 1 %,
@@ -20,10 +22,14 @@ int response_mirror_paths(const ProbeAim *aim, float radius);
 const float *response_suns(const ProbeAim *aim, const ResponseOptions *options,
                            const ProbeSuns *suns, Arena *arena);
 
-/* The same with what each of the aim's targets sends by itself: by_target[sun][target], the sum
- * over bands of shares times weights, with the same mean over targets as over options' paths,
- * of which every target has as many. */
-const float *response_suns_by_target(const ProbeAim *aim, const ResponseOptions *options,
-                                     const ProbeSuns *suns,
-                                     const float weights[RESPONSE_BANDS], double *by_target,
-                                     Arena *arena);
+/* response_suns of the part that a sun, as even white, gives most, each sun's own; it has the
+ * spectrum of all parts together. parts: aimed as `aim` is; NULL: of all of that. */
+const float *sun_parts_worst(const ProbeAim *aim, const LightParts *parts,
+                             const ResponseOptions *options, const ProbeSuns *suns,
+                             Arena *arena);
+
+/* What each target sends of one sun of these bands, lx, by scattering and by the display's
+ * mirror, cd m^-2: added to of[target]. Returns that of the mirror, mean over targets. */
+double sun_parts_light(const LightParts *parts, const ResponseOptions *options,
+                       const ProbeSuns *sun, const float bands[RESPONSE_BANDS], double *of,
+                       Arena scratch);

@@ -88,6 +88,8 @@ static void add_sight_facts(Text *html, const ReviewCase *c, Arena *arena)
                                             c->contrast_high, arena),
                                words_within(c->contrast_high, c->contrast_low,
                                             c->contrast_high, arena)));
+    const char *whole = words_whole(c, arena);
+    if (*whole) page_fact(html, "… of its worst part; of all of it", whole);
     add_figure(html, "… with the eye's own veil", c->contrast_with_veil, ": 1", arena);
     add_figure(html, "Height", c->height_arcmin, "arc minutes", arena);
     add_figure(html, "Told apart by", c->jnd, "just noticeable steps", arena);

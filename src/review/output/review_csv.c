@@ -43,7 +43,7 @@ static void add_numbers(Text *csv, const double *values, int count)
 
 /* ---- cases ------------------------------------------------------------------------------- */
 
-/* The last of both tables. */
+/* Of both tables. */
 #define GLARE_COLUMNS                                                                          \
     "dgp_low,dgp_high,ugr_low,ugr_high,dgi,dgi_low,dgi_high,glare_threshold_cd_m2,"           \
     "glare_background_cd_m2,glare_sources,glare_sources_lx,no_ugr_because,smallest_source_sr"
@@ -65,7 +65,8 @@ static const char HEADER[] =
     "display_lx,visibility,dgp,ugr,eye_failed_share,limit_name,limit_kind,limit_unit,"
     "limit_source,limit_value,margin,first_cause,first_cause_share,verdict,"
     "reflected_low_cd_m2,reflected_high_cd_m2,hidden_by,hidden_by_share," GLARE_COLUMNS
-    ",limit_found,limit_low,limit_high,limit_bound,stroke_ratio,reason\r\n";
+    ",limit_found,limit_low,limit_high,limit_bound,stroke_ratio,reason,mean_reflected_cd_m2,"
+    "mean_contrast_ratio,lit_share\r\n";
 
 static void add_limit(Text *csv, const ReviewCase *c)
 {
@@ -85,8 +86,7 @@ static void add_found(Text *csv, const ReviewCase *c)
     add_numbers(csv, (double[]){limit->found, limit->low, limit->high}, 3);
     add_text(csv, !worst ? NULL : worst->is_upper ? "most" : "least");
     add_number(csv, c->stroke_ratio);
-    text_add(csv, c->unjudged ? unjudged_names[c->unjudged] : "");
-    text_add(csv, "\r\n");
+    add_text(csv, c->unjudged ? unjudged_names[c->unjudged] : NULL);
 }
 
 /* The chain's links, joined by " > ". */
@@ -124,6 +124,10 @@ static void add_case(Text *csv, const ReviewCase *c, Arena scratch)
     add_glare(csv, &c->glare);
     text_add(csv, ",");
     add_found(csv, c);
+    add_number(csv, c->whole.reflected);
+    add_number(csv, c->whole.contrast_ratio);
+    if (isfinite(c->whole.lit_share)) text_format(csv, "%.6g", c->whole.lit_share);
+    text_add(csv, "\r\n");
 }
 
 typedef void AddRows(Text *csv, const Review *review, Arena scratch);

@@ -61,6 +61,14 @@ static const Member LUMINANCE[] = {
     OWN(FIGURE, CaseLuminances, reflected), OWN(FIGURE, CaseLuminances, mirror),
     OWN(FIGURE, CaseLuminances, scattered), OWN(FIGURE, CaseLuminances, veil), {0}};
 
+static const Member BOX[] = {OWN(FIGURE, CaseBox, left), OWN(FIGURE, CaseBox, top),
+                             OWN(FIGURE, CaseBox, right), OWN(FIGURE, CaseBox, bottom), {0}};
+
+static const Member MEAN[] = {
+    OWN(FIGURE, CaseWhole, reflected),
+    AS("reflected_interval", RANGE, CaseWhole, reflected_range),
+    OWN(FIGURE, CaseWhole, contrast_ratio), {0}};
+
 static const Member GLARE[] = {
     OWN(FIGURE, CaseGlare, threshold_cd_m2), OWN(FIGURE, CaseGlare, background_cd_m2),
     AS("sources", COUNT, CaseGlare, source_count),
@@ -90,6 +98,9 @@ static const Member CASE[] = {
     {"sun", MEMBER_IF, offsetof(ReviewCase, sun_azimuth_deg), .of = SUN,
      .count = offsetof(ReviewCase, has_sun)},
     {"luminance_cd_m2", MEMBER_OBJECT, offsetof(ReviewCase, luminance_cd_m2), .of = LUMINANCE},
+    {"symbol_mean", MEMBER_OBJECT, offsetof(ReviewCase, whole), SINCE, MEAN, 0, 0},
+    LATER("lit_share", FIGURE, ReviewCase, whole.lit_share),
+    {"judged_part_uv", MEMBER_OBJECT, offsetof(ReviewCase, whole.part), SINCE, BOX, 0, 0},
     OWN(FIGURE, ReviewCase, contrast_ratio),
     AS("contrast_interval", RANGE, ReviewCase, contrast_low),
     {"reflected_interval", MEMBER_RANGE, offsetof(ReviewCase, reflected_range), .use = SINCE},
@@ -300,6 +311,12 @@ static void set_members(json_t *object, const ReviewCase *c, const char *const *
     for (; *keys; keys++)
         for (const Member *member = CASE; member->key; member++)
             if (!strcmp(member->key, *keys)) set(object, *keys, member_json(member, c));
+}
+
+void review_whole_json(const ReviewCase *c, json_t *to)
+{
+    static const char *const KEYS[] = {"symbol_mean", "lit_share", "judged_part_uv", NULL};
+    if (c->symbol) set_members(to, c, KEYS);
 }
 
 /* ---- variants ---------------------------------------------------------------------------- */

@@ -375,6 +375,36 @@ static const char *name_of(const LimitVerdict *limit, Arena *arena)
     return arena_format(arena, "%s (%s)", name, words_kind(limit));
 }
 
+#define EDGE_SEEN 0.005 /* of a symbol: less than that of it is none of it */
+
+/* In the unit of the limit that decides, where that is of a contrast. */
+static const char *mean_words(const ReviewCase *c, Arena *arena)
+{
+    const LimitVerdict *limit = case_worst_limit(c);
+    LimitKind    kind = limit ? limit_kind_named(limit->kind) : LIMIT_KIND_COUNT;
+    LimitVerdict mean = limit ? *limit : (LimitVerdict){0};
+    if (kind == LIMIT_KIND_COUNT || !limit_kinds[kind].is_contrast)
+        return words_ratio(c->whole.contrast_ratio, arena);
+    mean.found = contrast_from_ratio(kind, c->whole.contrast_ratio);
+    return words_found(&mean, arena);
+}
+
+const char *words_whole(const ReviewCase *c, Arena *arena)
+{
+    const CaseWhole *whole = &c->whole;
+    bool        differs = whole->reflected > 0 && /* older reviews have none */
+                   (whole->reflected_range.high < c->reflected_range.low ||
+                    whole->reflected_range.low > c->reflected_range.high);
+    bool        is_edged = whole->lit_share > EDGE_SEEN && whole->lit_share < 1 - EDGE_SEEN;
+    const char *lit = is_edged ? arena_format(arena, "%s of it is in the sun",
+                                              words_share(whole->lit_share, arena))
+                               : "";
+    if (!differs) return is_edged ? arena_format(arena, "%s of the symbol is in the sun",
+                                                 words_share(whole->lit_share, arena)) : "";
+    return arena_format(arena, "mean of the symbol %s%s%s", mean_words(c, arena),
+                        is_edged ? "; " : "", lit);
+}
+
 const char *words_reason(const ReviewCase *c, Arena *arena)
 {
     const LimitVerdict *limit = case_worst_limit(c);

@@ -120,6 +120,11 @@ const char *words_unjudged(const ReviewCase *c, Arena *arena);
  * required >= 2: passes". */
 const char *words_remedy(const CaseRemedy *remedy, Arena *arena);
 
+/* What the worst part does not say: "mean of the symbol 1.83 : 1; 80 % of it is in the sun".
+ * The mean stands where it differs by more than both intervals, the share where an edge of the
+ * sun lies on it; "" where neither does. */
+const char *words_whole(const ReviewCase *c, Arena *arena);
+
 /* Why the case has its verdict: "contrast 1.64 : 1, required >= 2 : 1". */
 const char *words_reason(const ReviewCase *c, Arena *arena);
 

@@ -293,6 +293,7 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
                           (double)NAN};
     c->minutes_to_decide = c->precision_asked = c->precision_reached = (double)NAN;
     c->reflected_range = (MeanInterval){(double)NAN, (double)NAN};
+    c->whole = case_whole_unknown();
     c->visible_share = seen.visible_share;
     if (seen.visible_share < 1 && !look->is_coarse)
         case_hiders(&symbol->surface, &setup->context, eye, c, arena);

@@ -397,8 +397,9 @@ static void add_notes(const ReviewRequest *request, Review *review, Arena *arena
         add_note(review, &notes,
                  "Sweeps: skies are clear, or those of a weather file where one is named; "
                  "light that comes by a second surface, glints by way of chrome or glass "
-                 "among it, is a mean over about 3 degrees of the sun's place. The worst case "
-                 "of each sweep is traced by itself.");
+                 "among it, is a mean over about 3 degrees of the sun's place. Of a symbol's "
+                 "parts the direct sun tells the worst; all other light of a step is the "
+                 "symbol's mean. The worst case of each sweep is traced by itself.");
         if (has_boxes(request))
             add_note(review, &notes, "Sweeps: an eye box or ellipse counts by its middle.");
         if (review_look_count(request))

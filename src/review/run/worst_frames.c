@@ -94,7 +94,8 @@ static void add_rim(const SetupSymbol *symbol, ReviewCase *c, Arena *arena)
         double      t = (double)(i % RIM_STEPS) / RIM_STEPS;
         double      at[2] = {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
         SymbolPoint point;
-        if (symbol_surface_at(&symbol->surface, at, &point)) rim[c->rim_count++] = point.position;
+        if (symbol_surface_at(&symbol->surface, at, &point))
+            rim[c->rim_count++] = point.position;
     }
     c->rim = rim;
 }

@@ -4,27 +4,24 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/sampler.h"
 #include "base/units.h"
-#include "review/light/sun_parts.h"
+#include "review/light/response_suns.h"
 
 #define CELLS_MOST 1024
 #define SUN_PATHS 2048   /* the direct sun's, of all cells together */
 #define FIELD_PATHS 2048
-#define FIELD_SEED 0x6669656cu
+#define FIELD_SEED 0x6669656cu /* whatever the review's: all seeds judge the same part */
 #define LIT_POINTS 4096  /* that tell the share in the sun: within half a percent */
 
 /* The direct sun of each cell that is seen, and its mean by the display's mirror. */
 static double add_sun(const Setup *setup, const LightParts *parts, double *known, Arena scratch)
 {
-    Vec3   towards;
-    float  bands[LIGHT_BANDS];
-    double mirror = 0;
+    Vec3  towards;
+    float bands[LIGHT_BANDS];
     if (!setup_sun(setup, &towards, bands)) return 0;
     ProbeSuns sun = {&towards, 1, (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG), false};
     ResponseOptions options = {setup->tools.kernel, 0, SUN_PATHS, setup->tools.threads, 0};
-    sun_parts_light(parts, &options, &sun, bands, known, &mirror, scratch);
-    return mirror;
+    return sun_parts_light(parts, &options, &sun, bands, known, scratch);
 }
 
 /* The part, and the mean of all that paths find. */
@@ -39,7 +36,7 @@ static int read_all(const Setup *setup, const LightParts *parts, CaseWhole *whol
     ProbeAim     aim = parts->aim;
     without.without_mirrored_sun = mirror > 0;
     aim.context = &without;
-    aim.seed = hash_combine(hash_u32(aim.seed), FIELD_SEED);
+    aim.seed = FIELD_SEED;
     Reading mean = setup_field(setup, &aim, FIELD_PATHS, mirror, found, scratch);
     whole->reflected = mean.reflected;
     whole->reflected_range = mean.interval;
@@ -94,10 +91,8 @@ static void aim_at_part(const SymbolSurface *all, WorstPart *out, Arena *arena)
 
 WorstPart worst_part_find(const Setup *setup, const PartAsk *ask, Arena *arena)
 {
-    const double nan = (double)NAN;
-    WorstPart    out = {.whole = {.reflected = nan, .reflected_range = {nan, nan},
-                                  .contrast_ratio = nan, .lit_share = nan}};
-    Arena scratch = arena_reserve((size_t)1 << 28);
+    WorstPart out = {.whole = case_whole_unknown()};
+    Arena     scratch = arena_reserve((size_t)1 << 28);
     out.aim = (ProbeAim){.context = &setup->context, .eye = ask->eye, .seed = ask->seed};
     LightParts parts = symbol_parts(ask->symbol, &out.aim, CELLS_MOST, &scratch);
     memcpy(&out.whole.part, ask->symbol->surface.uv, sizeof out.whole.part);

@@ -17,7 +17,7 @@
 typedef struct PartAsk {
     const SetupSymbol *symbol;
     Vec3     eye;
-    uint32_t seed;       /* of the paths to all of it, and of the aim that is set */
+    uint32_t seed;       /* of the aim that is set; all of it is read by one of its own */
     bool     is_coarse;  /* by the direct sun alone: no mean */
 } PartAsk;
 

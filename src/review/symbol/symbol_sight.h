@@ -15,7 +15,7 @@
 double symbol_height_arcmin(const SymbolSurface *surface, const double box[4], Vec3 eye);
 
 typedef struct SymbolVisibility {
-    double visible_share; /* of the rectangle's area, 0..1: what shows its front and is not
+    double visible_share; /* of the surface's area, 0..1: what shows its front and is not
                              hidden. Windows and holes hide nothing, unless less than a
                              hundredth of the light passes them */
     double transmittance; /* of what lies between, mean over what is visible, 0..1, for light of
@@ -26,7 +26,7 @@ typedef struct SymbolVisibility {
 SymbolVisibility symbol_visibility(const SymbolSurface *surface, const PathContext *context,
                                    Vec3 eye, bool *is_visible);
 
-/* The hidden shares of the rectangle's area, by the first thing on the look from the eye that
+/* The hidden shares of the surface's area, by the first thing on the look from the eye that
  * lets too little through: with the visible share they add up to 1. */
 typedef struct SymbolHiding {
     double *by_part;    /* [scene->part_count], from the arena */
@@ -45,9 +45,9 @@ SymbolPatch symbol_patch_seen(const SymbolSurface *surface, int point,
 bool symbol_box_seen(const SymbolSurface *surface, const double uv[4],
                      const PathContext *context, Vec3 eye, SymbolPatch *out);
 
-/* The share, 0..1, of the surface's points with is_visible[point] to which light comes straight
- * from `towards` (unit, world), windows that pass a hundredth of it apart: with the middle of
- * the sun, what it lights by more than half. NaN: none is visible. */
+/* The share, 0..1, of the surface with is_visible[point] to which light comes straight from
+ * `towards` (unit, world), or through windows that pass a hundredth of it and more: towards the
+ * middle of the sun, what at least about half of it lights. NaN: nothing is visible. */
 double symbol_lit_share(const SymbolSurface *surface, const bool *is_visible,
                         const PathContext *context, Vec3 towards);
 
