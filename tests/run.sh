@@ -58,6 +58,9 @@ start 'a year recounted' year python3 tests/image/year.py $program
 start 'a hunt for wrong answers' hunt python3 tests/hunt/hunt.py --count 3 --unguided $program
 start 'discomfort beside closed forms' glare python3 tests/image/glare.py $program
 start 'variants of a review' variants python3 tests/image/variants.py $program
+start 'a matte finish tried out' finish python3 tests/image/finish.py $program
+start 'through sunglasses' sunglasses python3 tests/image/sunglasses.py $program
+start 'doors open, vehicles mirrored' changed python3 tests/image/changed.py $program
 start 'the README as written, its review met' guides guides_and_meeting
 start 'the command line' cli python3 tests/hostile/cli.py $program
 start 'options given twice' options python3 tests/hostile/options.py $program

@@ -184,6 +184,8 @@ typedef struct CaseWhole {
 
 #define CASE_BATCHES 32
 
+#define DECIDE_TIMES 64 /* --decide's budget: so many times the paths of the precision */
+
 typedef struct ReviewCase {
     const char *condition, *eye, *symbol, *display;
     Ambient ambient;
@@ -214,7 +216,9 @@ typedef struct ReviewCase {
     double  precision_asked;     /* of the contrast, relative: coarser where the verdict is
                                     clear; NaN: nothing is visible */
     double  precision_reached;   /* its standard error, relative; NaN likewise */
-    double  paths_to_decide;     /* of a case that is too close: about how many decide; NaN */
+    double  paths_to_decide;     /* of a case that is too close: nine of ten such are decided
+                                    by fewer (judge_paths, read_on.h); infinite: none; NaN */
+    double  decide_times;        /* the same over the request's precision_paths, rounded up */
     double  minutes_to_decide;   /* as fast as its reading went, here; NaN: not known */
     double  visible_share;       /* of the box about its foreground, 0..1 */
     const CaseHider *hiders;     /* of all else, greatest first: with it they add up to 1 */
@@ -225,6 +229,8 @@ typedef struct ReviewCase {
                                     rim are in its coordinates */
     bool    is_optional;         /* the request says that this eye need not see it */
     double  level;               /* at which the display was set, 1: as measured */
+    double  glasses_transmittance; /* luminous, of the observer's sunglasses; 1: none. All
+                                    luminances are told without that factor */
     CasePanel panel;             /* what the display's panel says of itself */
     double  display_lux;         /* illuminance of the display's face */
     const LimitVerdict *limits;  /* all that apply */

@@ -273,7 +273,8 @@ static bool is_optional(const char *key, const json_t *object)
                                         "without_data_share", "without_data", "hidden_by",
                                         "eye_places", "then", "judged", "reason",
                                         "optional", "panel", "panels", "stroke_ratio", "dgi", "dgp_interval",
-                                        "ugr_interval", "dgi_interval", "glare"};
+                                        "ugr_interval", "dgi_interval", "glare",
+                                        "decide_times", "glasses_transmittance"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)
         if (!strcmp(key, ADDED[i])) return true;
     return !strcmp(key, "verdict") &&

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/review/review_print.h"
 
-#include <math.h>
 #include <stdio.h>
 
 #include "cli/options/answer.h"
@@ -34,8 +33,7 @@ static void print_case(const ReviewCase *c, Arena scratch)
                interval_text(c->luminance_cd_m2.reflected, c->reflected_range.low,
                              c->reflected_range.high, &scratch));
     fputs(words_precision(c, &scratch), stdout);
-    if (c->minutes_to_decide > 0 && isfinite(c->minutes_to_decide))
-        printf("; about %.2g minutes more would decide it", fmax(c->minutes_to_decide, 0.1));
+    fputs(words_decide(c, &scratch), stdout);
     putchar('\n');
 }
 
