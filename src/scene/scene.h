@@ -337,7 +337,7 @@ typedef struct SceneChange {
     float move_m[3];         /* nodes: world, after all turns */
     float ahead[3];          /* nodes, mirror: where the vehicle points, world, not vertical */
     float middle_m;          /* mirror: its plane, along the vehicle's right from the origin;
-                                after all other changes, of all files (change/mirror_change.h) */
+                                after all other changes, all files (change/mirror_change.h) */
     const char *patch;       /* material: JSON, merged into it (change/material_change.h) */
     DisplayFinish finish;    /* finish */
     float depth_m;           /* hood: how far it reaches out (load/hood.h); above 0 */

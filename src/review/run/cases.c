@@ -13,7 +13,6 @@
 #include "review/judge.h"
 #include "review/keep/journal.h"
 #include "review/light/eye_reading.h"
-#include "review/light/glasses.h"
 #include "review/light/read_on.h"
 #include "review/light/response_suns.h"
 #include "review/output/review_decide.h"
@@ -245,34 +244,6 @@ static void set_shown(CaseLuminances *l, const SymbolEmission *emission, double 
     l->background = emission->background_xyz[1] * transmittance;
 }
 
-/* What the display shows, and how the aim counts light, as glasses weigh it: but for the one
- * factor by which they darken all. */
-static void put_on_glasses(const Setup *setup, const CaseLook *look, ProbeAim *aim,
-                           ReviewCase *c, Arena *arena)
-{
-    const SymbolSurface *surface = &look->symbol->surface;
-    CaseLuminances *l = &c->luminance_cd_m2;
-    Vec3    towards = vec3_sub(symbol_middle(look->symbol).position, look->eye);
-    Glasses glasses = glasses_worn(setup->condition, towards, arena);
-    c->glasses_transmittance = glasses.transmittance;
-    if (glasses.polariser) {
-        PathContext *context = ARENA_NEW(arena, PathContext, 1);
-        double passed = symbol_polarised_share(surface, aim->context, look->eye,
-                                               glasses.polariser);
-        *context = *aim->context;
-        context->eye = glasses.polariser;
-        aim->context = context;
-        l->foreground *= passed;
-        l->background *= passed;
-    }
-    if (glasses.colour) {
-        SymbolLook shown = {surface, &look->symbol->split, look->eye, setup->tools.threads};
-        aim->colour = glasses.colour;
-        l->foreground *= symbol_coloured_share(&shown, SYMBOL_FOREGROUND, glasses.colour);
-        l->background *= symbol_coloured_share(&shown, SYMBOL_BACKGROUND, glasses.colour);
-    }
-}
-
 static void see_stray_light(const Setup *setup, const SetupSymbol *symbol, Vec3 eye,
                             ReviewCase *c, Arena scratch)
 {
@@ -349,7 +320,7 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     c->whole = part.whole;
     c->whole.contrast_ratio =
         luminance_contrast(l->foreground, l->background, c->whole.reflected);
-    put_on_glasses(setup, look, &aim, c, arena);
+    symbol_put_on_glasses(setup, symbol, &aim, c, arena);
     bool wants_veil = !look->is_bare || tools->profile->uses_veil;
     if (!look->is_coarse && wants_veil) see_stray_light(setup, symbol, eye, c, *arena);
     *direct = direct_sun(setup, &aim, *arena);
