@@ -135,7 +135,7 @@ run 'a glare review, thirty hours of weather' review-long \
 run 'years recounted, every hour' year-long python3 tests/image/year.py --all $program
 run 'all variants of a review, slopes, mends' variants-long \
     python3 tests/image/variants.py --all $program
-run 'what is named decides' decide python3 tests/image/decide.py $program
+run 'budgets are spent to the path' decide python3 tests/image/decide.py $program
 run 'doors, mirrored vehicles, mirrored light' changed-long \
     python3 tests/image/changed.py --all $program
 run "another maker's car" other-maker python3 tests/image/other_maker.py $program

@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""decide.py PARHELION -- a case that is too close to call names what calls it; asked again with
-that, it is called, and rightly; one that lies on its limit spends its budget to the path and
-says what more would take.
+"""decide.py PARHELION -- a case on its limit spends the budget of --decide-times to the path;
+one within the panel's own error says that no time decides it.
 """
 import json
 import os
-import re
 import shutil
 import sys
 import tempfile
@@ -48,32 +46,15 @@ def rounds(first, budget):
     return last
 
 
-def check_named(report, reviewer, truth):
-    """Seeds until some cannot be called by few paths."""
-    called = named = 0
-    for seed in range(3, 11):
-        side = 1 if seed % 2 else -1
-        limit = truth * (1 + side * AWAY)
-        profile(reviewer.folder, limit)
-        document = asked(PATHS, 0.05, seed)
-        first = case_of(reviewer, document, "first")
-        if first["verdict"] != "too close":
-            continue
-        named += 1
-        times = first["decide_times"]
-        page = open(os.path.join(reviewer.folder, "first", "index.html"),
-                    encoding="utf-8").read()
-        said = re.search(r"; --decide(-times (\d+))? calls it within ", page)
-        report.claim(said and (int(said[2] or 64) >= times),
-                     f"the page says {said and said[0]}, review.json {times}")
-        second = case_of(reviewer, document, "second", "--decide-times", str(int(times)))
-        called += second["verdict"] != "too close"
-        right = "pass" if side < 0 else "fail"
-        report.claim(second["verdict"] in (right, "too close"),
-                     f"seed {seed}: {second['verdict']}, right were {right}")
-        if named == 3:
-            break
-    report.claim(named == 3 and called >= 2, f"{called} of {named} are called by what is named")
+def check_panel(report, reviewer, truth):
+    """What lies within the panel's own error no number of paths calls, and nothing is named.
+    (What is named otherwise holds nine times in ten: tests/unit/test_read_on.c.)"""
+    profile(reviewer.folder, truth * (1 + AWAY))
+    first = case_of(reviewer, asked(PATHS, 0.05, 3), "first")
+    with open(os.path.join(reviewer.folder, "first", "index.html"), encoding="utf-8") as file:
+        page = file.read()
+    report.claim(first["verdict"] == "too close" and first["decide_times"] is None and
+                 "no time decides it" in page, f"{first['verdict']}, {first['decide_times']}")
 
 
 def check_budget(report, reviewer, truth):
@@ -84,7 +65,6 @@ def check_budget(report, reviewer, truth):
     report.claim(spent["verdict"] == "too close", f"on its limit: {spent['verdict']}")
     wanted = rounds(first["paths"], 9 * PATHS) // 32 * 32
     report.claim(spent["paths"] == wanted, f"{spent['paths']} paths, wanted {wanted}")
-    report.claim(spent["decide_times"] > 9, f"{spent['decide_times']} times would decide it")
     done = reviewer.run("review", "r.json", "-o", "none", "--decide-times", "1")
     report.claim(done.returncode == 2 and "--decide-times" in done.stderr, done.stderr)
 
@@ -97,7 +77,7 @@ def main(program):
         dashboard().write(os.path.join(folder, "dash.gltf"))
         profile(folder, 3)
         truth = case_of(reviewer, asked(1 << 21, 0.0001, 1), "truth")["contrast_ratio"]
-        check_named(report, reviewer, truth)
+        check_panel(report, reviewer, truth)
         check_budget(report, reviewer, truth)
     return report.finish()
 
