@@ -60,6 +60,9 @@ start 'discomfort beside closed forms' glare python3 tests/image/glare.py $progr
 start 'symbols that lie half in the sun' worst-part \
     python3 tests/image/worst_part.py $program
 start 'variants of a review' variants python3 tests/image/variants.py $program
+start 'a matte finish tried out' finish python3 tests/image/finish.py $program
+start 'through sunglasses' sunglasses python3 tests/image/sunglasses.py $program
+start 'doors open, vehicles mirrored' changed python3 tests/image/changed.py $program
 start 'the README as written, its review met' guides guides_and_meeting
 start 'the command line' cli python3 tests/hostile/cli.py $program
 start 'options given twice' options python3 tests/hostile/options.py $program

@@ -77,12 +77,15 @@ typedef struct ProgressState {
 static ProgressState state_of(const Progress *progress, double done, double now)
 {
     double elapsed = now - progress->begun_s;
-    double known_s = elapsed + progress->expected_s;
-    double rate = known_s > 0 ? (done - progress->first + progress->expected_s) / known_s : 0;
+    double rate = elapsed > 0 ? (done - progress->first) / elapsed : 0;
     double left = progress->total > done ? progress->total - done : 0;
+    double known = progress->total - progress->left_from; /* that left_s is for */
+    double left_s = progress->left_s > 0 && known > 0 ? progress->left_s * left / known
+                    : rate > 0                        ? left / rate
+                                                      : INFINITY;
     double share = progress->total > 0 ? fmin(1, done / progress->total) : 1;
     return (ProgressState){.fraction = share, .rate = rate, .elapsed_s = elapsed,
-                           .remaining_s = left == 0 ? 0 : rate > 0 ? left / rate : INFINITY};
+                           .remaining_s = left == 0 ? 0 : left_s};
 }
 
 static void show_json(const Progress *progress, double done, const ProgressState *f)

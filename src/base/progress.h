@@ -25,7 +25,8 @@ struct Progress {
     double       total;  /* how much there is to do; may be changed between updates */
     double       done;   /* as of the last update */
     double       first;  /* done before it began: counts for the share, not for the rate */
-    double       expected_s; /* a prior for the rate: 1 a second over this time; 0: none */
+    double       left_s;     /* what is left, by who knows better than the rate so far, */
+    double       left_from;  /* as of so much done; left_s 0: nobody does */
     double       begun_s, shown_s; /* seconds of the monotonic clock */
     double       interval_s;       /* wanted between two lines */
     bool         has_colour;

@@ -46,6 +46,13 @@ static void set_ray(const ProbeAim *aim, int path, Vec2 place, ProbePath *out)
     out->ray = (Ray){aim->eye, vec3_normalize(to), 0, INFINITY};
 }
 
+/* All light that is counted is counted by these weights. */
+static void colour_eye(const Curve *colour, Wavelengths *wavelengths)
+{
+    Spectrum share = curve_lookup(colour, wavelengths);
+    for (int i = 0; i < 3; i++) wavelengths->xyz[i] *= share;
+}
+
 static void start_path(const ProbeAim *aim, int path, PathStatistics *statistics,
                        ProbePath *out)
 {
@@ -54,6 +61,7 @@ static void start_path(const ProbeAim *aim, int path, PathStatistics *statistics
     out->sampler = sampler_start(aim->seed, x, y, (uint32_t)path);
     Vec2 place = sampler_2d(&out->sampler);
     wavelengths_sample(sampler_1d(&out->sampler), &out->wavelengths);
+    if (aim->colour) colour_eye(aim->colour, &out->wavelengths);
     out->start = (PathStart){.context = aim->context, .wavelengths = &out->wavelengths,
                              .sampler = &out->sampler, .statistics = statistics};
     out->target = 0;

@@ -41,6 +41,7 @@ typedef struct ProbeAim {
     const ProbePixel *pixel;   /* a frame's pixel instead of targets; or NULL */
     bool            by_display; /* looks keep the light of each display apart; of a scene of at
                                    most PROBE_DISPLAYS of them */
+    const Curve    *colour;    /* of glasses before an eye: weighs each wavelength; NULL: 1 */
     uint32_t        seed;
 } ProbeAim;
 

@@ -472,6 +472,8 @@ static void set_display(const Site *site, Vec3 wo, Surface *surface)
     model->cover = coating ? coating->cover->front : NULL;
     model->waves = coating ? coating->glass_waves : NULL;
     model->wavelengths = site->wavelengths;
+    model->matte = display->finish.matte;
+    model->matte_alpha = display->finish.alpha;
 }
 
 void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit, Vec3 wo,

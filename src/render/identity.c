@@ -222,9 +222,13 @@ static void add_changes(Text *text, const SceneOptions *options)
 {
     for (int i = 0; i < options->change_count; i++) {
         const SceneChange *c = &options->changes[i];
+        const SceneHinge  *h = &c->hinge;
         const float numbers[] = {c->tilt,     c->turn,     c->roll,     c->move_m[0],
                                  c->move_m[1], c->move_m[2], c->ahead[0], c->ahead[1],
-                                 c->ahead[2], c->depth_m};
+                                 c->ahead[2], c->depth_m, c->middle_m, h->axis[0],
+                                 h->axis[1], h->axis[2], h->through_m[0], h->through_m[1],
+                                 h->through_m[2], (float)h->is_own, h->angle,
+                                 c->finish.matte, c->finish.alpha};
         XXH64_hash_t hash = XXH3_64bits(numbers, sizeof numbers);
         for (int k = 0; k < c->with_count; k++)
             hash = XXH3_64bits_withSeed(c->with[k], strlen(c->with[k]), hash);

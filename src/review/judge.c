@@ -3,7 +3,14 @@
 
 #include <math.h>
 
+#include "base/confidence.h"
 #include "base/count.h"
+#include "base/mathd.h"
+
+#define ROOT_HALF 0.70710678118654752
+#define UNDECIDED_SHARE 0.1
+#define CLEAR_ERRORS 3.9 /* between figure and limit: 2.9 of a third round's interval, and one
+                            by which the figure may be nearer */
 
 /* A figure with its 95 % interval. */
 typedef struct Figure {
@@ -173,28 +180,50 @@ static double sampling_share(const ReviewCase *c, bool is_below)
     return share < 1 ? share : 1;
 }
 
-/* Times its paths until the limit lies clear of the figure: twice what sampling leaves in doubt
- * beside the panel's own doubt is to fit between them. */
-static double times_to_decide(const ReviewCase *c, const LimitVerdict *limit)
+/* Shares of a normal variable of mean `at` and spread 1 within +-distance. */
+static double share_within(double at, double distance)
 {
-    bool   is_above = limit->found > limit->value;
-    double gap = fabs(limit->found - limit->value);
-    double half = is_above ? limit->found - limit->low : limit->high - limit->found;
-    double share = sampling_share(c, is_above), sampled = half * share;
-    double room = gap * gap - half * half * (1 - share * share);
-    return room > 0 ? fmax(4 * sampled * sampled / room, 1) : (double)INFINITY;
+    return 0.5 * (erfc_d((at - distance) * ROOT_HALF) - erfc_d((at + distance) * ROOT_HALF));
 }
 
-void judge_paths(ReviewCase *review_case)
+/* The distance from 0 within which a tenth of them lie. */
+static double near_distance(double at)
+{
+    double low = 0, high = at + 4;
+    for (int i = 0; i < 60; i++) {
+        double middle = 0.5 * (low + high);
+        *(share_within(at, middle) < UNDECIDED_SHARE ? &low : &high) = middle;
+    }
+    return low;
+}
+
+/* Times its paths until the limit lies clear of the figure. What the panel leaves in doubt adds
+ * to the interval as squares, what is known of the sun's image (`fixed`) as it is. */
+static double times_to_decide(const ReviewCase *c, const LimitVerdict *limit, double fixed)
+{
+    bool   is_above = limit->found > limit->value;
+    double away = fabs(limit->found - limit->value);
+    double half = is_above ? limit->found - limit->low : limit->high - limit->found;
+    double share = sampling_share(c, is_above);
+    double error = (1 - fixed) * share * half / NORMAL_QUANTILE;
+    if (!(error > 0)) return (double)INFINITY;
+    double apart = near_distance(away / error) * error - fixed * share * half;
+    double room = apart * apart - half * half * (1 - share * share);
+    double ratio = CLEAR_ERRORS * error;
+    return apart > 0 && room > 0 ? fmax(ratio * ratio / room, 1) : (double)INFINITY;
+}
+
+void judge_paths(ReviewCase *review_case, double fixed)
 {
     ReviewCase *c = review_case;
     c->paths_to_decide = NAN;
     if (c->verdict != VERDICT_TOO_CLOSE) return;
     for (int i = 0; i < c->limit_count; i++) {
         const LimitVerdict *limit = &c->limits[i];
-        if (limit->is_advice || limit->verdict != VERDICT_TOO_CLOSE) continue;
-        c->paths_to_decide =
-            fmax(c->paths_to_decide, (double)c->paths * times_to_decide(c, limit));
+        if (limit->is_advice || limit->verdict != VERDICT_TOO_CLOSE || isnan(limit->found))
+            continue;
+        c->paths_to_decide = fmax(c->paths_to_decide,
+                                  (double)c->paths * times_to_decide(c, limit, fixed));
     }
 }
 

@@ -196,6 +196,8 @@ CaseWhole case_whole_unknown(void);
 
 #define CASE_BATCHES 32
 
+#define DECIDE_TIMES 64 /* --decide's budget: so many times the paths of the precision */
+
 typedef struct ReviewCase {
     const char *condition, *eye, *symbol, *display;
     Ambient ambient;
@@ -226,7 +228,9 @@ typedef struct ReviewCase {
     double  precision_asked;     /* of the contrast, relative: coarser where the verdict is
                                     clear; NaN: nothing is visible */
     double  precision_reached;   /* its standard error, relative; NaN likewise */
-    double  paths_to_decide;     /* of a case that is too close: about how many decide; NaN */
+    double  paths_to_decide;     /* of a case that is too close: nine of ten such are decided
+                                    by fewer (judge_paths, read_on.h); infinite: none; NaN */
+    double  decide_times;        /* the same over the request's precision_paths, rounded up */
     double  minutes_to_decide;   /* as fast as its reading went, here; NaN: not known */
     double  visible_share;       /* of the box about its foreground, 0..1 */
     const CaseHider *hiders;     /* of all else, greatest first: with it they add up to 1 */
@@ -237,6 +241,8 @@ typedef struct ReviewCase {
                                     rim are in its coordinates */
     bool    is_optional;         /* the request says that this eye need not see it */
     double  level;               /* at which the display was set, 1: as measured */
+    double  glasses_transmittance; /* luminous, of the observer's sunglasses; 1: none. All
+                                    luminances are told without that factor */
     CasePanel panel;             /* what the display's panel says of itself */
     double  veil_displays;       /* cd m^-2 of the veil, at most, that grow with the display's
                                     level; 0: nothing is known of it */

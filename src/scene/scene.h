@@ -155,6 +155,12 @@ typedef struct Material {
     bool  lets_light_through;  /* alpha below 1 or a thin window: shadow rays must ask */
 } Material;
 
+/* A rough surface in place of a display's clear one, modelled (shaders/display.c). */
+typedef struct DisplayFinish {
+    float matte; /* share of the mirror that it scatters, [0, 1]; 0: none */
+    float alpha; /* GGX, of its facets */
+} DisplayFinish;
+
 typedef struct Display {
     const char *name;       /* the material's */
     const char *panel_path; /* resolved path */
@@ -162,6 +168,7 @@ typedef struct Display {
     int   material_id;
     TextureSlot content;    /* NO_ID: full white is shown, with a warning */
     float level;            /* multiplies all emission, >= 0 */
+    DisplayFinish finish;
     float place_from_uv[4]; /* of a panel that varies: a place of its active area
                                (panel_place.h) is {u [0] + [1], v [2] + [3]} of the content's */
     const Subpixels *subpixels; /* its pixels are the columns and rows over the content's U and
@@ -308,18 +315,33 @@ typedef struct SceneState {
 } SceneState;
 
 /* Kinds of change that are tried out on a scene whose files stay as they are. */
-typedef enum SceneChangeKind { CHANGE_NODES, CHANGE_MATERIAL, CHANGE_HOOD } SceneChangeKind;
+typedef enum SceneChangeKind {
+    CHANGE_NODES, CHANGE_MATERIAL, CHANGE_HOOD, CHANGE_MIRROR, CHANGE_FINISH
+} SceneChangeKind;
+
+/* An axis that nodes turn about, as a door about its hinges. */
+typedef struct SceneHinge {
+    float axis[3];      /* unit, world; none: all 0 */
+    double through_m[3]; /* a point of it, world */
+    bool  is_own;      /* it goes through the named node's origin instead */
+    float angle;       /* radians, anticlockwise as seen against the axis */
+} SceneHinge;
 
 typedef struct SceneChange {
     SceneChangeKind kind;
-    const char *name;        /* of a node, a material, a display's material */
+    const char *name;        /* of a node, a material; hood, finish: of a display (its material
+                                or node:NAME) */
     const char *const *with; /* nodes: more of the same file, which move along */
     int   with_count;
     float tilt, turn, roll;  /* nodes: radians, about the middle of the named one's surface
                                 (change/node_change.h) */
-    float move_m[3];         /* nodes: world, after the turns */
-    float ahead[3];          /* nodes: where the vehicle points, world, not vertical */
+    SceneHinge hinge;        /* nodes: after those turns */
+    float move_m[3];         /* nodes: world, after all turns */
+    float ahead[3];          /* nodes, mirror: where the vehicle points, world, not vertical */
+    float middle_m;          /* mirror: its plane, along the vehicle's right from the origin;
+                                after all other changes, all files (change/mirror_change.h) */
     const char *patch;       /* material: JSON, merged into it (change/material_change.h) */
+    DisplayFinish finish;    /* finish */
     float depth_m;           /* hood: how far it reaches out (load/hood.h); above 0 */
     const char *file, *place; /* where it stands, for messages */
 } SceneChange;

@@ -296,7 +296,8 @@ static bool is_optional(const char *key, const json_t *object)
                                         "ugr_interval", "dgi_interval", "glare", "rests_on",
                                         "rests_on_line", "inputs", "guessed_share",
                                         "empty_seat", "empty_seat_share",
-                                        "symbol_mean", "lit_share", "judged_part_uv"};
+                                        "symbol_mean", "lit_share", "judged_part_uv",
+                                        "decide_times", "glasses_transmittance"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)
         if (!strcmp(key, ADDED[i])) return true;
     if (!strcmp(key, "kind") && json_object_get(object, "what")) return true; /* a remedy's */

@@ -184,6 +184,58 @@ TEST(nodes_that_are_not_there_or_not_alone_are_refused)
     assert_refused(change, "is named \"rimm\" — did you mean rim?");
 }
 
+/* ---- hinges, and a mirrored scene -------------------------------------------------------- */
+
+static SceneChange swing(float x, float y, float z, float angle)
+{
+    return (SceneChange){.kind = CHANGE_NODES, .name = "face",
+                         .hinge = {.axis = {x, y, z}, .angle = angle}};
+}
+
+TEST(a_door_swings_about_its_hinge)
+{
+    double c = cos((double)ANGLE), s = sin((double)ANGLE);
+    SceneChange change = swing(0, 1, 0, ANGLE);
+    change.hinge.through_m[0] = 2, change.hinge.through_m[1] = 7;
+    const Scene *scene = load(change);
+    assert_at(scene, "face", 0, 2 - 2 * c, 0, 2 * s); /* anticlockwise as seen from above */
+    assert_at(scene, "face", 1, 2 - c, 0, s);
+    assert_at(scene, "face", 2, 2 - 2 * c, 1, 2 * s);
+    assert_at(scene, "rim", 1, 1, 0, 0);
+    scene_close((Scene *)scene);
+    change = swing(0, 0, -1, ANGLE); /* about the node's own origin */
+    change.hinge.is_own = true;
+    change.move_m[2] = 3;
+    const Scene *own = load(change);
+    assert_at(own, "face", 1, c, -s, 3);
+    assert_at(own, "face", 2, s, c, 3);
+    assert_at(own, "glass", 2, s, c, 3); /* what hangs below it */
+    scene_close((Scene *)own);
+}
+
+TEST(what_has_no_surface_may_swing)
+{
+    SceneChange change = swing(1, 0, 0, ANGLE);
+    change.name = "empty";
+    scene_close((Scene *)load(change));
+}
+
+/* The vehicle points along -Z, so that its plane is one of x. */
+TEST(a_mirrored_scene_is_mirrored_at_its_middle)
+{
+    SceneChange  mirror = {.kind = CHANGE_MIRROR, .name = "", .middle_m = 0.25f};
+    const Scene *scene = load(mirror);
+    double       x = -scene->origin[0]; /* of the world's, in the scene */
+    assert_at(scene, "face", 0, x + 0.5, 0, 0);
+    assert_at(scene, "face", 2, x - 0.5, 0, 0); /* its corners change places: the front stays */
+    assert_at(scene, "face", 1, x + 0.5, 1, 0);
+    assert_at(scene, "desk", 0, x + 0.5, 0, 0);
+    Vec3 n = vec3_cross(vec3_sub(corner_of(scene, "face", 1), corner_of(scene, "face", 0)),
+                        vec3_sub(corner_of(scene, "face", 2), corner_of(scene, "face", 0)));
+    assert_near(n.z, 1, 1e-6);
+    scene_close((Scene *)scene);
+}
+
 /* ---- materials --------------------------------------------------------------------------- */
 
 static SceneChange patch(const char *text)

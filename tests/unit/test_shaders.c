@@ -236,6 +236,50 @@ static void mirror_is_where_it_belongs(const Model *model, Vec3 wo)
     assert_true(mirrors > 0 || !strstr(model->name, "oled"));
 }
 
+/* Of GGX facets that spread a mirror to so wide a lobe. */
+static float alpha_of(float width_deg)
+{
+    return (float)(tan((double)(width_deg * PI_F / 720)) / sqrt(sqrt(2.0) - 1));
+}
+
+static void finish_is_reciprocal(const Model *model, Vec3 wo)
+{
+    Model only = *model; /* haze is so only as far as it was measured */
+    float pdf;
+    Vec3  wi = vec3_normalize(vec3(0.1f - wo.x, 0.05f - wo.y, wo.z));
+    only.bsdf.display.matte = 0;
+    Spectrum there =
+        bsdf_eval(&model->bsdf, wo, wi, &pdf) - bsdf_eval(&only.bsdf, wo, wi, &pdf);
+    Spectrum back =
+        bsdf_eval(&model->bsdf, wi, wo, &pdf) - bsdf_eval(&only.bsdf, wi, wo, &pdf);
+    for (int i = 0; i < SPECTRUM_LANES; i++)
+        assert_near(there[i], back[i], 1e-3f * there[i] + 1e-6f);
+}
+
+/* A matte finish spreads the mirror: up to 60 degrees as much comes back as before, and never
+ * more. */
+static void finish_keeps_energy(Model model)
+{
+    static const struct {
+        float width_deg, matte, doubt;
+    } FINISH[] = {{2, 0.6f, 0.01f}, {8, 1, 0.01f}, {20, 0.6f, 0.045f}};
+    for (int w = 0; w < 3; w++)
+        for (int k = 0; k < EYE_COUNT; k++) {
+            model.bsdf.display.matte = 0;
+            Spectrum clear = furnace(&model, eye(k), 8192);
+            model.bsdf.display.matte = FINISH[w].matte;
+            model.bsdf.display.matte_alpha = alpha_of(FINISH[w].width_deg);
+            sample_agrees(&model, eye(k));
+            finish_is_reciprocal(&model, eye(k));
+            Spectrum matte = furnace(&model, eye(k), 8192);
+            for (int i = 0; i < SPECTRUM_LANES; i++) {
+                if (eye(k).z >= 0.499f)
+                    assert_near(matte[i], clear[i], FINISH[w].doubt * clear[i]);
+                assert_true(matte[i] <= 1.01f * clear[i]);
+            }
+        }
+}
+
 TEST(shipped_displays_obey_the_same_laws)
 {
     static const char *const names[] = {"ips_cluster", "oled_centre"};
@@ -257,6 +301,7 @@ TEST(shipped_displays_obey_the_same_laws)
             energy_holds(&model, eye(k));
             albedo_is_near(&model, eye(k));
         }
+        finish_keeps_energy(model);
         model.bsdf.display.cover =
             coating_of_cover(stack_silver(&arena), 1.5, &arena)->front;
         model.bsdf.display.wavelengths = &wavelengths;

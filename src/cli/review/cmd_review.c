@@ -31,12 +31,11 @@
 #include "text/nearest_word.h"
 #include "text/text.h"
 
-#define PACE_KNOWN_S 5 /* of a review's work, then as much as what was thought of it */
-
 typedef struct ReviewWords {
     ShareRequest share;
     const char *folder, *profile, *root, *isa, *diff, *init, *responses, *mend, *summary;
     bool        is_strict, dry_run, decides, is_self_contained, is_alone;
+    long        decide_times;
     StateWords  state_words;
     SceneState  state;
     Cli         cli;
@@ -44,6 +43,24 @@ typedef struct ReviewWords {
     bool        watches;  /* --watch */
     ReviewWatch *watch;   /* gets the files to watch; NULL: nobody watches */
 } ReviewWords;
+
+/* That the words go together. */
+static bool check(ReviewWords *out, Error *err)
+{
+    const char *not_traced = out->init ? "--init" : out->dry_run ? "--dry-run" : NULL;
+    if (!state_options_read(&out->state_words, &out->state, err) ||
+        !review_share_check(&out->share, not_traced, err))
+        return false;
+    if (out->watches && (not_traced || out->share.parts))
+        return error_set(err, ERROR_USAGE, "--watch does not go with %s",
+                         not_traced ? not_traced : "a job's parts");
+    if (out->init) return true;
+    if (out->cli.argument_count > 1)
+        return error_set(err, ERROR_USAGE, "%s: one request at a time is reviewed",
+                         out->cli.arguments[1]);
+    return out->folder || out->dry_run ||
+           error_set(err, ERROR_USAGE, "-o DIR: nothing says where the review goes");
+}
 
 static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *err)
 {
@@ -59,7 +76,11 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
          "data fail, too",
          &out->is_strict},
         {"--decide", OPTION_FLAG, NULL,
-         "goes on with what is too close to call: up to 64 times the paths", &out->decides},
+         "reads on where it is too close to call, until it is not or each such case has had "
+         "64 times the paths", &out->decides},
+        {"--decide-times", OPTION_INTEGER, "N",
+         "the same with another number than 64", &out->decide_times, .low = 2,
+         .high = 1000000},
         {"--self-contained", OPTION_FLAG, NULL,
          "pictures in the page itself, not in files beside it: to send it by mail",
          &out->is_self_contained},
@@ -91,19 +112,7 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
         options, COUNT_OF(options), 1, -1};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
     if (out->cli.help_shown) return true;
-    const char *not_traced = out->init ? "--init" : out->dry_run ? "--dry-run" : NULL;
-    if (!state_options_read(&out->state_words, &out->state, err) ||
-        !review_share_check(&out->share, not_traced, err))
-        return false;
-    if (out->watches && (not_traced || out->share.parts))
-        return error_set(err, ERROR_USAGE, "--watch does not go with %s",
-                         not_traced ? not_traced : "a job's parts");
-    if (out->init) return true;
-    if (out->cli.argument_count > 1)
-        return error_set(err, ERROR_USAGE, "%s: one request at a time is reviewed",
-                         out->cli.arguments[1]);
-    return out->folder || out->dry_run ||
-           error_set(err, ERROR_USAGE, "-o DIR: nothing says where the review goes");
+    return check(out, err);
 }
 
 /* ---- what would be traced ---------------------------------------------------------------- */
@@ -302,7 +311,7 @@ static bool make_watched(ReviewRun *run, ReviewFolder *folder, ReviewWatch *watc
     SoFar so_far = {folder, arena, watch, monotonic_seconds()};
     run->news = (ReviewNews){write_so_far, note_files, &so_far};
     bool is_run = review_run(run, arena, outcome, err);
-    progress_clear(run->work);
+    progress_clear(&run->work->progress);
     cli_print_warnings(run->problems);
     if (!is_run) return false;
     outcome->review.is_strict = folder->is_strict;
@@ -350,13 +359,13 @@ static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
     if (!run->means.lessons) run->means.lessons = folder->draft.unfinished;
     if (!take_found(folder, words->task, *arena, err) ||
         !make_all(run, folder, words->watch, &outcome, arena, err)) {
-        progress_clear(run->work);
+        progress_clear(&run->work->progress);
         if (err->code > 128) report_stopped(folder, err, arena);
         else tell_kept(folder, err);
         review_folder_close(folder);
         return false;
     }
-    progress_end(run->work, run->work->total);
+    work_end(run->work);
     if (words->watch) review_folder_close(folder); /* answers are asked for again */
     else review_folder_finish(folder);
     if (!review_print(&words->cli, &outcome.review, *arena, err)) return false;
@@ -429,7 +438,9 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
     if (words->watch) watch_inputs(words->watch, &request);
     if (!profile_load(words->profile ? words->profile : request.profile, arena, &profile, err))
         return words->profile ? false : error_in_file(err, request.file);
-    request.decides = words->decides;
+    request.decide_times = words->decide_times ? words->decide_times
+                           : words->decides    ? DECIDE_TIMES
+                                               : 0;
     if (words->mend && !find_parameter(&request, words->mend, *arena, &folder.mend, err))
         return false;
     if (words->is_alone) {
@@ -441,9 +452,8 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
     if (!review_check(&request, *arena, err) ||
         (folder.target && !review_files_check(folder.target, &request, *arena, err)))
         return false;
-    Progress work = progress_start(words->cli.progress, "review", "steps",
-                                   work_of_review(&request, folder.mend != NULL));
-    work.expected_s = PACE_KNOWN_S;
+    WorkPlan all = work_of_review(&request, folder.mend != NULL);
+    Work     work = work_start(words->cli.progress, &all);
     ReviewRun run = {.request = &request, .profile = profile,
                      .means = {.root = words->root, .state = words->state,
                                .threads = words->cli.threads, .isa = words->isa},

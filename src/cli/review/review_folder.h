@@ -13,6 +13,7 @@
  */
 #pragma once
 #include "cli/review/review_draft.h"
+#include "review/pace/work.h"
 #include "review/run/sweep_output.h"
 
 typedef struct ReviewFolder {
@@ -34,7 +35,7 @@ typedef struct ReviewFolder {
     ReviewDraft          draft;
     const char          *name; /* where its files are written: the draft's folder */
     const char          *responses_shown;   /* as review.json names the folder */
-    Progress            *work; /* of the review, of which its files are a part */
+    Work                *work; /* of the review, of which its files are a part */
     bool                 has_own_responses; /* DIR/responses */
 } ReviewFolder;
 

@@ -77,9 +77,11 @@ bool review_part(ReviewRun *run, const ReviewTask *task, const char *responses, 
     if (!folder_make(run->responses, err) || !folder_make(run->means.lessons, err) ||
         !journal_open(task->answers, arena, run->problems, &run->means.journal, err))
         return false;
-    run->work->total = work_of_conditions(run->request, false) / run->share.count;
+    WorkPlan all = work_of_conditions(run->request, false), part = {{0}};
+    work_plan_add(&part, &all, 1.0 / run->share.count);
+    run->work->planned = part;
     bool ok = answer(run, task, arena, err);
-    if (ok) progress_end(run->work, run->work->total);
+    if (ok) work_end(run->work);
     journal_close(run->means.journal);
     if (!ok && err->code > 128) report_stopped(task, err);
     return ok;

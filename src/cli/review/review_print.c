@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/review/review_print.h"
 
-#include <math.h>
 
 #include "print/print.h"
 #include "cli/options/answer.h"
@@ -42,10 +41,7 @@ static void print_case(const ReviewCase *c, Arena scratch)
               interval_text(c->luminance_cd_m2.reflected, c->reflected_range.low,
                             c->reflected_range.high, &scratch));
     print_whole(c, &scratch);
-    print("%s", words_precision(c, &scratch));
-    if (c->minutes_to_decide > 0 && isfinite(c->minutes_to_decide))
-        print("; about %.2g minutes more would decide it", fmax(c->minutes_to_decide, 0.1));
-    print("\n");
+    print("%s%s\n", words_precision(c, &scratch), words_decide(c, &scratch));
 }
 
 static void print_sweep(const ReviewSweep *s, Arena scratch)

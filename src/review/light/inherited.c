@@ -77,7 +77,9 @@ const LightGuide *inherited_guide(const Inherited *inherited, const ReviewReques
                                   int condition_id, const GuideScene *scene)
 {
     const KeptGuide *kept = &inherited->guides[condition_id];
-    bool is_same = has_same_files(inherited->request, variant) && kept->guide;
+    bool is_mirrored = variant->change && variant->change->mirror;
+    bool is_same =
+        !is_mirrored && has_same_files(inherited->request, variant) && kept->guide;
     return is_same && fits(&kept->scene, scene) ? kept->guide : NULL;
 }
 

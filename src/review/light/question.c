@@ -24,6 +24,13 @@ static void add_count(XXH3_state_t *state, int64_t count)
     XXH3_128bits_update(state, &count, sizeof count);
 }
 
+static void add_polariser(XXH3_state_t *state, const PolarisedEye *eye)
+{
+    add_floats(state, eye->right);
+    add_floats(state, vec3(eye->axis[0], eye->axis[1], eye->lets));
+    add_floats(state, vec3(eye->blocks, 0, 0));
+}
+
 static void add_aim(XXH3_state_t *state, const ProbeAim *aim)
 {
     add_count(state, aim->seed);
@@ -34,6 +41,8 @@ static void add_aim(XXH3_state_t *state, const ProbeAim *aim)
         return;
     }
     add_floats(state, aim->eye);
+    if (aim->colour) XXH3_128bits_update(state, aim->colour, sizeof *aim->colour);
+    if (aim->context->eye) add_polariser(state, aim->context->eye);
     add_count(state, aim->target_count);
     XXH3_128bits_update(state, aim->targets, (size_t)aim->target_count * sizeof *aim->targets);
     if (aim->patches)

@@ -244,7 +244,8 @@ static Reading take_plain(const ProbeAim *aim, const ReadingGoal *goal,
                           const ReadingTools *tools, ReadingParts *parts, Arena scratch)
 {
     Stream  stream = stream_start(aim, tools, &scratch);
-    Reading reading = stream_read(&stream, READING_LEAST, goal);
+    long    first = goal->precision > 0 ? READING_LEAST : goal->most;
+    Reading reading = stream_read(&stream, first, goal);
     while (!is_sure(&reading, goal) && 2 * reading.paths <= goal->most)
         reading = stream_read(&stream, 2 * reading.paths, goal);
     if (parts) keep_stream(&stream, parts->fresh, &parts->paths);

@@ -37,7 +37,7 @@ typedef struct ReadingQuestion {
  * less than `precision` of it, or the reading itself. */
 typedef struct ReadingGoal {
     double brighter, darker; /* emitted, cd m^-2; both 0: the reading itself counts */
-    double precision;        /* relative, above 0 */
+    double precision;        /* relative, above 0; or 0, without a question: all paths */
     long   most;             /* paths, at most */
     int    times;            /* with a question: so many times the paths that would do, for
                                 a difference to another reading; 0 is 1 */

@@ -336,6 +336,7 @@ Reading setup_ask(const Setup *setup, const ProbeAim *aim, const ReadingGoal *as
         return reading;
     Setup lit = setup_lit(setup);
     lit.context.without_mirrored_sun = aim->context->without_mirrored_sun;
+    lit.context.eye = aim->context->eye;
     own.context = &lit.context;
     reading = reading_take(&own, &goal, &setup->tools, scratch);
     setup_unlight(setup);
@@ -364,7 +365,8 @@ Reading setup_field(const Setup *setup, const ProbeAim *aim, long paths, double 
 
 #define SUN_DRAWS 16
 
-bool setup_sun(const Setup *setup, Vec3 *towards, float bands[LIGHT_BANDS])
+bool setup_sun_coloured(const Setup *setup, const Curve *colour, Vec3 *towards,
+                        float bands[LIGHT_BANDS])
 {
     const Lights *lights = setup->context.lights;
     memset(bands, 0, LIGHT_BANDS * sizeof *bands);
@@ -380,10 +382,16 @@ bool setup_sun(const Setup *setup, Vec3 *towards, float bands[LIGHT_BANDS])
             return false;
         Spectrum lux = lights_radiance(lights, &sample, &w) * w.xyz[1] *
                        spectrum_all(1 / (sample.pdf * SUN_DRAWS));
+        if (colour) lux *= curve_lookup(colour, &w);
         for (int k = 0; k < LIGHT_BANDS; k++) bands[k] += lux[k];
     }
     *towards = lights_sun_direction(lights);
     return true;
+}
+
+bool setup_sun(const Setup *setup, Vec3 *towards, float bands[LIGHT_BANDS])
+{
+    return setup_sun_coloured(setup, NULL, towards, bands);
 }
 
 /* Forward on the horizontal, and to its right. */

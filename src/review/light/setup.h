@@ -91,6 +91,10 @@ void setup_close(Setup *setup);
  * False: the scene has none, or the moon in its place. */
 bool setup_sun(const Setup *setup, Vec3 *towards, float bands[LIGHT_BANDS]);
 
+/* As glasses of that colour weigh it (NULL: none). */
+bool setup_sun_coloured(const Setup *setup, const Curve *colour, Vec3 *towards,
+                        float bands[LIGHT_BANDS]);
+
 /* Azimuth from north over east, or of the vehicle (0 ahead, 90 right) where the environment has
  * no heading; elevation; degrees. */
 typedef struct SunAngles {

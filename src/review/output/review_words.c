@@ -302,14 +302,16 @@ const char *words_case(const ReviewCase *c, Arena *arena)
                         c->eye ? c->eye : "?", c->condition ? c->condition : "?");
 }
 
-/* Behind what is too close to call, where the time is known; else "". */
-static const char *words_decide(const ReviewCase *c, Arena *arena)
+const char *words_decide(const ReviewCase *c, Arena *arena)
 {
     if (!(c->minutes_to_decide > 0)) return "";
     if (isinf(c->minutes_to_decide))
         return "; no time decides it: the limit lies within the panel's own error, or on the "
                "figure";
-    return arena_format(arena, "; about %s more would decide it (--decide)",
+    const char *option = c->decide_times <= DECIDE_TIMES
+                             ? "--decide"
+                             : arena_format(arena, "--decide-times %.0f", c->decide_times);
+    return arena_format(arena, "; %s calls it within %s, nine times in ten", option,
                         words_minutes(fmax(c->minutes_to_decide, 1), arena));
 }
 

@@ -6,7 +6,7 @@
 #define FOUND_LIKELY 6      /* symbols of a rectangle in which text is found */
 #define CASE 0.28           /* of an eye's point, with its causes */
 #define CASE_BARE 0.15
-#define CASE_COMPARED 0.1  /* more, of a review with variants */
+#define CASE_COMPARED 0.1   /* more, of a review with variants */
 #define POINT 0.015         /* of each further point of an eye's box */
 #define FRAME 42.0          /* of a frame, however small, */
 #define FRAME_PIXEL 6e-5    /* and its pixels, at the usual noise */
@@ -14,11 +14,51 @@
 #define FRAME_LAYERS 0.17   /* of it, of what a reader may move on the page */
 #define FRAME_NOISE 0.15    /* reached by about as many samples as any frame has */
 #define MINUTES_A_YEAR (365 * 24 * 60.0)
+#define RESPONSE_PATHS 65536 /* of most responses */
+#define SUN 1.7e-5
+#define WORST 1.2            /* read again, with its causes; */
+#define WORST_BARE 0.9       /* without */
+#define PRIOR_S 5            /* of all work: as much as is thought of it */
+#define PRIOR_KIND 0.2       /* of a kind: as much as of all others */
+#define UNTIMED 0.05         /* of its weight's time: less was done before */
+
+static const double WEIGHT[WORK_KINDS] = {
+    [WORK_OPEN] = 0.5,  [WORK_LEARN] = 1.5, [WORK_LOOK] = 1.25,      [WORK_RESPONSE] = 3.2,
+    [WORK_METER] = 0.1, [WORK_OWN] = 0.1,   [WORK_FALSE_SUNS] = 3.5, [WORK_SKIES] = 1.3};
+
+double work_of(WorkKind kind)
+{
+    return WEIGHT[kind];
+}
+
+void work_plan_add(WorkPlan *to, const WorkPlan *of, double times)
+{
+    for (int k = 0; k < WORK_KINDS; k++) to->of[k] += times * of->of[k];
+}
+
+static double sum_of(const WorkPlan *plan)
+{
+    double sum = 0;
+    for (int k = 0; k < WORK_KINDS; k++) sum += plan->of[k];
+    return sum;
+}
+
+/* ---- what there is to do ----------------------------------------------------------------- */
 
 double work_of_case(const ReviewRequest *request, const ReviewEye *eye, bool is_bare)
 {
     double more = request->is_compared ? CASE_COMPARED : 0;
     return (is_bare ? CASE_BARE : CASE) + more + POINT * (review_eye_count(eye) - 1);
+}
+
+double work_of_sight(int suns, bool is_bare)
+{
+    return SUN * suns + (is_bare ? WORST_BARE : WORST);
+}
+
+double work_of_response(int paths)
+{
+    return WEIGHT[WORK_RESPONSE] * paths / RESPONSE_PATHS;
 }
 
 static int symbols_of(const ReviewRequest *request)
@@ -29,12 +69,21 @@ static int symbols_of(const ReviewRequest *request)
     return count;
 }
 
-static double work_of_moment(const ReviewRequest *request, bool is_bare)
+/* A variant has the guides of its review, unless it is mirrored. */
+static bool learns(const ReviewRequest *request, bool is_bare)
 {
-    double work = WORK_SETUP;
+    return !is_bare || (request->change && request->change->mirror);
+}
+
+WorkPlan work_of_moment(const ReviewRequest *request, int symbols, bool is_bare)
+{
+    WorkPlan plan = {{[WORK_OPEN] = WEIGHT[WORK_OPEN]}};
+    plan.of[WORK_LEARN] = learns(request, is_bare) ? WEIGHT[WORK_LEARN] : 0;
     for (int e = 0; e < request->eye_count; e++)
-        work += symbols_of(request) * work_of_case(request, &request->eyes[e], is_bare);
-    return is_bare ? work : work + WORK_LOOK * review_look_count(request);
+        plan.of[is_bare ? WORK_BARE_CASE : WORK_CASE] +=
+            symbols * work_of_case(request, &request->eyes[e], is_bare);
+    if (!is_bare) plan.of[WORK_LOOK] = WEIGHT[WORK_LOOK] * review_look_count(request);
+    return plan;
 }
 
 /* About: of a year half are up. */
@@ -46,44 +95,44 @@ static double suns_of(const ReviewCondition *c)
     return 0.5 * MINUTES_A_YEAR / c->step_minutes * c->heading_count;
 }
 
-static double work_of_sweep(const ReviewRequest *request, const ReviewCondition *condition)
+static WorkPlan work_of_sweep(const ReviewRequest *request, const ReviewCondition *condition,
+                              bool is_bare)
 {
-    int    sights = request->eye_count * symbols_of(request);
-    double suns = suns_of(condition);
-    double each = WORK_RESPONSE + 2 * WORK_OWN + WORK_SKIES + WORK_SUN * suns + WORK_WORST;
-    return WORK_SETUP + sights * each;
+    int      symbols = symbols_of(request), sights = request->eye_count * symbols;
+    WorkPlan plan = {{[WORK_OPEN] = WEIGHT[WORK_OPEN], [WORK_SKIES] = WEIGHT[WORK_SKIES]}};
+    plan.of[WORK_RESPONSE] = sights * WEIGHT[WORK_RESPONSE];
+    plan.of[WORK_METER] = symbols * WEIGHT[WORK_METER];
+    plan.of[WORK_OWN] = (sights + symbols) * 2 * WEIGHT[WORK_OWN];
+    if (!is_bare) plan.of[WORK_FALSE_SUNS] = request->eye_count * WEIGHT[WORK_FALSE_SUNS];
+    plan.of[is_bare ? WORK_BARE_SIGHT : WORK_SIGHT] =
+        sights * work_of_sight((int)suns_of(condition), is_bare);
+    return plan;
 }
 
-double work_of_condition(const ReviewRequest *request, const ReviewCondition *condition,
-                         bool is_bare)
+WorkPlan work_of_condition(const ReviewRequest *request, const ReviewCondition *condition,
+                           bool is_bare)
 {
-    return condition->kind == CONDITION_MOMENT ? work_of_moment(request, is_bare)
-                                               : work_of_sweep(request, condition);
+    return condition->kind == CONDITION_MOMENT
+               ? work_of_moment(request, symbols_of(request), is_bare)
+               : work_of_sweep(request, condition, is_bare);
 }
 
-double work_of_frame(const ReviewRequest *request)
+double work_of_frame(const ReviewRequest *request, WorkKind kind)
 {
     const ReviewFrames *frames = &request->frames;
     double finer = fmax(FRAME_NOISE / frames->noise, 1); /* a frame has some samples at least */
-    return FRAME + FRAME_PIXEL * frames->width * frames->height * finer * finer;
+    double share = kind == WORK_PAIR ? FRAME_PAIR : kind == WORK_LAYERS ? FRAME_LAYERS : 1;
+    return share * (FRAME + FRAME_PIXEL * frames->width * frames->height * finer * finer);
 }
 
-double work_of_layers(const ReviewRequest *request)
+WorkPlan work_of_conditions(const ReviewRequest *request, bool is_bare)
 {
-    return FRAME_LAYERS * work_of_frame(request);
-}
-
-double work_of_pair(const ReviewRequest *request)
-{
-    return FRAME_PAIR * work_of_frame(request);
-}
-
-double work_of_conditions(const ReviewRequest *request, bool is_bare)
-{
-    double work = 0;
-    for (int i = 0; i < request->condition_count; i++)
-        work += work_of_condition(request, &request->conditions[i], is_bare);
-    return work;
+    WorkPlan all = {{0}};
+    for (int i = 0; i < request->condition_count; i++) {
+        WorkPlan one = work_of_condition(request, &request->conditions[i], is_bare);
+        work_plan_add(&all, &one, 1);
+    }
+    return all;
 }
 
 /* Those run by themselves: what rides with the review (vary/variants.h) takes little. */
@@ -97,22 +146,80 @@ static int varied(const ReviewRequest *request)
     return count;
 }
 
-double work_of_review(const ReviewRequest *request, bool mend)
+WorkPlan work_of_review(const ReviewRequest *request, bool mend)
 {
-    int runs = varied(request) + (mend ? WORK_TRIALS : 0);
-    return work_of_conditions(request, false) + runs * work_of_conditions(request, true) +
-           request->frames.worst * (work_of_frame(request) + work_of_layers(request)) +
-           (request->frames.worst ? request->variant_count * work_of_pair(request) : 0);
+    int      runs = varied(request) + (mend ? WORK_TRIALS : 0), worst = request->frames.worst;
+    WorkPlan all = work_of_conditions(request, false);
+    WorkPlan bare = work_of_conditions(request, true);
+    work_plan_add(&all, &bare, runs);
+    all.of[WORK_FRAME] = worst * work_of_frame(request, WORK_FRAME);
+    all.of[WORK_LAYERS] = worst * work_of_frame(request, WORK_LAYERS);
+    all.of[WORK_PAIR] =
+        worst ? request->variant_count * work_of_frame(request, WORK_PAIR) : 0;
+    return all;
 }
 
-void work_add(Progress *work, double weight)
+/* ---- how fast it goes -------------------------------------------------------------------- */
+
+/* Seconds for a weight of 1. */
+static double pace_of(const Work *work, int kind)
 {
-    progress_update(work, work->done + weight);
+    double all = (sum_of(&work->seconds) + PRIOR_S) / (sum_of(&work->timed) + PRIOR_S);
+    return (work->seconds.of[kind] + PRIOR_KIND * all) / (work->timed.of[kind] + PRIOR_KIND);
 }
 
-void work_done(Progress *work, double weight, double begun_s)
+double work_left_s(const Work *work)
 {
-    if (monotonic_seconds() - begun_s >= 0.1 * weight) return;
-    while (work->outer) work = work->outer;
-    work->first += weight;
+    double left = 0;
+    for (int k = 0; k < WORK_KINDS; k++)
+        left += fmax(work->planned.of[k] - work->done.of[k], 0) * pace_of(work, k);
+    return left;
+}
+
+/* The share that is done is that of the time, and never runs back. */
+static void show(Work *work)
+{
+    Progress *progress = &work->progress;
+    double    elapsed = monotonic_seconds() - progress->begun_s, left = work_left_s(work);
+    double    share = elapsed + left > 0 ? elapsed / (elapsed + left) : 0;
+    progress->left_s = left;
+    progress->left_from = fmax(progress->done, share * progress->total);
+    progress_update(progress, progress->left_from);
+}
+
+Work work_start(ProgressMode mode, const WorkPlan *planned)
+{
+    Progress progress = progress_start(mode, "review", "steps", sum_of(planned));
+    return (Work){.progress = progress, .planned = *planned, .mark_s = progress.begun_s};
+}
+
+void work_add(Work *work, WorkKind kind, double weight)
+{
+    double now = monotonic_seconds(), took = now - work->mark_s;
+    work->mark_s = now;
+    work->done.of[kind] += weight;
+    if (took >= UNTIMED * weight) {
+        work->timed.of[kind] += weight;
+        work->seconds.of[kind] += took;
+    }
+    show(work);
+}
+
+void work_replan(Work *work, const WorkPlan *before, const WorkPlan *now)
+{
+    work_plan_add(&work->planned, now, 1);
+    work_plan_add(&work->planned, before, -1);
+}
+
+double work_share(const Work *work, WorkKind kind, double weight)
+{
+    const Progress *progress = &work->progress;
+    double left = work_left_s(work), own = weight * pace_of(work, kind);
+    return left > 0 ? fmin(own / left, 1) * (progress->total - progress->done) : 0;
+}
+
+void work_end(Work *work)
+{
+    work->progress.left_s = 0;
+    progress_end(&work->progress, work->progress.total);
 }

@@ -37,6 +37,28 @@ double review_level_at(const ReviewLevel *level, ReviewDisplayName display, doub
     return fixed_level(level, display.name, fixed_level(level, display.material, others));
 }
 
+/* ---- a mirrored vehicle ------------------------------------------------------------------ */
+
+/* From the plane at `middle`, twice. */
+static void mirror_at(const ReviewMirror *mirror, double middle, double v[3])
+{
+    const double *a = mirror->across;
+    double from = a[0] * v[0] + a[1] * v[1] + a[2] * v[2] - middle;
+    for (int i = 0; i < 3; i++) v[i] -= 2 * from * a[i];
+}
+
+void review_mirror_point(const ReviewMirror *mirror, double p[3])
+{
+    if (mirror) mirror_at(mirror, mirror->middle_m, p);
+}
+
+void review_mirror_direction(const ReviewMirror *mirror, double d[3])
+{
+    if (mirror) mirror_at(mirror, 0, d);
+}
+
+/* ---- eyes -------------------------------------------------------------------------------- */
+
 bool review_eye_is_wide(const ReviewEye *eye)
 {
     return eye->kind == EYE_BOX || eye->kind == EYE_ELLIPSE;
@@ -76,18 +98,20 @@ static void ellipse_point(const ReviewEye *eye, int i, double out_m[3])
     }
 }
 
-void review_eye_point(const ReviewEye *eye, int i, double out_m[3])
+static void box_point(const ReviewEye *eye, int i, double out_m[3])
 {
-    if (eye->kind == EYE_ELLIPSE) {
-        ellipse_point(eye, i, out_m);
-        return;
-    }
     for (int axis = 0; axis < 3; axis++) {
         int n = eye->kind == EYE_BOX ? eye->grid[axis] : 1;
         out_m[axis] = eye->position_m[axis] + eye->move_m[axis] +
                       eye->half_size_m[axis] * share_of(i % n, n);
         i /= n;
     }
+}
+
+void review_eye_point(const ReviewEye *eye, int i, double out_m[3])
+{
+    (eye->kind == EYE_ELLIPSE ? ellipse_point : box_point)(eye, i, out_m);
+    review_mirror_point(eye->mirror, out_m);
 }
 
 double review_range_value(const ReviewRange *range, int i)
@@ -167,6 +191,30 @@ static void move_eyes(ReviewRequest *of, const ReviewVariant *variant, Arena *ar
     of->eyes = eyes;
 }
 
+/* Eyes, gazes and sensors go with the vehicle. */
+static void mirror_all(ReviewRequest *of, const ReviewMirror *mirror, Arena *arena)
+{
+    ReviewEye   *eyes = ARENA_NEW(arena, ReviewEye, of->eye_count);
+    ReviewGaze  *gazes = ARENA_NEW(arena, ReviewGaze, of->gaze_count);
+    ReviewLevel *levels = ARENA_NEW(arena, ReviewLevel, of->level_count);
+    for (int i = 0; i < of->eye_count; i++) {
+        eyes[i] = of->eyes[i];
+        eyes[i].mirror = mirror;
+    }
+    for (int i = 0; i < of->gaze_count; i++) {
+        gazes[i] = of->gazes[i];
+        review_mirror_direction(mirror, gazes[i].direction);
+    }
+    for (int i = 0; i < of->level_count; i++) {
+        levels[i] = of->levels[i];
+        review_mirror_point(mirror, levels[i].position_m);
+        review_mirror_direction(mirror, levels[i].normal);
+    }
+    of->eyes = eyes;
+    of->gazes = gazes;
+    of->levels = levels;
+}
+
 ReviewRequest review_request_variant(const ReviewRequest *request, const ReviewVariant *variant,
                                      Arena *arena)
 {
@@ -178,6 +226,7 @@ ReviewRequest review_request_variant(const ReviewRequest *request, const ReviewV
     if (variant->level_count) set_levels(&of, variant, arena);
     set_scenes(&of, variant, arena);
     if (variant->eye_moves) move_eyes(&of, variant, arena);
+    if (variant->change.mirror) mirror_all(&of, variant->change.mirror, arena);
     return of;
 }
 

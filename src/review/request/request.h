@@ -58,6 +58,18 @@ double review_level_at(const ReviewLevel *level, ReviewDisplayName display, doub
  * lx or level 0 that has no logarithm, and the piece is linear. Beyond the ends: the end's. */
 double review_level_of_lux(const ReviewLevel *level, double lux);
 
+/* ---- a mirrored vehicle ------------------------------------------------------------------ */
+
+/* The plane at which a variant mirrors the vehicle, as scene/change/mirror_change.h. */
+typedef struct ReviewMirror {
+    double across[3]; /* unit, scene's frame: the vehicle's right */
+    double middle_m;  /* along it */
+} ReviewMirror;
+
+/* NULL: it stays where it is. */
+void review_mirror_point(const ReviewMirror *mirror, double p[3]);
+void review_mirror_direction(const ReviewMirror *mirror, double d[3]);
+
 /* ---- eyes and where they look ------------------------------------------------------------ */
 
 typedef enum ReviewEyeKind { EYE_CAMERA, EYE_POINT, EYE_BOX, EYE_ELLIPSE } ReviewEyeKind;
@@ -76,6 +88,7 @@ typedef struct ReviewEye {
     double        tilt_deg;       /* ellipse: its front down, about the axis across */
     double        half_axes_m[3][3]; /* ellipse: half of each, scene's frame */
     double        move_m[3];      /* a variant's offset, scene's frame; else 0 */
+    const ReviewMirror *mirror;   /* a variant's, after that; else NULL */
 } ReviewEye;
 
 /* Points of a drivers' eye ellipse (SAE J941): its middle, the ends of its axes and the points
@@ -147,8 +160,19 @@ typedef struct ReviewContent {
     const char *display, *path;
 } ReviewContent;
 
+/* What every eye wears (review/light/glasses.h). */
+typedef struct ReviewGlasses {
+    const char  *words;         /* as the request says */
+    double       transmittance; /* luminous, (0, 1]; unused with a curve */
+    const Curve *curve;         /* at each wavelength; NULL: grey */
+    bool         is_polarising;
+    double       axis_deg;      /* along which light comes through, from upright to the right */
+    double       extinction;    /* light along it over light across it, at least 1 */
+} ReviewGlasses;
+
 typedef struct ReviewCondition {
     const char         *name;
+    const ReviewGlasses *glasses; /* NULL: none */
     ReviewConditionKind kind;
     bool        has_environment; /* moment without: as in the scene's files. Route and sweeps:
                                     air and ground of a clear sky, whose sun is replaced */
@@ -190,7 +214,7 @@ typedef struct ReviewWeather {
 /* Differences from the review itself; what is not named stays as it is. */
 typedef struct ReviewChange {
     const char          *place;    /* JSON path of the variant or parameter */
-    const SceneChange   *scene;    /* nodes, materials, hoods */
+    const SceneChange   *scene;    /* nodes, materials, hoods, the mirror */
     int                  scene_count;
     const SceneOverride *panels;   /* by display: a file */
     int                  panel_count;
@@ -200,6 +224,7 @@ typedef struct ReviewChange {
                                            anywhere; the display's own name counts first, then
                                            its material's, then "*" */
     int                  brightness_count;
+    const ReviewMirror  *mirror;   /* what `scene` mirrors; NULL: nothing is */
 } ReviewChange;
 
 typedef struct ReviewVariant {
@@ -291,7 +316,8 @@ typedef struct ReviewRequest {
     int              weather_count;
     double           precision_contrast; /* relative standard error wanted */
     double           precision_clear;    /* enough where the verdict is clear; at least that */
-    bool             decides; /* reads on where too close to call: DECIDE_TIMES (run/cases.c) */
+    long             decide_times; /* reads on where too close to call, until a case has had
+                                      so many times precision_paths; 0: does not */
     int              precision_paths;    /* at most for one reading; one that is not sure then
                                             has a wider interval */
     uint32_t         seed;    /* random seed: another one takes other paths of the same light;

@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/units.h"
 #include "review/request/request_eyes.h"
+#include "review/request/request_glasses.h"
 #include "scene/load/environment.h"
 
 /* ---- weather ----------------------------------------------------------------------------- */
@@ -283,7 +284,7 @@ static bool read_light(RequestReading *reading, const JsonView *view, int i,
 
 static const char *const KEYS[] = {"name",     "environment", "lights", "heading_deg", "level",
                                    "with",     "polarity",    "contents", "route",     "when",
-                                   "weather",  "weather_lux", "sweep"};
+                                   "weather",  "weather_lux", "sweep",  "sunglasses"};
 
 static bool has(const JsonView *view, const char *key)
 {
@@ -433,6 +434,7 @@ static bool read_condition(RequestReading *reading, int i, Error *err)
            request_contents_read(&view, &condition->contents, &condition->content_count, err) &&
            read_heading(&view, condition, err) &&
            read_time(reading, &view, condition, err) &&
+           request_glasses_read(reading, &view, condition, err) &&
            read_light(reading, &view, i, condition, err);
 }
 

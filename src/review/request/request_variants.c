@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/request/request_variants.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/file.h"
+#include "base/mathd.h"
 #include "base/units.h"
 #include "review/request/request_levels.h"
 #include "text/text.h"
@@ -13,10 +15,11 @@
 #define NAMES_MAX 1000
 #define METRES_MAX 100.0
 #define HOOD_MAX_M 2.0
+#define FINISH_MOST_DEG 20.0 /* beyond, its facets lose light (shaders/display.c) */
 
 static const char *const KEYS[] = {"panels",  "contents",  "levels", "brightness",
                                    "coatings", "glazings", "materials", "nodes", "hoods",
-                                   "eyes",    "scene",     "add"};
+                                   "finishes", "mirror",   "eyes",      "scene", "add"};
 
 /* A variant while it is read, with room for its changes of the scene. */
 typedef struct VariantReading {
@@ -185,15 +188,42 @@ static void set_words(VariantReading *v, const SceneChange *c)
         if (angles[i] != 0)
             text_format(&text, " %s by %.4g°", WAYS[i],
                         (double)degrees_from_radians((double)angles[i]));
+    if (c->hinge.angle != 0)
+        text_format(&text, " swung by %.4g°",
+                    (double)degrees_from_radians((double)c->hinge.angle));
     if (c->move_m[0] != 0 || c->move_m[1] != 0 || c->move_m[2] != 0)
         text_format(&text, " moved by (%.4g, %.4g, %.4g) m", (double)c->move_m[0],
                     (double)c->move_m[1], (double)c->move_m[2]);
     say(v, text.data);
 }
 
+/* Absent: none. */
+static bool read_hinge(const JsonView *node, SceneHinge *out, Error *err)
+{
+    static const char *const keys[] = {"axis", "through_m", "angle_deg"};
+    JsonView view;
+    double   axis[3] = {0, 0, 0}, through[3] = {0, 0, 0}, angle = 0;
+    bool     has_point = false;
+    if (!json_object_get(node->object, "hinge")) return true;
+    if (!json_view_child(node, "hinge", true, &view, err) ||
+        !json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
+        !field_wanted(&view, "axis", err) || !field_wanted(&view, "angle_deg", err) ||
+        !field_unit_vector(&view, "axis", axis, NULL, err) ||
+        !json_view_number(&view, "angle_deg", -180, 180, &angle, err) ||
+        !field_numbers(&view, "through_m", (JsonRange){-1e6, 1e6, 3}, through, &has_point, err))
+        return false;
+    *out = (SceneHinge){.is_own = !has_point, .angle = (float)radians_from_degrees(angle)};
+    for (int k = 0; k < 3; k++) {
+        out->axis[k] = (float)axis[k];
+        out->through_m[k] = (float)through[k];
+    }
+    return true;
+}
+
 static bool read_node(VariantReading *v, const FieldMembers *members, int i, Error *err)
 {
-    static const char *const keys[] = {"tilt_deg", "turn_deg", "roll_deg", "move_m", "with"};
+    static const char *const keys[] = {"tilt_deg", "turn_deg", "roll_deg",
+                                       "hinge",    "move_m",   "with"};
     JsonView     view;
     double       angle[3] = {0, 0, 0}, move[3] = {0, 0, 0};
     const char **with = NULL;
@@ -205,7 +235,8 @@ static bool read_node(VariantReading *v, const FieldMembers *members, int i, Err
         if (!json_view_number(&view, keys[k], -180, 180, &angle[k], err)) return false;
     if (!field_numbers(&view, "move_m", (JsonRange){-METRES_MAX, METRES_MAX, 3}, move, NULL,
                        err) ||
-        !field_names(&view, "with", "a node's name", &with, &change->with_count, err))
+        !field_names(&view, "with", "a node's name", &with, &change->with_count, err) ||
+        !read_hinge(&view, &change->hinge, err))
         return false;
     change->with = with;
     change->tilt = (float)radians_from_degrees(angle[0]);
@@ -240,6 +271,67 @@ static bool read_hoods(VariantReading *v, Error *err)
         say(v, arena_format(arena_of(v), "hood of %.4g mm over %s", 1000 * depth,
                             members.name[i]));
     }
+    return true;
+}
+
+/* Of a lobe whose full width at half its height is `width` radians: facets turn light by twice
+ * their slope's angle, and GGX falls to a half where tan^2 = alpha^2 (sqrt 2 - 1). */
+static double alpha_of(double width)
+{
+    return tan_d(width / 4) / sqrt(sqrt(2.0) - 1);
+}
+
+static bool read_finish(VariantReading *v, const FieldMembers *members, int i, Error *err)
+{
+    static const char *const keys[] = {"scatters", "width_deg"};
+    const char  *name = members->name[i];
+    SceneChange *change = add_change(v, CHANGE_FINISH, members, i);
+    double       share = 0, width = 0;
+    JsonView     view;
+    if (!json_view_child(&members->view, name, true, &view, err) ||
+        !json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
+        !field_wanted(&view, "scatters", err) || !field_wanted(&view, "width_deg", err) ||
+        !json_view_number(&view, "scatters", 0, 1, &share, err) ||
+        !json_view_number(&view, "width_deg", 0.3, FINISH_MOST_DEG, &width, err))
+        return false;
+    change->finish = (DisplayFinish){(float)share,
+                                     (float)alpha_of(radians_from_degrees(width))};
+    say(v, arena_format(arena_of(v), "%s matte: %.3g %% of its mirror image scattered, %.3g° "
+                        "wide (modelled)", name, 100 * share, width));
+    return true;
+}
+
+static bool read_finishes(VariantReading *v, Error *err)
+{
+    FieldMembers members;
+    if (!field_members(&v->view, "finishes", NAMES_MAX, &members, err)) return false;
+    for (int i = 0; i < members.count; i++)
+        if (!read_finish(v, &members, i, err)) return false;
+    return true;
+}
+
+/* The plane is vertical and along where the vehicle points. */
+static bool read_mirror(VariantReading *v, Error *err)
+{
+    static const char *const keys[] = {"middle_m"};
+    const double *ahead = v->reading->request->forward;
+    JsonView      view;
+    double        middle = 0;
+    if (!json_object_get(v->view.object, "mirror")) return true;
+    if (!json_view_child(&v->view, "mirror", true, &view, err) ||
+        !json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
+        !json_view_number(&view, "middle_m", -METRES_MAX, METRES_MAX, &middle, err))
+        return false;
+    ReviewMirror *mirror = ARENA_NEW(arena_of(v), ReviewMirror, 1);
+    SceneChange  *change = &v->scene[v->variant->change.scene_count++];
+    double        level = hypot_d(ahead[0], ahead[2]);
+    *mirror = (ReviewMirror){{-ahead[2] / level, 0, ahead[0] / level}, middle};
+    *change = (SceneChange){.kind = CHANGE_MIRROR, .name = "", .middle_m = (float)middle,
+                            .file = v->view.file, .place = view.path};
+    for (int k = 0; k < 3; k++) change->ahead[k] = (float)ahead[k];
+    v->variant->change.mirror = mirror;
+    say(v, arena_format(arena_of(v), "mirrored, at %.4g m right of the origin; displays "
+                        "are not", middle));
     return true;
 }
 
@@ -326,7 +418,8 @@ static bool read_variant(RequestReading *reading, const FieldMembers *members, i
            read_extension(&v, "coatings", "PARHELION_coating", true, err) &&
            read_extension(&v, "glazings", "PARHELION_glazing", false, err) &&
            read_materials(&v, err) && read_nodes(&v, err) && read_hoods(&v, err) &&
-           read_eyes(&v, err) && read_files(&v, err);
+           read_finishes(&v, err) &&
+           read_mirror(&v, err) && read_eyes(&v, err) && read_files(&v, err);
 }
 
 bool request_variants_read(RequestReading *reading, Error *err)

@@ -13,6 +13,7 @@
 #include "review/judge.h"
 #include "review/keep/journal.h"
 #include "review/light/eye_reading.h"
+#include "review/light/read_on.h"
 #include "review/light/response_suns.h"
 #include "review/output/review_decide.h"
 #include "review/pace/work.h"
@@ -28,10 +29,6 @@
 #define FACE_SEED 0x66616365u
 #define EYE_SEED 0x65796573u
 #define SUN_PATHS SYMBOL_POINTS
-/* Where a case that is too close is to be decided: so many more paths a round, read afresh. */
-#define DECIDE_TIMES 8
-#define DECIDE_ROUNDS 2
-#define DECIDE_SEED 0x64656369u
 /* Times the paths of a review with variants, and of those: their differences are then known
  * twice as well as two such reviews would know them even where nothing is common to both, as
  * with another panel, whose lobes send paths elsewhere. */
@@ -45,15 +42,20 @@
 bool setup_eye_middle(const Setup *setup, const ReviewEye *eye, Arena scratch, Vec3 *out,
                       Error *err)
 {
-    int id;
-    double at[3];
-    for (int k = 0; k < 3; k++) at[k] = eye->position_m[k] + eye->move_m[k];
-    *out = scene_from_world(setup->scene->origin, at);
+    int    id;
+    double middle[3], moved[3];
+    for (int i = 0; i < 3; i++) {
+        moved[i] = eye->move_m[i];
+        middle[i] = eye->position_m[i] + moved[i];
+    }
+    review_mirror_point(eye->mirror, middle);
+    review_mirror_direction(eye->mirror, moved);
+    *out = scene_from_world(setup->scene->origin, middle);
     if (eye->kind != EYE_CAMERA) return true;
     if (!review_camera_find(setup->scene, eye, scratch, &id, err))
         return error_in_file(err, setup->request->file);
     *out = vec3_add(setup->scene->cameras[id].world_from_camera.origin,
-                    vec3_from_doubles(eye->move_m));
+                    vec3_from_doubles(moved));
     return true;
 }
 
@@ -96,7 +98,7 @@ static DirectSun direct_sun(const Setup *setup, const ProbeAim *aim, Arena scrat
     Vec3      towards;
     float     bands[LIGHT_BANDS];
     DirectSun direct = {0, 0};
-    if (!setup_sun(setup, &towards, bands)) return direct;
+    if (!setup_sun_coloured(setup, aim->colour, &towards, bands)) return direct;
     float           radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG);
     ProbeSuns       suns = {&towards, 1, radius, false};
     ResponseOptions options = {setup->tools.kernel, 0, SUN_PATHS, setup->tools.threads, 0};
@@ -122,10 +124,10 @@ static bool is_in_sun(DirectSun direct, double reflected)
 static void set_contrasts(ReviewCase *c, MeanInterval reflected)
 {
     const CaseLuminances *l = &c->luminance_cd_m2;
-    double veil = isnan(l->veil) ? 0 : l->veil;
+    double veil = isnan(l->veil) ? 0 : l->veil, lets = c->glasses_transmittance;
     judge_contrasts(c, reflected);
-    c->jnd = grey_steps_between(l->foreground + l->reflected + veil,
-                                l->background + l->reflected + veil);
+    c->jnd = grey_steps_between(lets * (l->foreground + l->reflected + veil),
+                                lets * (l->background + l->reflected + veil));
 }
 
 /* One point of an eye that looks at a symbol; coarse: to find the worst of many points; bare:
@@ -203,7 +205,8 @@ static long base_paths(const VerdictAsk *ask)
     return base ? base->paths : 0;
 }
 
-/* The sun's image in a display is so small that few paths meet it: it is known by itself. */
+/* The sun's image in a display is so small that few paths meet it: it is known by itself, but
+ * not as a polariser sees it. */
 static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictAsk *ask,
                            Arena scratch)
 {
@@ -217,26 +220,21 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictAsk
     ReadingGoal     goal = {.brighter = fmax(shown->foreground, shown->background),
                             .darker = fmin(shown->foreground, shown->background),
                             .precision = request->precision_contrast,
-                            .most = request->precision_paths, .known = ask->direct.mirror,
+                            .most = request->precision_paths,
+                            .known = aim->context->eye ? 0 : ask->direct.mirror,
                             .times = request->is_compared ? COMPARED_TIMES : 1,
                             .least = request->is_compared ? base_paths(ask) : 0,
                             .question = &question};
-    without.without_mirrored_sun = ask->direct.mirror > 0;
+    without.without_mirrored_sun = goal.known > 0;
     rest.context = &without;
     if (look->is_coarse) {
         goal.precision = COARSE_PRECISION;
         goal.most = COARSE_PATHS;
         goal.question = NULL;
     }
-    Reading reading = setup_ask(setup, &rest, &goal, scratch);
-    for (int i = 0; i < DECIDE_ROUNDS && request->decides && goal.question; i++) {
-        if (is_verdict_clear(ask, reading.interval, scratch)) return reading;
-        goal.most *= DECIDE_TIMES;
-        goal.precision /= sqrt(DECIDE_TIMES);
-        rest.seed = hash_combine(rest.seed, DECIDE_SEED);
-        reading = setup_ask(setup, &rest, &goal, scratch);
-    }
-    return reading;
+    ReadOn from = {setup_ask(setup, &rest, &goal, scratch),
+                   request->decide_times * request->precision_paths};
+    return goal.question ? setup_read_on(setup, &rest, &goal, &from, scratch) : from.reading;
 }
 
 /* The panel's emission dimmed by what the eye looks through. */
@@ -264,7 +262,8 @@ static double visibility_of(const ReviewCase *c, const SymbolSplit *split)
     const CaseLuminances *l = &c->luminance_cd_m2;
     double height_px = (split->box[3] - split->box[1]) * split->light.content_height;
     double stroke_deg = c->height_arcmin / 60 * split->stroke_px / height_px;
-    double mean = 0.5 * (l->foreground + l->background) + l->reflected + l->veil;
+    double mean = c->glasses_transmittance *
+                  (0.5 * (l->foreground + l->background) + l->reflected + l->veil);
     double michelson = (c->contrast_with_veil - 1) / (c->contrast_with_veil + 1);
     return michelson *
            contrast_sensitivity(1 / (2 * stroke_deg), mean, c->height_arcmin / 60);
@@ -291,7 +290,9 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     SymbolVisibility seen = symbol_visibility(&symbol->surface, &setup->context, eye, NULL);
     *l = (CaseLuminances){(double)NAN, (double)NAN, (double)NAN, (double)NAN, (double)NAN,
                           (double)NAN};
-    c->minutes_to_decide = c->precision_asked = c->precision_reached = (double)NAN;
+    c->minutes_to_decide = c->decide_times = (double)NAN;
+    c->glasses_transmittance = 1;
+    c->precision_asked = c->precision_reached = (double)NAN;
     c->reflected_range = (MeanInterval){(double)NAN, (double)NAN};
     c->whole = case_whole_unknown();
     c->visible_share = seen.visible_share;
@@ -311,6 +312,7 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     c->whole = part.whole;
     c->whole.contrast_ratio =
         luminance_contrast(l->foreground, l->background, c->whole.reflected);
+    symbol_put_on_glasses(setup, symbol, &aim, c, arena);
     bool wants_veil = !look->is_bare || tools->profile->uses_veil;
     if (!look->is_coarse && wants_veil) see_stray_light(setup, symbol, eye, c, *arena);
     *direct = direct_sun(setup, &aim, *arena);
@@ -370,6 +372,17 @@ typedef struct CaseAsk {
     bool               is_bare; /* its light and verdict alone */
 } CaseAsk;
 
+/* By what is known of its reading: how much more of it decides. */
+static void set_to_decide(const ReviewRequest *request, DirectSun direct, ReviewCase *c)
+{
+    double half = 0.5 * (c->reflected_range.high - c->reflected_range.low);
+    double known = 2 * RESPONSE_MIRROR_ERROR * direct.mirror;
+    judge_paths(c, half > 0 ? fmin(known / half, 1) : 0);
+    c->paths_to_decide *= READ_ON_BUDGET;
+    c->minutes_to_decide *= c->paths_to_decide;
+    c->decide_times = ceil(c->paths_to_decide / request->precision_paths);
+}
+
 /* A variant asks for no causes: what came via things without data in the review itself counts
  * for it, too. */
 static double data_share_of(const Review *base, const ReviewCase *c)
@@ -387,8 +400,7 @@ static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewC
                   aim.target_count && is_in_sun(direct, c->luminance_cd_m2.reflected));
     c->without_data_share = data_share_of(tools->base, c);
     judge_case(c, tools->profile, arena);
-    judge_paths(c);
-    c->minutes_to_decide *= c->paths_to_decide;
+    set_to_decide(tools->setup->request, direct, c);
     return aim;
 }
 
@@ -562,7 +574,8 @@ bool setup_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *e
         CaseAsk ask = {&request->eyes[i / symbols], &tools->symbols[s], faces[s],
                        tools->base != NULL};
         if (!case_of(tools, &ask, arena, &out[i], err)) return false;
-        if (tools->work) work_add(tools->work, work_of_case(request, ask.eye, ask.is_bare));
+        if (tools->work) work_add(tools->work, ask.is_bare ? WORK_BARE_CASE : WORK_CASE,
+                                  work_of_case(request, ask.eye, ask.is_bare));
     }
     return true;
 }

@@ -8,6 +8,7 @@
  * Threads  starts its own; the same figures for any count.
  */
 #pragma once
+#include "review/pace/work.h"
 #include "review/profile.h"
 #include "review/share.h"
 #include "review/run/symbols.h"
@@ -19,7 +20,7 @@ typedef struct CaseTools {
     int                symbol_count;
     long               cause_paths; /* by which causes are found; 0: CAUSE_PATHS */
     int                cause_rays;  /* that are kept of each; 0: CAUSE_RAYS */
-    Progress          *work;        /* of setup_cases (pace/work.h); or NULL */
+    Work              *work;        /* of setup_cases; or NULL */
     MomentShare        share;       /* of setup_cases: others' are left alone */
     const Review      *base;        /* of a variant: the review itself. Cases are bare then
                                        (setup_verdict), and read from no fewer paths than its

@@ -35,6 +35,11 @@ bool frame_camera(const FrameAsk *ask, SceneCamera *out, Arena scratch, Error *e
     return true;
 }
 
+static WorkKind kind_of(const FrameAsk *ask)
+{
+    return ask->exposure ? WORK_PAIR : WORK_FRAME;
+}
+
 static RenderOptions options_of(const FrameAsk *ask)
 {
     const ReviewRequest *request = ask->setup->request;
@@ -48,8 +53,9 @@ static RenderOptions options_of(const FrameAsk *ask)
         .layers = ask->exposure ? LAYER_VARIANCE
                                 : render_layers(ask->setup->scene, LAYER_VARIANCE | LAYER_ID |
                                                                        LAYER_DISPLAYS),
-        .threads = ask->setup->tools.threads, .within = ask->work,
-        .within_weight = ask->exposure ? work_of_pair(request) : work_of_frame(request)};
+        .threads = ask->setup->tools.threads, .within = &ask->work->progress,
+        .within_weight = work_share(ask->work, kind_of(ask),
+                                    work_of_frame(request, kind_of(ask)))};
 }
 
 /* The attributes of a rendered frame, as far as they are known here. */
@@ -201,7 +207,6 @@ bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)
     const char   *name = arena_format(arena, "frames/%s.png", ask->name);
     const char   *exr = exr_of(ask, arena);
     Arena         scratch = *arena;
-    double        begun_s = monotonic_seconds(), from = ask->work->done;
     if (!frame_camera(ask, &camera, scratch, err)) return false;
     FrameKept kept = {.journal = ask->setup->tools.journal, .unfinished = ask->unfinished,
                       .identity = identity_of(ask, &camera, &options, &scratch),
@@ -213,8 +218,7 @@ bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)
         (!render(ask, &kept, &camera, &options, &result, err) ||
          !write_frame(ask, &camera, &result, scratch, err) || !frame_kept_end(&kept, err)))
         return false;
-    progress_update(ask->work, from + options.within_weight);
-    work_done(ask->work, options.within_weight, begun_s);
+    work_add(ask->work, kind_of(ask), work_of_frame(ask->setup->request, kind_of(ask)));
     *out = name;
     return true;
 }

@@ -13,8 +13,8 @@
  *          to stop, after a checkpoint.
  */
 #pragma once
-#include "base/progress.h"
 #include "review/light/setup.h"
+#include "review/pace/work.h"
 #include "review/verdict.h"
 
 #define FRAMES_SAMPLES 256
@@ -37,7 +37,7 @@ typedef struct FrameAsk {
     const char      *name;    /* without an ending */
     const char      *exposure; /* of a frame to stand beside (frame_exposure): this one is
                                   smaller, and its picture alone is made; NULL: by itself */
-    Progress        *work;   /* of which the frame is a part (pace/work.h) */
+    Work            *work;   /* of which the frame is a part */
 } FrameAsk;
 
 /* From where the frame is seen. */

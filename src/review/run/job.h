@@ -6,10 +6,10 @@
  */
 #pragma once
 #include "base/problems.h"
-#include "base/progress.h"
 #include "review/keep/journal.h"
 #include "review/light/false_suns.h"
 #include "review/light/inherited.h"
+#include "review/pace/work.h"
 #include "review/profile.h"
 #include "review/request/request.h"
 #include "review/share.h"
@@ -40,7 +40,8 @@ typedef struct ReviewRun {
     const ReviewRequest *request;
     const Profile       *profile;
     SetupMeans           means;    /* inherited: what its variants will take over, or do */
-    Progress            *work;     /* pace/work.h: of all that is left, or of a part in hand */
+    Work                *work;
+    WorkPlan            *plan;     /* of the condition in hand: what is planned of it */
     const char          *folder;   /* of the frames, which is there; */
     const char          *unfinished; /* of checkpoints, */
     const char          *responses;  /* and of responses: as it is opened (plan: NULL: none), */

@@ -243,7 +243,7 @@ static bool make_pictures(const LiveAsk *ask, Arena *arena, ReviewLive *out, Err
         if (!c->frame || !is_new(pictures, made, c->frame)) continue;
         if (!make_picture(ask, c->frame, &pictures[made], arena, err)) return false;
         size += packed_size(&pictures[made++]);
-        work_add(ask->work, work_of_layers(ask->request));
+        work_add(ask->work, WORK_LAYERS, work_of_frame(ask->request, WORK_LAYERS));
     }
     out->pictures = pictures;
     out->picture_count = made;

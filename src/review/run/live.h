@@ -15,6 +15,7 @@
 #pragma once
 #include "image/frame.h"
 #include "review/output/review_live.h"
+#include "review/pace/work.h"
 #include "review/run/job.h"
 #include "vision/human_eye.h"
 
@@ -49,7 +50,7 @@ typedef struct LiveAsk {
     const ReviewOutcome *outcome;
     const char          *folder; /* of the frames */
     int                  threads;
-    Progress            *work;   /* pace/work.h */
+    Work                *work;
 } LiveAsk;
 
 bool live_make(const LiveAsk *ask, Arena *arena, ReviewLive *out, Error *err);

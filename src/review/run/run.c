@@ -59,14 +59,11 @@ static MomentShare share_of(const ReviewRun *run, const ReviewCondition *conditi
     return share;
 }
 
-/* Now that all symbols are found. */
-static double work_of_moment(const ReviewRun *run, int symbols)
+/* What the condition in hand is now known to take. */
+static void replan(const ReviewRun *run, const WorkPlan *now)
 {
-    const ReviewRequest *request = run->request;
-    double work = WORK_SETUP;
-    for (int e = 0; e < request->eye_count; e++)
-        work += symbols * work_of_case(request, &request->eyes[e], run->base != NULL);
-    return run->base ? work : work + WORK_LOOK * review_look_count(request);
+    work_replan(run->work, run->plan, now);
+    *run->plan = *now;
 }
 
 /* The same cases under a rider's levels. */
@@ -111,13 +108,15 @@ static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena
     SetupSymbol *symbols;
     const Environment *sky = condition->has_environment ? &condition->environment : NULL;
     if (!setup_light(setup, sky, scratch, err) ||
-        !setup_symbols(setup, scratch, &symbols, &tools.symbol_count, err) ||
-        !setup_learn(setup, symbols, tools.symbol_count, scratch, err))
+        !setup_symbols(setup, scratch, &symbols, &tools.symbol_count, err))
         return false;
+    WorkPlan plan = work_of_moment(run->request, tools.symbol_count, run->base != NULL);
     tools.symbols = symbols;
     rests_add_masks(symbols, tools.symbol_count, review, arena);
-    run->work->total = work_of_moment(run, tools.symbol_count);
-    work_add(run->work, WORK_SETUP - WORK_OPENED);
+    replan(run, &plan);
+    work_add(run->work, WORK_OPEN, plan.of[WORK_OPEN]);
+    if (!setup_learn(setup, symbols, tools.symbol_count, scratch, err)) return false;
+    work_add(run->work, WORK_LEARN, plan.of[WORK_LEARN]);
     ReviewCase *cases = review->cases + review->case_count;
     if (!setup_cases(&tools, arena, cases, err)) return false;
     int count = tools.symbol_count * run->request->eye_count;
@@ -127,6 +126,7 @@ static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena
     if (run->base) return true;
     GazeFinding *gazes = review->gazes + review->gaze_count;
     if (!setup_gazes(setup, &tools.share, run->sun_searches, arena, gazes, err)) return false;
+    work_add(run->work, WORK_LOOK, plan.of[WORK_LOOK]);
     review->gaze_count += review_look_count(run->request);
     return true;
 }
@@ -217,7 +217,6 @@ static bool run_condition(const ReviewRun *run, const ReviewCondition *condition
     bool  ok = setup_open(&options, &scratch, run->problems, &setup, err);
     if (ok) {
         setup.is_shared = run->rider_count > 0;
-        work_add(run->work, WORK_OPENED);
         if (run->news.read) run->news.read(run->news.user, setup.scene);
         report_without_data(setup.scene, &out->review, scratch, arena);
         rests_add_scene(run->request, setup.scene, &out->review, arena);
@@ -233,29 +232,31 @@ static bool run_condition(const ReviewRun *run, const ReviewCondition *condition
     return ok;
 }
 
-static double work_of(const ReviewRun *run, const ReviewCondition *condition,
-                      const SweepGroup *group)
+static WorkPlan work_of_group(const ReviewRun *run, const ReviewCondition *condition,
+                              const SweepGroup *group)
 {
-    bool   is_bare = run->base != NULL;
-    double work = 0;
-    for (int i = 0; i < group->count; i++)
-        work += work_of_condition(run->request, group->conditions[i], is_bare);
-    if (!group->count) work = work_of_condition(run->request, condition, is_bare);
-    return run->share.count ? work / run->share.count : work;
+    bool     is_bare = run->base != NULL;
+    WorkPlan all = {{0}};
+    for (int i = 0; i < group->count + !group->count; i++) {
+        WorkPlan one = work_of_condition(run->request,
+                                         group->count ? group->conditions[i] : condition,
+                                         is_bare);
+        work_plan_add(&all, &one, run->share.count ? 1.0 / run->share.count : 1);
+    }
+    return all;
 }
 
-/* group: empty: a moment. */
+/* group: empty: a moment. What was planned for it and not done is not left. */
 static bool run_watched(const ReviewRun *run, const ReviewCondition *condition,
                         const SweepGroup *group, Arena *arena, ReviewOutcome *out, Error *err)
 {
-    double    weight = work_of(run, condition, group);
-    Progress  part = progress_part(run->work, weight, weight);
+    WorkPlan  plan = work_of_group(run, condition, group), done = run->work->done;
     ReviewRun own = *run;
-    own.work = &part;
+    own.plan = &plan;
     if (!run_condition(&own, condition, group->count ? group : NULL, arena, out, err))
         return false;
-    progress_end(&part, part.total);
-    work_done(run->work, weight, part.begun_s);
+    work_plan_add(&done, &plan, 1);
+    work_replan(run->work, &done, &run->work->done);
     return true;
 }
 
@@ -390,9 +391,26 @@ static void add_weather_notes(const ReviewRequest *request, int weather_id, Revi
             add_note(review, notes, sweep_weather_lux_note(weather, (WeatherLux)lux, arena));
 }
 
+static void add_glasses_notes(const ReviewRequest *request, Review *review,
+                              const char ***notes, Arena *arena)
+{
+    for (int i = 0; i < request->condition_count; i++) {
+        const ReviewCondition *c = &request->conditions[i];
+        if (!c->glasses) continue;
+        add_note(review, notes, arena_format(arena,
+                 "%s: seen through %s. They darken display, reflections and the veil in the "
+                 "eye by one factor, which leaves contrasts; figures in cd/m2 and discomfort "
+                 "are told without it, grey steps and visibility with it. Limits are those of "
+                 "the naked eye. Pictures and gazes are without them%s.", c->name,
+                 c->glasses->words,
+                 c->glasses->is_polarising ? ", and causes as unpolarised light" : ""));
+    }
+}
+
 static void add_notes(const ReviewRequest *request, Review *review, Arena *arena)
 {
-    const char **notes = ARENA_NEW(arena, const char *, 3 * request->weather_count + 4);
+    const char **notes = ARENA_NEW(arena, const char *, 3 * request->weather_count + 4 +
+                                                        request->condition_count);
     if (has_sweeps(request)) {
         add_note(review, &notes,
                  "Sweeps: skies are clear, or those of a weather file where one is named; "
@@ -409,6 +427,7 @@ static void add_notes(const ReviewRequest *request, Review *review, Arena *arena
     }
     for (int i = 0; i < request->weather_count; i++)
         add_weather_notes(request, i, review, &notes, arena);
+    add_glasses_notes(request, review, &notes, arena);
 }
 
 /* ---- all of it --------------------------------------------------------------------------- */

@@ -354,12 +354,6 @@ static bool report_sight(SweepReport *to, const Sight *sight, const Sight *asked
     return true;
 }
 
-/* Its suns and its worst. */
-static double work_of_sight(const SweepSuns *suns)
-{
-    return WORK_SUN * suns->count + WORK_WORST;
-}
-
 /* A sight for the review, then for its riders: its suns are asked, and forgotten when all is
  * reported. */
 static bool report_asked(Sweep *sweep, SweepReport *to, int count, const Sight *sight,
@@ -390,7 +384,8 @@ static bool report_sights(Sweep *sweep, SweepReport *to, int count, Arena room, 
         if (!review_goes_on(sweep->run->means.journal, err) ||
             !report_asked(sweep, to, count, sight, room, err))
             return false;
-        work_add(sweep->run->work, work_of_sight(&sweep->suns));
+        work_add(sweep->run->work, sweep->run->base ? WORK_BARE_SIGHT : WORK_SIGHT,
+                 work_of_sight(sweep->suns.count, sweep->run->base != NULL));
     }
     return true;
 }
@@ -455,17 +450,28 @@ bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, 
            sweep_weather_check(request, condition, &suns, scratch, err);
 }
 
+/* Now that it is known what is kept, and how many suns there are. */
 static void plan_work(const Sweep *sweep, const SweepGroup *group, Arena scratch)
 {
-    double work = WORK_SETUP;
+    const ReviewRun *run = sweep->run;
+    bool     is_bare = run->base != NULL;
+    WorkPlan plan = {{[WORK_OPEN] = work_of(WORK_OPEN)}};
     for (int i = 0; i < sweep->ask_count; i++)
-        work += responses_work(&sweep->asks[i], 2 * WORK_OWN);
+        plan.of[responses_kind(&sweep->asks[i])] += responses_work(&sweep->asks[i]);
+    for (int i = 0; i < sweep->ask_count; i++)
+        if (responses_work(&sweep->asks[i]) > 0) plan.of[WORK_OWN] += 2 * work_of(WORK_OWN);
     for (int i = 0; i < group->count; i++) {
         SweepSuns suns = sweep_suns(group->conditions[i], 1, &scratch);
+        plan.of[WORK_SKIES] += work_of(WORK_SKIES);
+        if (!is_bare && !run->share.count)
+            plan.of[WORK_FALSE_SUNS] += run->request->eye_count * work_of(WORK_FALSE_SUNS);
         for (int k = 0; k < sweep->sight_count; k++)
-            work += sweep->sights[k].is_left ? 0 : WORK_SKIES + work_of_sight(&suns);
+            if (!sweep->sights[k].is_left)
+                plan.of[is_bare ? WORK_BARE_SIGHT : WORK_SIGHT] +=
+                    work_of_sight(suns.count, is_bare);
     }
-    sweep->run->work->total = work;
+    work_replan(run->work, run->plan, &plan);
+    *run->plan = plan;
 }
 
 static void set_level(Sweep *sweep)
@@ -531,7 +537,7 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
     set_level(sweep);
     if (!make_skies(sweep, &scratch, err)) return false;
     if (!sweep_ask_light(sweep, &scratch, err)) return false;
-    work_add(sweep->run->work, WORK_SKIES * sweep->sight_count);
+    work_add(sweep->run->work, WORK_SKIES, work_of(WORK_SKIES));
     DistantTools tools = sweep_tools(sweep);
     SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);
     *suns = sweep->suns;
@@ -540,8 +546,11 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
                       .sights = ARENA_NEW(&scratch, SightFigures, sweep->sight_count),
                       .tables = ARENA_NEW(&scratch, SweepTable, sweep->sight_count)};
     sweep->lit->is_ready = sweep->lit->is_lit = false;
-    if (!sweep->run->share.count && !sweep->run->base)
+    if (!sweep->run->share.count && !sweep->run->base) {
         false_sun_times(sweep, scratch, arena, &out->review);
+        work_add(sweep->run->work, WORK_FALSE_SUNS,
+                 sweep->run->request->eye_count * work_of(WORK_FALSE_SUNS));
+    }
     if (!report_with_riders(sweep, &to, scratch, err)) return false;
     keep_tables(&to);
     out->review.sweep_count += sweep->sight_count;
@@ -554,7 +563,7 @@ static bool sweep_all(Sweep *sweep, const SweepGroup *group, Arena *scratch, Are
     if (!sweep_place_probes(sweep, scratch, err)) return false;
     rests_add_masks(sweep->symbols, sweep->symbol_count, &out->review, arena);
     plan_work(sweep, group, *scratch);
-    work_add(sweep->run->work, WORK_SETUP - WORK_OPENED);
+    work_add(sweep->run->work, WORK_OPEN, work_of(WORK_OPEN));
     if (!sweep_make_probes(sweep, scratch, err)) return false;
     report_responses(sweep, arena, out);
     PathContext dark = sweep->setup->context;

@@ -101,7 +101,7 @@ bool responses_read_own(const ReviewRun *run, const Setup *setup, const Response
         double own = own_reading(setup, &asks[i].probe->aim, scratch);
         if (displays) asks[i].own->displays = own - asks[i].own->lamps;
         else asks[i].own->lamps = own;
-        work_add(run->work, WORK_OWN);
+        work_add(run->work, WORK_OWN, work_of(WORK_OWN));
     }
     arena_release(&scratch);
     return ok;
@@ -109,9 +109,15 @@ bool responses_read_own(const ReviewRun *run, const Setup *setup, const Response
 
 /* ---- tracing ----------------------------------------------------------------------------- */
 
-double responses_work(const ResponseAsk *ask, double own)
+WorkKind responses_kind(const ResponseAsk *ask)
 {
-    return ask->is_kept || ask->is_left ? 0 : own + ask->paths * WORK_RESPONSE_PATH;
+    return ask->probe->aim.meter ? WORK_METER : WORK_RESPONSE;
+}
+
+double responses_work(const ResponseAsk *ask)
+{
+    if (ask->is_kept || ask->is_left) return 0;
+    return ask->probe->aim.meter ? work_of(WORK_METER) : work_of_response(ask->paths);
 }
 
 bool responses_trace(const ReviewRun *run, const Setup *setup, ResponseAsk *asks, int count,
@@ -127,7 +133,7 @@ bool responses_trace(const ReviewRun *run, const Setup *setup, ResponseAsk *asks
         distant_probe_respond(ask->probe, &tools, arena);
         if (!response_write(&ask->file, &ask->probe->response, ask->own, *arena, err))
             return false;
-        work_add(run->work, responses_work(ask, 0));
+        work_add(run->work, responses_kind(ask), responses_work(ask));
     }
     return true;
 }

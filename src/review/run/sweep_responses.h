@@ -12,6 +12,7 @@
 #pragma once
 #include "review/light/distant_probe.h"
 #include "review/light/response_file.h"
+#include "review/pace/work.h"
 #include "review/run/job.h"
 
 /* A probe whose aim is set, with room for its answers. */
@@ -36,9 +37,9 @@ void responses_find(const ReviewRun *run, const Setup *setup, ResponseAsk *asks,
 bool responses_read_own(const ReviewRun *run, const Setup *setup, const ResponseAsk *asks,
                         int count, bool displays, Error *err);
 
-/* How long it will take (pace/work.h), with so much for its own light; 0: it is not to be
- * traced. */
-double responses_work(const ResponseAsk *ask, double own);
+/* How long it will take; 0: it is not to be traced. */
+WorkKind responses_kind(const ResponseAsk *ask);
+double   responses_work(const ResponseAsk *ask);
 
 /* Traces and keeps the rest. */
 bool responses_trace(const ReviewRun *run, const Setup *setup, ResponseAsk *asks, int count,

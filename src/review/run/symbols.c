@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "panel/query/panel_stated.h"
 #include "render/identity.h"
+#include "review/light/glasses.h"
 #include "review/request/request_check.h"
 #include "review/symbol/text_find.h"
 #include "text/text.h"
@@ -279,4 +280,37 @@ bool setup_symbols(const Setup *setup, Arena *arena, SetupSymbol **out, int *cou
     *out = list.list;
     *count = list.count;
     return true;
+}
+
+/* ---- through glasses --------------------------------------------------------------------- */
+
+static void scale_shown(ReviewCase *c, double foreground, double background)
+{
+    c->luminance_cd_m2.foreground *= foreground;
+    c->luminance_cd_m2.background *= background;
+}
+
+static void polarise_case(const SymbolSurface *surface, const PolarisedEye *polariser,
+                          ProbeAim *aim, ReviewCase *c, Arena *arena)
+{
+    PathContext *context = ARENA_NEW(arena, PathContext, 1);
+    double passed = symbol_polarised_share(surface, aim->context, aim->eye, polariser);
+    *context = *aim->context;
+    context->eye = polariser;
+    aim->context = context;
+    scale_shown(c, passed, passed);
+}
+
+void symbol_put_on_glasses(const Setup *setup, const SetupSymbol *symbol, ProbeAim *aim,
+                           ReviewCase *c, Arena *arena)
+{
+    Vec3       towards = vec3_sub(symbol_middle(symbol).position, aim->eye);
+    Glasses    glasses = glasses_worn(setup->condition, towards, arena);
+    SymbolLook shown = {&symbol->surface, &symbol->split, aim->eye, setup->tools.threads};
+    c->glasses_transmittance = glasses.transmittance;
+    if (glasses.polariser) polarise_case(&symbol->surface, glasses.polariser, aim, c, arena);
+    if (!glasses.colour) return;
+    aim->colour = glasses.colour;
+    scale_shown(c, symbol_coloured_share(&shown, SYMBOL_FOREGROUND, glasses.colour),
+                symbol_coloured_share(&shown, SYMBOL_BACKGROUND, glasses.colour));
 }

@@ -53,3 +53,9 @@ void symbol_part_box(const SetupSymbol *symbol, const LightParts *parts, int par
 
 /* Fails with the request's file and the symbol's place in it. */
 bool setup_symbols(const Setup *setup, Arena *arena, SetupSymbol **out, int *count, Error *err);
+
+/* A case seen through the sunglasses of its condition (light/glasses.h): what the display
+ * shows, and how the aim counts light, as they weigh it, but for the one factor by which they
+ * darken all, which goes to c->glasses_transmittance. */
+void symbol_put_on_glasses(const Setup *setup, const SetupSymbol *symbol, ProbeAim *aim,
+                           ReviewCase *c, Arena *arena);

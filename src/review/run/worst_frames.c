@@ -151,16 +151,21 @@ typedef struct FrameWork {
     const char      *name, *exposure; /* FrameAsk's */
 } FrameWork;
 
-/* A variant keeps the review's view, wherever its symbol is. */
+/* A variant keeps the review's view, wherever its symbol is; a mirrored one mirrors it. */
 static bool aim(const FrameWork *work, const Setup *setup, FrameAsk *ask, Arena scratch,
                 Error *err)
 {
     const CaseView *view = work->of->of->view;
+    double          ahead[3];
     Vec3            from;
     if (!work->exposure)
         return find_middle(setup, work->of->of->symbol, scratch, &ask->look_at, err);
     if (!setup_eye_middle(setup, ask->eye, scratch, &from, err)) return false;
-    ask->look_at = vec3_add(from, view->forward);
+    ahead[0] = (double)view->forward.x;
+    ahead[1] = (double)view->forward.y;
+    ahead[2] = (double)view->forward.z;
+    review_mirror_direction(ask->eye->mirror, ahead);
+    ask->look_at = vec3_add(from, vec3_from_doubles(ahead));
     return true;
 }
 

@@ -305,3 +305,83 @@ SymbolEmission symbol_emission(const SymbolLook *look, double level)
     }
     return out;
 }
+
+/* ---- behind glasses ---------------------------------------------------------------------- */
+
+static double polarised_at(const SymbolPoint *point, const PathContext *context, Vec3 eye,
+                           const PolarisedEye *polariser)
+{
+    const Scene *scene = context->scene;
+    Ray          look = look_at(scene, point, eye);
+    Vec3         wo = vec3_neg(look.direction);
+    Wavelengths  wavelengths;
+    Polarised    light;
+    Hit          hit;
+    wavelengths_sample(0.5f, &wavelengths);
+    polarised_start(polariser, look.direction, &light);
+    while (bvh_intersect(context->bvh, look, 0, &hit)) {
+        Surface pane;
+        surface_at(scene, context->tables, &hit, wo, &wavelengths, &pane);
+        polarised_pass(&light, &pane, wo);
+        look = ray_behind(scene, look, &hit);
+    }
+    TrianglePoint  at = triangle_point(scene, point->triangle, point->u, point->v);
+    PolarisedLight from;
+    float          degree;
+    bool           is_polarised =
+        triangle_polarisation(scene, point->triangle, &at, wo, &from.axis, &degree);
+    if (is_polarised) from.degree = spectrum_all(degree);
+    return (double)spectrum_mean(polarised_take(&light) *
+                                 polarised_seen(&light, 0, wo, is_polarised ? &from : NULL));
+}
+
+double symbol_polarised_share(const SymbolSurface *surface, const PathContext *context,
+                              Vec3 eye, const PolarisedEye *polariser)
+{
+    double      sum = 0, area = 0;
+    Wavelengths wavelengths;
+    wavelengths_sample(0.5f, &wavelengths);
+    for (int i = 0; i < surface->point_count; i++) {
+        const SymbolPoint *point = &surface->points[i];
+        if (!(passed_from(point, context, &wavelengths, eye) > 0)) continue;
+        sum += (double)point->area_m2 * polarised_at(point, context, eye, polariser);
+        area += (double)point->area_m2;
+    }
+    return area > 0 ? sum / area : 1;
+}
+
+#define COLOUR_PIXELS 64 /* of a class: it shows few colours */
+#define COLOUR_STRATA 16 /* of SPECTRUM_LANES wavelengths each */
+
+/* Adds a pixel's luminance as it is, and behind the glasses. */
+static void add_coloured(const SymbolLook *look, uint32_t pixel, const Curve *colour,
+                         double sum[2])
+{
+    const Scene        *scene = look->surface->scene;
+    const ContentLight *light = &look->split->light;
+    int    x = light->x + (int)(pixel % (uint32_t)light->width);
+    int    y = light->y + (int)(pixel / (uint32_t)light->width);
+    double uv[2] = {(x + 0.5) / light->content_width, (y + 0.5) / light->content_height};
+    SymbolPoint at;
+    if (!symbol_surface_at(look->surface, uv, &at)) return;
+    Vec3          way = vec3_normalize(vec3_sub(look->eye, at.position));
+    TrianglePoint point = triangle_point(scene, at.triangle, at.u, at.v);
+    for (int i = 0; i < COLOUR_STRATA; i++) {
+        Wavelengths w;
+        wavelengths_sample(((float)i + 0.5f) / COLOUR_STRATA, &w);
+        Spectrum seen = triangle_emission(scene, at.triangle, &point, way, &w) * w.xyz[1];
+        sum[0] += (double)spectrum_mean(seen);
+        sum[1] += (double)spectrum_mean(seen * curve_lookup(colour, &w));
+    }
+}
+
+double symbol_coloured_share(const SymbolLook *look, SymbolClass which, const Curve *colour)
+{
+    ClassWork work = {.surface = look->surface, .light = &look->split->light, .eye = look->eye};
+    double    sum[2] = {0, 0};
+    list_pixels(look->split, which, &work);
+    long step = work.count / COLOUR_PIXELS + 1;
+    for (long i = 0; i < work.count; i += step)
+        add_coloured(look, work.pixels[i], colour, sum);
+    return sum[0] > 0 ? sum[1] / sum[0] : 1;
+}

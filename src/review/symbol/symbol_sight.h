@@ -65,6 +65,15 @@ typedef struct SymbolLook {
     int                  threads;
 } SymbolLook;
 
+/* What a polariser before the eye lets through of the display's light, beside unpolarised light
+ * by the same ways: mean over the points that are visible. */
+double symbol_polarised_share(const SymbolSurface *surface, const PathContext *context,
+                              Vec3 eye, const PolarisedEye *polariser);
+
+/* The luminance of a class behind glasses of that colour, over the one that was measured: by
+ * the spectra of the panel's primaries. 1: it emits nothing. */
+double symbol_coloured_share(const SymbolLook *look, SymbolClass which, const Curve *colour);
+
 /* level: of the display; 1: as measured. Of more than 20,000 pixels of a class so many, evenly
  * chosen, stand for all. The same for any number of threads. */
 SymbolEmission symbol_emission(const SymbolLook *look, double level);

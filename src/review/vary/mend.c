@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "base/mathd.h"
 #include "review/pace/work.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_words.h"
@@ -20,7 +21,9 @@ typedef struct Mending {
     const ReviewParameter *parameter;
     const Review          *base;
     Arena                 *arena;
-    double                 scale, work; /* of a trial (pace/work.h) */
+    double                 scale;
+    WorkPlan               trial;  /* what one takes */
+    int                    to_come; /* of them, as they are planned */
     ReviewMend             out;
 } Mending;
 
@@ -33,6 +36,16 @@ static void note(Mending *m, double value, const Review *review, bool is_fresh)
         (ReviewTrial){m->scale * value, review_verdict(review),
                       least ? least->margin : (double)NAN, is_fresh,
                       least ? words_case(least, m->arena) : NULL};
+}
+
+/* How many more trials are thought of, now. */
+static void expect(Mending *m, int trials)
+{
+    WorkPlan before = {{0}}, now = {{0}};
+    work_plan_add(&before, &m->trial, m->to_come);
+    work_plan_add(&now, &m->trial, trials);
+    work_replan(m->run->work, &before, &now);
+    m->to_come = trials;
 }
 
 /* Does everything pass there? fresh: by other paths, and no more of them than a review by
@@ -48,8 +61,9 @@ static bool try_value(Mending *m, double value, int fresh, bool *passes, Error *
     request.is_compared = fresh == 0;
     run.request = &request;
     run.rider_count = 0;
-    if (run.work->done + m->work > run.work->total) run.work->total += m->work;
+    if (m->to_come < 1) expect(m, 1);
     if (!review_variant(&run, &variant, m->base, m->arena, &found, err)) return false;
+    m->to_come--;
     note(m, value, found.review, fresh > 0);
     *passes = review_verdict(found.review) == VERDICT_PASS;
     return true;
@@ -105,6 +119,8 @@ static bool expand(Mending *m, Side sides[2], Side **side, double *found, Error 
 static bool narrow(Mending *m, Side *side, double *found, Error *err)
 {
     while (*found - side->last > fmax(m->parameter->step / FINE, 0.02 * *found)) {
+        double gap = fmax(m->parameter->step / FINE, 0.02 * *found);
+        expect(m, (int)ceil(log2_d((*found - side->last) / gap)) + FRESH_TIMES);
         double middle = 0.5 * (*found + side->last);
         bool   passes;
         if (!try_value(m, value_at(m->parameter, side->sign, middle), 0, &passes, err))
@@ -118,6 +134,7 @@ static bool narrow(Mending *m, Side *side, double *found, Error *err)
 static bool is_confirmed(Mending *m, double value, bool *out, Error *err)
 {
     *out = true;
+    expect(m, FRESH_TIMES);
     for (int fresh = 1; fresh <= FRESH_TIMES && *out; fresh++)
         if (!try_value(m, value, fresh, out, err)) return false;
     return true;
@@ -181,19 +198,15 @@ static bool search(Mending *m, Error *err)
 bool review_mend(const ReviewRun *run, const ReviewParameter *parameter,
                  ReviewOutcome *outcome, Arena *arena, Error *err)
 {
-    Review  *review = &outcome->review;
-    double   work = work_of_conditions(run->request, true);
-    Progress part = progress_part(run->work, WORK_TRIALS * work, WORK_TRIALS * work);
-    ReviewRun own = *run;
-    own.work = &part;
-    Mending m = {.run = &own, .parameter = parameter, .base = review, .arena = arena,
-                 .work = work};
+    Review *review = &outcome->review;
+    Mending m = {.run = run, .parameter = parameter, .base = review, .arena = arena,
+                 .trial = work_of_conditions(run->request, true), .to_come = WORK_TRIALS};
     m.out = (ReviewMend){.name = parameter->name,
                          .unit = review_parameter_unit(parameter, &m.scale),
                          .trials = ARENA_NEW(arena, ReviewTrial, TRIALS_MOST)};
     m.out.at = m.scale * parameter->at;
     if (!search(&m, err)) return false;
-    progress_end(&part, part.total);
+    expect(&m, 0);
     ReviewMend *list = ARENA_NEW(arena, ReviewMend, review->mend_count + 1);
     for (int i = 0; i < review->mend_count; i++) list[i] = review->mends[i];
     list[review->mend_count++] = m.out;

@@ -110,7 +110,13 @@ static Vec3 face_normal(const NodeSurface *surface, const SceneChange *change)
     return vec3_normalize(vec3(-change->ahead[0], 0, -change->ahead[2]));
 }
 
-static Transform move_of(const NodeSurface *surface, const SceneChange *change)
+static Vec3 vec3_of(const float v[3])
+{
+    return vec3(v[0], v[1], v[2]);
+}
+
+/* Turned about its middle. */
+static Transform turns_of(const NodeSurface *surface, const SceneChange *change)
 {
     const Vec3 up = vec3(0, 1, 0);
     Vec3 n = face_normal(surface, change);
@@ -120,9 +126,28 @@ static Transform move_of(const NodeSurface *surface, const SceneChange *change)
     Transform turn = about(middle, up, change->turn);
     Transform roll = about(middle, n, -change->roll);
     Transform all = transform_compose(&tilt, &turn);
-    all = transform_compose(&all, &roll);
-    const float *m = change->move_m;
-    all.origin = vec3_add(all.origin, vec3(m[0], m[1], m[2]));
+    return transform_compose(&all, &roll);
+}
+
+static bool has_turns(const SceneChange *change)
+{
+    return change->tilt != 0 || change->turn != 0 || change->roll != 0;
+}
+
+/* top: the named node's place; origin_m: the scene's. */
+static Transform move_of(const NodeSurface *surface, const SceneChange *change,
+                         const Transform *top, const double origin_m[3])
+{
+    const SceneHinge *h = &change->hinge;
+    Transform all = has_turns(change) ? turns_of(surface, change)
+                                      : about(vec3(0, 0, 0), vec3(0, 1, 0), 0);
+    if (h->angle != 0) {
+        Vec3      through = h->is_own ? top->origin
+                                      : scene_from_world(origin_m, h->through_m);
+        Transform swing = about(through, vec3_of(h->axis), h->angle);
+        all = transform_compose(&swing, &all);
+    }
+    all.origin = vec3_add(all.origin, vec3_of(change->move_m));
     return all;
 }
 
@@ -185,13 +210,14 @@ static void change_nodes(GltfFile *file, const SceneChange *change)
         if (!mark(file, parent, change, change->with[i], is_moved)) return;
     int         top = find_node(file, change, change->name);
     NodeSurface surface = surface_of(file, parent, top);
-    if (!(surface.low.x <= surface.high.x)) {
+    if (has_turns(change) && !(surface.low.x <= surface.high.x)) {
         problems_add(file->load->problems, SEVERITY_ERROR, change->file, change->place,
                      "node \"%.100s\" of %.200s has no surface to turn about: wanted one with "
                      "triangles", change->name, file->path);
         return;
     }
-    Transform move = move_of(&surface, change);
+    Transform move = move_of(&surface, change, &file->world_from_node[top],
+                             file->load->origin);
     NodePlace exact = node_place_of(&move);
     for (int i = 0; i < nodes->count; i++)
         if (is_moved[i]) {

@@ -10,12 +10,13 @@
  *          body) or straight up or down the normal is taken as against where the vehicle
  *          points.
  *          roll turns it clockwise as seen by who faces it, then turn to their right about the
- *          vertical, then tilt up about the surface's own level axis as it stood before.
+ *          vertical, then tilt up about the surface's own level axis as it stood before; then
+ *          about its hinge, which is given in the scene's axes, wherever its surface is.
  * Units    radians, m.
  * Memory   in the loader's scratch.
  * Threads  one at a time.
  * Fails    into the loader's problems: a node is missing, not the only one of its name, or has
- *          no surface to turn about.
+ *          no surface of which tilt, turn and roll could be.
  */
 #pragma once
 #include "scene/gltf/loader.h"

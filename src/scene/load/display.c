@@ -236,6 +236,36 @@ void displays_override(Loader *load)
     apply(load, (Overrides){"--display-level", o->levels, o->level_count, set_level});
 }
 
+/* ---- what is tried out ------------------------------------------------------------------- */
+
+/* Of all displays of the material; returns how many there are. */
+static int set_finish(Loader *load, const char *material, const DisplayFinish *finish)
+{
+    int count = 0;
+    for (int i = 0; i < load->displays.count; i++) {
+        Display *display = list_item(&load->displays, i);
+        if (strcmp(display->name, material) != 0) continue;
+        display->finish = *finish;
+        count++;
+    }
+    return count;
+}
+
+void displays_change(Loader *load)
+{
+    for (int i = 0; i < load->options->change_count; i++) {
+        const SceneChange *change = &load->options->changes[i];
+        const char        *name = change->name;
+        if (change->kind != CHANGE_FINISH) continue;
+        if (wearer_is_named(name) && !is_material(load, name)) {
+            int id = wearer_material(load, change->place, name);
+            if (id == NO_ID) continue; /* it is reported */
+            name = ((const Material *)list_item(&load->materials, id))->name;
+        }
+        load->change_uses[i] += set_finish(load, name, &change->finish);
+    }
+}
+
 /* ---- what is checked when all files are read ------------------------------------------- */
 
 static const Panel *find_panel(const Loader *load, int before, const char *path)

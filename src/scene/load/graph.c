@@ -5,6 +5,7 @@
 
 #include "base/mathd.h"
 #include "base/units.h"
+#include "scene/change/mirror_change.h"
 #include "scene/change/node_change.h"
 #include "scene/gltf/document.h"
 #include "scene/load/environment.h"
@@ -21,6 +22,8 @@ static void add_camera(GltfFile *file, const GltfValue *node, const Transform *w
     const GltfValue *flat = tree_member(camera, "orthographic");
     if (!eye && !flat) return; /* of a type that an extension adds */
     float xmag = fabsf(tree_float(flat, "xmag", 1)), ymag = fabsf(tree_float(flat, "ymag", 1));
+    /* a mirrored node's camera takes no mirrored picture (glTF 2.0, 3.10.2) */
+    float side = transform_determinant(world) < 0 ? -1.0f : 1.0f;
     *(SceneCamera *)list_add(&file->load->cameras, &file->load->scratch) =
         (SceneCamera){.node_name = load_keep(file->load, tree_text(node, "name", "")),
                       .camera_name = load_keep(file->load, tree_text(camera, "name", "")),
@@ -30,7 +33,8 @@ static void add_camera(GltfFile *file, const GltfValue *node, const Transform *w
                       .aspect = eye ? tree_float(eye, "aspectRatio", 0) : xmag / ymag,
                       .znear = tree_float(eye ? eye : flat, "znear", 0),
                       .zfar = tree_float(eye ? eye : flat, "zfar", INFINITY),
-                      .world_from_camera = {vec3_normalize(world->x), vec3_normalize(world->y),
+                      .world_from_camera = {vec3_scale(vec3_normalize(world->x), side),
+                                            vec3_normalize(world->y),
                                             vec3_normalize(world->z), world->origin}};
 }
 
@@ -148,6 +152,7 @@ void graph_build(GltfFile *file)
     if (nodes) {
         nodes_enter_scene(file);
         nodes_change(file);
+        nodes_mirror(file);
         load_progress_begin(file->load, "place", "nodes", file->shown_count);
         for (int i = 0; i < file->shown_count; i++) {
             const GltfValue *node = &nodes->items[file->shown[i]];

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "scene/change/material_change.h"
+#include "scene/change/mirror_change.h"
 #include "scene/check/check.h"
 #include "scene/check/check_data.h"
 #include "scene/check/check_graph.h"
@@ -330,7 +331,7 @@ static const char **names_for(Loader *load, SceneChangeKind kind, int *count)
     *count = 0;
     for (int i = 0; i < load->materials.count; i++) {
         const Material *m = list_item(&load->materials, i);
-        if (kind != CHANGE_HOOD || m->display_id != NO_ID) names[(*count)++] = m->name;
+        if (kind == CHANGE_MATERIAL || m->display_id != NO_ID) names[(*count)++] = m->name;
     }
     return names;
 }
@@ -339,7 +340,8 @@ static const char **names_for(Loader *load, SceneChangeKind kind, int *count)
 static void report_unused_changes(Loader *load)
 {
     static const char *const WHAT[] = {
-        [CHANGE_NODES] = "node", [CHANGE_MATERIAL] = "material", [CHANGE_HOOD] = "display"};
+        [CHANGE_NODES] = "node", [CHANGE_MATERIAL] = "material", [CHANGE_HOOD] = "display",
+        [CHANGE_FINISH] = "display"};
     for (int i = 0; i < load->options->change_count; i++) {
         const SceneChange *change = &load->options->changes[i];
         char advice[600];
@@ -348,7 +350,7 @@ static void report_unused_changes(Loader *load)
             problems_add(load->problems, SEVERITY_ERROR, change->file, change->place,
                          "nodes of %d files are named \"%.100s\", wanted one",
                          load->change_uses[i], change->name);
-        if (load->change_uses[i] > 0) continue;
+        if (load->change_uses[i] > 0 || change->kind == CHANGE_MIRROR) continue;
         const char **names = names_for(load, change->kind, &count);
         problems_add(load->problems, SEVERITY_ERROR, change->file, change->place,
                      "no %s is named \"%.100s\" — %s", WHAT[change->kind], change->name,
@@ -367,7 +369,10 @@ Scene *scene_survey(const SceneOptions *options, ProgressMode progress, Arena *a
     load_files(&load);
     pose_report_missing(&load);
     luminaires_finish(&load);
+    mirror_scene_origin(&load);
     displays_override(&load);
+    displays_change(&load);
+    displays_mirror(&load);
     hoods_build(&load);
     report_unused_changes(&load);
     displays_finish(&load);
