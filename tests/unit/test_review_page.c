@@ -351,9 +351,41 @@ TEST(the_mark_follows_the_kind_of_the_limit)
         review_bar_add_luminances(&html, &c, &arena);
         assert_non_null(strstr(html.data, arena_format(&arena, ">%s needs", FORMS[i].words)));
         double dark = 100 + (i == 3 ? 100.0 / 3 : 0), most = dark + c.luminance_cd_m2.foreground;
-        most = fmax(most + (i == 3 ? 0 : 100.0 / 3), 1.02 * FORMS[i].ratio * dark);
+        most = fmax(most, 1.02 * FORMS[i].ratio * dark);
         double mark = attribute_of(html.data, "mark", "x") / 100;
         assert_near(mark, FORMS[i].ratio * dark / most, 2e-3);
+    }
+}
+
+/* Where the upper bar ends, of the scale's 100. */
+static double bright_end(const char *svg)
+{
+    double end = 0;
+    for (const char *at = svg; (at = strstr(at, " y=\"18\" width=\"")); at++)
+        end += strtod(at + 15, NULL);
+    return end;
+}
+
+/* Whatever veil lies over it, and however its two reflections were estimated: the bright bar is
+ * as far beyond the mark as the judged contrast is beyond its limit. */
+TEST(no_bar_passes_its_mark_under_a_fail)
+{
+    static const double VEILS[] = {0, 5, 80, 1000}, LIMITS[] = {1.5, 2, 3, 10};
+    for (int i = 0; i < 32; i++) {
+        double veil = VEILS[i % 4], value = LIMITS[i / 4 % 4], added = 100 + veil * (i / 16);
+        ReviewCase   c = {.luminance_cd_m2 = {91, 2, 100, 55, 35, veil},
+                          .contrast_ratio = 191 / 102.0,
+                          .contrast_with_veil = (191 + veil) / (102 + veil),
+                          .limit_count = 1};
+        LimitVerdict limit = {.kind = "contrast_ratio", .unit = "1", .value = value,
+                              .found = (91 + added) / (2 + added)};
+        Text         html = {.arena = &arena};
+        c.limits = &limit;
+        review_bar_add_luminances(&html, &c, &arena);
+        assert_close(bright_end(html.data) / attribute_of(html.data, "mark", "x"),
+                     limit.found / value, 1e-4);
+        bool is_told = strstr(html.data, "in the eye, not in this contrast") != NULL;
+        assert_int_equal(is_told, i < 16 || veil == 0);
     }
 }
 
