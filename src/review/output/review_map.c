@@ -256,7 +256,8 @@ static void add_map_keys(Text *html, const ReviewMap *map)
     add_key(html, PASSING, "just above");
     add_key(html, BEST, "margin +100 % or more");
     if (holds(map, VERDICT_UNJUDGED)) add_key(html, HIDDEN, "cannot be judged");
-    if (holds(map, GAP)) add_key(html, NONE, "no answer");
+    if (holds(map, GAP))
+        add_key(html, NONE, map->is_between_steps ? "the sun is never there" : "no answer");
     text_add(html, "</div>\n");
 }
 
@@ -270,8 +271,11 @@ static void add_map_labels(Text *html, const ReviewMap *map, Arena *arena)
     add_map_keys(html, map);
     page_element(html, "figcaption", arena_format(
         arena, "Contrast against its limit, with the sun at every place of the sky; inside the "
-        "dark line it fails.%s", map->path_count > 0
-        ? " Dashed: the sun's way over the sky on these days." : ""));
+        "dark line it fails.%s%s",
+        map->is_between_steps ? " Where the sun passes between two steps that were computed, "
+                                "the nearer one's answer is shown; a cell shows the worst of "
+                                "its own steps." : "",
+        map->path_count > 0 ? " Dashed: the sun's way over the sky on these days." : ""));
 }
 
 /* Contrast of 1 to 10,000 by its logarithm, within 0.06 %. */
