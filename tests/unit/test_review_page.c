@@ -234,7 +234,8 @@ TEST(sweeps_that_fail_come_first)
     const char *fails = strstr(link, " open><summary><span class=\"chip bad\">");
     const char *fold = strstr(fails, "1 that passes");
     assert_true(strstr(fails, " id=\"s1\"") < fold && strstr(page, " id=\"s0\"") > fold);
-    review.sweeps[1].failed_share = 0; /* an eye box: its middle never fails */
+    review.sweeps[1].failed_share = 0;
+    review.sweeps[1].worst.eye_failed_share = NAN; /* one eye */
     assert_string_equal(words_often(&review.sweeps[0], &arena), "never");
     assert_string_equal(words_often(&review.sweeps[1], &arena), "at worst");
     review.sweeps[1].failed_share = 0.04;
@@ -243,6 +244,35 @@ TEST(sweeps_that_fail_come_first)
     review.sweeps[1].longest_failure_minutes = NAN; /* directions alone */
     assert_string_equal(words_how_often(&review.sweeps[1], &arena),
                         "4.0 % of the sun's directions");
+}
+
+/* The share of eyes at the worst moment, and that of time of the middle one, each by its name;
+ * no share stands without one. */
+TEST(an_eye_box_names_whose_share_it_is)
+{
+    static const struct { double eyes, failed, minutes; const char *often, *how_often; } BOX[] = {
+        {0.44, 0.012, 30, "44 % of eyes",
+         "44 % of eyes at its worst, the middle eye 1.2 % of the time"},
+        {0.44, 0, 0, "44 % of eyes", "44 % of eyes at its worst, the middle eye never"},
+        {1, 0.5, NAN, "100 % of eyes",
+         "100 % of eyes at its worst, the middle eye 50 % of the sun's directions"}};
+    for (int i = 0; i < 3; i++) {
+        Review       review = fixture_review(&arena);
+        ReviewSweep *s = &review.sweeps[0];
+        s->worst.eye_failed_share = BOX[i].eyes;
+        s->failed_share = BOX[i].failed;
+        s->longest_failure_minutes = BOX[i].minutes;
+        assert_string_equal(words_often(s, &arena), BOX[i].often);
+        assert_string_equal(words_how_often(s, &arena), BOX[i].how_often);
+        review.sweep_count = 1;
+        const char *page = page_of(&(ReviewPage){.review = &review});
+        const char *card = strstr(page, "<h2>Every sun, every hour");
+        assert_non_null(strstr(card, BOX[i].how_often));
+        assert_non_null(strstr(card, "of eyes fail at its worst"));
+        assert_non_null(strstr(card, "the middle eye fails"));
+        assert_null(strstr(card, "of the time it fails"));
+        assert_null(strstr(card, "directions it fails"));
+    }
 }
 
 /* Top: the answer, the worst symbol, when, why; the limit that nobody read is marked. */

@@ -261,6 +261,12 @@ static void add_map_keys(Text *html, const ReviewMap *map)
     text_add(html, "</div>\n");
 }
 
+/* A sweep goes by the middle of an eye's box. */
+static const char *whose_words(const ReviewSweep *sweep)
+{
+    return sweep && sweep_has_box(sweep) ? " As the middle eye of the box sees it." : "";
+}
+
 static void add_map_labels(Text *html, const ReviewMap *map, Arena *arena)
 {
     for (int i = 0; i < map->path_count; i++) add_path_name(html, map, &map->paths[i]);
@@ -271,7 +277,8 @@ static void add_map_labels(Text *html, const ReviewMap *map, Arena *arena)
     add_map_keys(html, map);
     page_element(html, "figcaption", arena_format(
         arena, "Contrast against its limit, with the sun at every place of the sky; inside the "
-        "dark line it fails.%s%s",
+        "dark line it fails.%s%s%s",
+        whose_words(map->of),
         map->is_between_steps ? " Where the sun passes between two steps that were computed, "
                                 "the nearer one's answer is shown; a cell shows the worst of "
                                 "its own steps." : "",
@@ -406,8 +413,9 @@ bool review_map_add_calendar(Text *html, const ReviewCalendar *calendar, Arena *
     add_calendar_keys(html, calendar);
     page_element(html, "figcaption",
                  arena_format(arena, "Every day from left to right, every hour from below "
-                              "(%s); %d heading%s of the vehicle.", calendar->clock,
-                              calendar->headings, calendar->headings == 1 ? "" : "s"));
+                              "(%s); %d heading%s of the vehicle.%s", calendar->clock,
+                              calendar->headings, calendar->headings == 1 ? "" : "s",
+                              whose_words(calendar->of)));
     text_add(html, "</figure>\n");
     return true;
 }

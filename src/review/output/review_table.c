@@ -113,6 +113,17 @@ void review_table_add_matrix(Text *html, const Review *review, Arena *arena)
 
 /* ---- sweeps at a glance ----------------------------------------------------------------- */
 
+/* Of what the share is that stands above it; "": there is none. */
+static const char *share_words(const ReviewSweep *s, Arena *arena)
+{
+    bool fails = sweep_verdict(s) == VERDICT_FAIL, is_share = fails && s->failed_share > 0;
+    if (fails && sweep_has_box(s))
+        return arena_format(arena, "middle eye %s%s%s · worst ",
+                            is_share ? words_share(s->failed_share, arena) : "never",
+                            is_share ? " " : "", is_share ? words_of_what(s) : "");
+    return is_share ? arena_format(arena, "%s · worst ", words_of_what(s)) : "";
+}
+
 static void add_sweep_cell(Text *html, const Matrix *m, const char *across, const char *down,
                            Arena *arena)
 {
@@ -127,8 +138,8 @@ static void add_sweep_cell(Text *html, const Matrix *m, const char *across, cons
                 review_card_link(m->review, &s->worst, arena), words_mark(verdict),
                 words_often(s, arena));
     page_element(html, "small",
-                 arena_format(arena, "%s%s%s", words_judged(&s->worst, arena),
-                              limit ? limit->is_upper ? " · ≤ " : " · ≥ " : "",
+                 arena_format(arena, "%s%s%s%s", share_words(s, arena),
+                              words_judged(&s->worst, arena), limit ? limit->is_upper ? " · ≤ " : " · ≥ " : "",
                               limit ? words_limit(limit, arena) : ""));
     text_add(html, "</a></td>");
 }
