@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Pictures of a review's page: in it or beside it, once each, and the lines over them. */
+#include "review/output/review_words.h"
 #include "review_page_fixture.h"
 
 TEST(pictures_go_into_the_page_as_they_stand)
@@ -88,6 +89,48 @@ TEST(a_variants_pair_stands_before_its_cases)
     assert_false(review_page_write(&page, path, why()));
     assert_string_equal(why()->file, file);
     remove(path);
+}
+
+/* One display is lifted from 24 to 114 : 1, another has the least margin and stays: the row
+ * shows both, in the limit's quantity, and shares of time and of directions by their names. */
+TEST(a_variants_row_shows_what_moves_most_and_the_least)
+{
+    Review       review = fixture_review(&arena), changed = fixture_review(&arena);
+    const char  *changes[] = {"hood of 40 mm"};
+    ReviewCase  *before = &review.cases[4], *after = &changed.cases[4];
+    LimitVerdict limits[2] = {before->limits[0], after->limits[0]};
+    limits[0].found = limits[0].low = limits[0].high = 24;
+    limits[1].found = limits[1].low = limits[1].high = 114;
+    before->limits = &limits[0];
+    after->limits = &limits[1];
+    before->limit_count = after->limit_count = 1;
+    ReviewDifference all[3] = {{&review.cases[3], &changed.cases[3], NULL, NULL, 0, {0, 0}},
+                               {before, after, NULL, NULL, 0.5, {0.49, 0.51}},
+                               {&review.cases[1], &changed.cases[1], NULL, NULL, -0.1,
+                                {-0.11, -0.09}}};
+    ReviewVariantFound variant = {.name = "hood", .words = changes, .word_count = 1,
+                                  .review = &changed, .differences = all,
+                                  .difference_count = 3, .worst = all[0]};
+    const char *least = words_ratio(review.cases[3].limits[0].found, &arena);
+    changed.sweeps[0].longest_failure_minutes = NAN;
+    changed.sweeps[0].failed_share = 0.005;
+    changed.sweeps[1].longest_failure_minutes = 4;
+    changed.sweeps[1].failed_share = 0.02;
+    for (int i = 0; i < 2; i++) changed.sweeps[i].worst.eye_failed_share = NAN;
+    review.variants = &variant;
+    review.variant_count = 1;
+    const char *row = strstr(page_of(&(ReviewPage){.review = &review}), "<b>hood</b>");
+    row = arena_string(&arena, row, (size_t)(strstr(row, "</table>") - row));
+    assert_non_null(strstr(row, "<b>24.0 → 114 : 1</b>"));
+    assert_non_null(strstr(row, arena_format(&arena, "→ %s</b>", least)));
+    assert_non_null(strstr(row, words_case(after, &arena)));
+    assert_non_null(strstr(row, words_case(&changed.cases[3], &arena)));
+    assert_non_null(strstr(row, "2.0 % of the time; 0.5 % of the sun's directions"));
+    after->unjudged = UNJUDGED_HIDDEN; /* it moves more than any figure can */
+    after->verdict = VERDICT_UNJUDGED;
+    all[2].margin = -9;
+    row = strstr(page_of(&(ReviewPage){.review = &review}), "<b>hood</b>");
+    assert_non_null(strstr(row, "<b>24.0 : 1 → hidden</b>"));
 }
 
 /* The eye at the origin looks along -z, a right angle wide. */
