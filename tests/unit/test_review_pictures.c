@@ -184,10 +184,55 @@ TEST(the_first_screen_has_a_line_around_its_symbol)
     c->rim_count = 4;
     assert_int_equal(count_of(page_of(&page),
                               "d=\"M88.0 57.0L112.0 57.0L112.0 43.0L88.0 43.0Z\""), 2);
+    assert_int_equal(count_of(page_of(&page), "class=\"close-up\""), 0);
+    shown.beside = "frames/a.png";
+    assert_int_equal(count_of(page_of(&page),
+                              "d=\"M88.0 57.0L112.0 57.0L112.0 43.0L88.0 43.0Z\""), 4);
     c->rim = BEHIND;
     c->rim_count = 3;
     assert_int_equal(count_of(page_of(&page), "class=\"rim\""), 0);
     remove(file);
+}
+
+/* Beside the frame, from the same picture: its viewBox has the frame's proportions, lies within
+ * it and is about the symbol, wherever in the frame that is. */
+TEST(the_first_screen_has_the_symbol_close_up)
+{
+    static const double MIDDLES[][2] = {{0, 0}, {0.9, 0.4}, {-0.95, -0.45}, {0.3, -0.2}};
+    static const double SIZES[] = {0.001, 0.03, 0.5};
+    for (int i = 0; i < 12; i++) {
+        const double *middle = MIDDLES[i % 4], size = SIZES[i / 4];
+        Review        review = fixture_review(&arena);
+        ReviewCase   *c = (ReviewCase *)(void *)review_worst(&review, arena);
+        const char   *file = fresh_name(".png");
+        Vec3          rim[4];
+        for (int k = 0; k < 4; k++) {
+            double x = middle[0] + (k % 3 ? size : -size) / 2;
+            double y = middle[1] + (k < 2 ? -size : size) / 4;
+            rim[k] = vec3((float)x, (float)y, -1);
+        }
+        c->view = &VIEW;
+        c->rim = rim;
+        c->rim_count = 4;
+        ReviewPicture shown = {.of = c, .title = "frame", .file = file, .view = &VIEW,
+                               .is_frame = true, .beside = "frames/a&b.png"};
+        assert_done(file_write(file, "Man", 3, &err));
+        const char *at = strstr(page_of(&(ReviewPage){.review = &review, .pictures = &shown,
+                                                      .picture_count = 1}), "\"close-up\"");
+        double box[4];
+        assert_non_null(at);
+        assert_int_equal(sscanf(strstr(at, "viewBox"), "viewBox=\"%lf %lf %lf %lf\"", &box[0],
+                                &box[1], &box[2], &box[3]), 4);
+        double x = 100 * (1 + middle[0]), y = 50 * (1 - 2 * middle[1]);
+        assert_near(box[2], 2 * box[3], 0.11);
+        assert_true(box[2] >= 24 && box[2] <= 80);
+        assert_true(box[0] >= 0 && box[1] >= 0 && box[0] + box[2] <= 200.06 &&
+                    box[1] + box[3] <= 100.06);
+        assert_true(box[0] < x && x < box[0] + box[2] && box[1] < y && y < box[1] + box[3]);
+        assert_non_null(strstr(at, "<image width=\"200\" height=\"100\" "
+                                   "href=\"frames/a&amp;b.png\"/>"));
+        remove(file);
+    }
 }
 
 TEST(a_picture_of_several_cards_stands_once)

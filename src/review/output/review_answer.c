@@ -343,14 +343,38 @@ static const ReviewPicture *frame_of(const ReviewAnswer *answer, const ReviewCas
     return NULL;
 }
 
+/* The part of the frame about the symbol, larger; of a frame that stands elsewhere. */
+static void add_close_up(Text *html, const ReviewPicture *frame)
+{
+    const CaseView *view = frame->of->view;
+    double          box[4];
+    if (!(frame->beside || frame->id) || !review_rays_close_up(frame->of, box)) return;
+    text_format(html, "<svg class=\"close-up\" viewBox=\"%.1f %.1f %.1f %.1f\" role=\"img\" "
+                "preserveAspectRatio=\"xMidYMid slice\" aria-label=\"close-up: ", box[0],
+                box[1], box[2], box[3]);
+    escape_markup(html, frame->of->symbol);
+    if (frame->beside) {
+        text_format(html, "\"><image width=\"%d\" height=\"%d\" href=\"", view->width,
+                    view->height);
+        escape_markup(html, frame->beside);
+        text_add(html, "\"/>");
+    } else {
+        text_format(html, "\"><use href=\"#%s\"/>", frame->id);
+    }
+    review_rays_add_line(html, frame->of);
+    text_add(html, "</svg>");
+}
+
 /* The case's card has it, too: there it stands. */
 static bool add_frame(Text *html, const ReviewPicture *frame, Arena scratch, Error *err)
 {
     ReviewPicture shown = *frame;
     shown.is_again = shown.id != NULL;
-    text_add(html, "<div class=\"shown\">");
+    text_add(html, "<div class=\"views\"><div class=\"shown\">");
     if (!review_card_add_picture(html, &shown, scratch, err)) return false;
     review_rays_add_rim(html, shown.of);
+    text_add(html, "</div>");
+    add_close_up(html, &shown);
     text_add(html, "</div>\n");
     return true;
 }
