@@ -218,8 +218,10 @@ CUT = ("[...document.querySelectorAll('.grid .wide')].filter(w=>w.scrollWidth>w.
 def check_names(report, program, parhelion):
     """Three eyes and symbols with long names: at 1280 px the grid is whole, no word of it is
     broken, and an eye to which a height is too small is told the contrast, too, all of it above
-    the fold. Four eyes whose names cannot stand beside each other: those left out are counted."""
-    names = ("Geschwindigkeitsanzeige", "remaining range in kilometres", "N1", "map's next turn")
+    the fold. Five eyes whose names cannot stand beside each other: those left out are
+    counted."""
+    names = ("Geschwindigkeitsanzeige", "remaining range in kilometres", "N1",
+             "map's next turn")
     eyes = {"driver (5th percentile female)": 0.7, "Beifahrersitzposition, tall driver": 0.8,
             "eye box of the manufacturer": 5}
     more = {"Fahrersitzhöhenverstellungsposition": 0.75, "Beifahrersitzlehnenposition": 0.85}

@@ -250,7 +250,10 @@ TEST(sweeps_that_fail_come_first)
  * no share stands without one. */
 TEST(an_eye_box_names_whose_share_it_is)
 {
-    static const struct { double eyes, failed, minutes; const char *often, *how_often; } BOX[] = {
+    static const struct {
+        double eyes, failed, minutes;
+        const char *often, *how_often;
+    } BOX[] = {
         {0.44, 0.012, 30, "44 % of eyes",
          "44 % of eyes at its worst, the middle eye 1.2 % of the time"},
         {0.44, 0, 0, "44 % of eyes", "44 % of eyes at its worst, the middle eye never"},

@@ -41,7 +41,8 @@ static size_t cell_of(const ReviewMap *map, const SweepSun *sun)
 
 static double apart_deg(const SweepSun *sun, double azimuth_deg, double elevation_deg)
 {
-    double a = radians_from_degrees(sun->elevation_deg), b = radians_from_degrees(elevation_deg);
+    double a = radians_from_degrees(sun->elevation_deg);
+    double b = radians_from_degrees(elevation_deg);
     double turn = radians_from_degrees(sun->azimuth_deg - azimuth_deg);
     double cosine = sin(a) * sin(b) + cos(a) * cos(b) * cos(turn);
     return degrees_from_radians(acos(fmin(fmax(cosine, -1), 1)));
@@ -80,8 +81,8 @@ static void assert_no_holes(const ReviewMap *map, const SweepSuns *fine, Arena *
         if (!isnan(map->contrast[i]) && !is_near[i]) fail_msg("cell %d is nobody's", i);
 }
 
-/* Every answer is a step's own, with its margin and verdict, and that step's sun is at most half
- * a step away from the cell. */
+/* Every answer is a step's own, with its margin and verdict, and that step's sun is at most
+ * half a step away from the cell. */
 static void assert_all_of_steps(const ReviewMap *map, const SweepTable *table)
 {
     for (int i = 0; i < map->azimuth_deg.count * map->elevation_deg.count; i++) {

@@ -21,7 +21,8 @@ const char *review_rays_id(const char *card_id, int i, Arena *arena);
  * where a picture of object-fit: cover is. Nothing where the symbol's rim is not known. */
 void review_rays_add_rim(Text *html, const ReviewCase *c);
 
-/* The same line alone, of a drawing in the frame's pixels: <g class="rim">. The rim is known. */
+/* The same line alone, of a drawing in the frame's pixels: <g class="rim">. The rim must be
+ * known. */
 void review_rays_add_line(Text *html, const ReviewCase *c);
 
 /* What of the frame shows the symbol close up, with about it what is on its display: left, top,

@@ -137,10 +137,11 @@ static void add_sweep_cell(Text *html, const Matrix *m, const char *across, cons
     text_format(html, "<td class=\"%s\"><a href=\"%s\"><b>%s %s</b>", words_class(verdict),
                 review_card_link(m->review, &s->worst, arena), words_mark(verdict),
                 words_often(s, arena));
-    page_element(html, "small",
-                 arena_format(arena, "%s%s%s%s", share_words(s, arena),
-                              words_judged(&s->worst, arena), limit ? limit->is_upper ? " · ≤ " : " · ≥ " : "",
-                              limit ? words_limit(limit, arena) : ""));
+    const char *required = !limit ? "" : arena_format(arena, " · %s %s",
+                                                      limit->is_upper ? "≤" : "≥",
+                                                      words_limit(limit, arena));
+    page_element(html, "small", arena_format(arena, "%s%s%s", share_words(s, arena),
+                                             words_judged(&s->worst, arena), required));
     text_add(html, "</a></td>");
 }
 

@@ -186,8 +186,10 @@ ReviewMap sweep_map(const SweepTable *table, const ReviewSweep *sweep, double st
     SunWay    way = {table, &map, &cells,
                      ARENA_NEW(arena, float, azimuth.count * elevation.count)};
     for (int i = 0; i < azimuth.count * elevation.count; i++) way.apart[i] = 1;
-    for (int i = 0; i < suns->count; i++)
-        offer(&way, i, cell_at(&map, suns->list[i].azimuth_deg, suns->list[i].elevation_deg), 0);
+    for (int i = 0; i < suns->count; i++) {
+        const SweepSun *sun = &suns->list[i];
+        offer(&way, i, cell_at(&map, sun->azimuth_deg, sun->elevation_deg), 0);
+    }
     map.is_between_steps = suns->step_minutes > 0;
     if (map.is_between_steps) fill_between(&way, *arena);
     return map;
