@@ -245,6 +245,10 @@ def check_names(report, program, parhelion):
                 report.claim(shown == 3 if len(which) == 3 else 1 <= shown < 5 and
                              f"the worst {shown} of 5 eyes" in seen,
                              f"{shown} of {len(which)} eyes in {seen[:400]!r}")
+                page.resize(390, 844)
+                broken = page.run(BROKEN % ".grid td")
+                report.claim(not broken, f"{len(which)} eyes, 390 px: broken words {broken}")
+                report.claim(page.run(CUT) == 0, f"{len(which)} eyes, 390 px: cut off")
                 small = page.run("document.querySelector('.grid td.bad').innerText")
                 report.claim(re.search(r"arc min high\s+contrast [\d.]+ : 1", small),
                              f"a height that fails: {small!r}")

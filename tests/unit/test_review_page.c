@@ -526,6 +526,25 @@ static const unsigned char *values_behind(const char *at, size_t cells)
     return bytes;
 }
 
+/* A year's map says whose answer stands between its steps, and an eye box's whose eye it is;
+ * a map of directions says neither. */
+TEST(a_map_says_what_its_cells_are)
+{
+    Review review = fixture_review(&arena);
+    for (int i = 0; i < 4; i++) {
+        Text      html = {.arena = &arena};
+        ReviewMap map = fixture_map(&arena, &review.sweeps[0]);
+        ENDS_BY(arena_release) Arena scratch = arena_reserve((size_t)1 << 26);
+        map.is_between_steps = i & 1;
+        review.sweeps[0].worst.eye_failed_share = i & 2 ? 0.25 : (double)NAN;
+        assert_done(review_map_add(&html, &map, &scratch, &err));
+        assert_int_equal(strstr(html.data, "the nearer one&#39;s answer is shown") != NULL,
+                         i & 1);
+        assert_int_equal(strstr(html.data, "As the middle eye of the box sees it") != NULL,
+                         i / 2);
+    }
+}
+
 /* What script tells at the pointer is the map's contrast within 0.06 %, and its verdict. */
 TEST(the_pointer_reads_what_the_map_shows)
 {

@@ -99,7 +99,8 @@ static void add_sight_facts(Text *html, const ReviewCase *c, Arena *arena)
     if (!isnan(c->eye_failed_share))
         page_fact(html, "Eyes that fail",
                   arena_format(arena, "%s of the places in the eye's box; the other figures "
-                               "are of its worst place", words_share(c->eye_failed_share, arena)));
+                               "are of its worst place",
+                               words_share(c->eye_failed_share, arena)));
     if (c->glare.threshold_cd_m2 > 0) add_glare_facts(html, &c->glare, arena);
 }
 

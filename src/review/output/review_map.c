@@ -257,7 +257,7 @@ static void add_map_keys(Text *html, const ReviewMap *map)
     add_key(html, BEST, "margin +100 % or more");
     if (holds(map, VERDICT_UNJUDGED)) add_key(html, HIDDEN, "cannot be judged");
     if (holds(map, GAP))
-        add_key(html, NONE, map->is_between_steps ? "the sun is never there" : "no answer");
+        add_key(html, NONE, map->is_between_steps ? "no sun was computed there" : "no answer");
     text_add(html, "</div>\n");
 }
 

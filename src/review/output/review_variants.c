@@ -124,6 +124,11 @@ static const char *unfailed_words(const Review *review, Arena *arena)
     return worst ? words_often(worst, arena) : "–";
 }
 
+static const char *share_words(const ReviewSweep *s, Arena *arena)
+{
+    return arena_format(arena, "%s %s", words_share(s->failed_share, arena), words_of_what(s));
+}
+
 /* "3.2 % of the sun's directions"; a share of time and one of directions are two. */
 static const char *failed_words(const Review *review, Arena *arena)
 {
@@ -131,9 +136,10 @@ static const char *failed_words(const Review *review, Arena *arena)
     for (int i = 0; i < 2; i++) {
         const ReviewSweep *s = failing_most(review, i == 0);
         if (!s) continue;
-        const char *share = s->failed_share > 0 ? words_share(s->failed_share, arena) : "0 %";
-        text_format(&text, "%s%s %s%s", text.data ? "; " : "", share, words_of_what(s),
-                    sweep_has_box(s) ? " for the middle eye" : "");
+        bool is_bare = sweep_has_box(s) && s->failed_share > 0;
+        text_format(&text, "%s%s%s", text.data ? "; " : "",
+                    is_bare ? share_words(s, arena) : words_how_often(s, arena),
+                    is_bare ? " for the middle eye" : "");
     }
     return text.data ? text.data : unfailed_words(review, arena);
 }
