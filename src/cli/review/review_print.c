@@ -50,10 +50,6 @@ static void print_sweep(const ReviewSweep *s, Arena scratch)
         print(", %.4g minutes at a stretch", s->longest_failure_minutes);
     if (sweep_has_box(s))
         print("; at its worst %.3g %% of eyes fail", 100 * s->worst.eye_failed_share);
-    if (s->longest_failure_minutes > 0)
-        print(", %.4g minutes at a stretch", s->longest_failure_minutes);
-    if (sweep_has_box(s))
-        print("; at its worst %.3g %% of eyes fail", 100 * s->worst.eye_failed_share);
     if (s->worst.has_sun)
         print("; worst at azimuth %.1f, elevation %.1f", s->worst.sun_azimuth_deg,
               s->worst.sun_elevation_deg);
