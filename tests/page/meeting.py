@@ -204,6 +204,56 @@ def check_gazes(report, program, parhelion):
             report.claim(right <= SCREEN[0], f"a table of gazes ends at {right} px")
 
 
+# Words of a table that are on more than one line, though they have no place to break.
+BROKEN = """(()=>{const out=[];for(const cell of document.querySelectorAll(%r)){
+const walk=document.createTreeWalker(cell,NodeFilter.SHOW_TEXT);
+while(walk.nextNode()){const n=walk.currentNode;for(const m of n.data.matchAll(/[^\\s-]+/g)){
+const r=document.createRange();r.setStart(n,m.index);r.setEnd(n,m.index+m[0].length);
+if(new Set([...r.getClientRects()].map(b=>Math.round(b.top))).size>1)out.push(m[0]);}}}
+return out;})()"""
+CUT = ("[...document.querySelectorAll('.grid .wide')].filter(w=>w.scrollWidth>w.clientWidth+1||"
+       "w.getBoundingClientRect().right>innerWidth).length")
+
+
+def check_names(report, program, parhelion):
+    """Three eyes and symbols with long names: at 1280 px the grid is whole, no word of it is
+    broken, and an eye to which a height is too small is told the contrast, too, all of it above
+    the fold. Five eyes whose names cannot stand beside each other: those left out are
+    counted."""
+    names = ("Geschwindigkeitsanzeige", "remaining range in kilometres", "N1",
+             "map's next turn")
+    eyes = {"driver (5th percentile female)": 0.7, "Beifahrersitzposition, tall driver": 0.8,
+            "eye box of the manufacturer": 5}
+    more = {"Fahrersitzhöhenverstellungsposition": 0.75, "Beifahrersitzlehnenposition": 0.85}
+    for which in (eyes, {**eyes, **more}):
+        with tempfile.TemporaryDirectory() as place:
+            reviewer, scene = glare.Reviewer(parhelion, place), Scene()
+            glare.screen(scene)
+            document = glare.request(
+                {"low sun from behind on the left": 30}, levels={"off": {"*": 1}},
+                eyes={name: {"position_m": [0, 0, z]} for name, z in which.items()},
+                symbols={name: {"display": "screen", "uv": [0.1, 0.1, 0.9, 0.9]}
+                         for name in names})
+            reviewer.review(scene, document)
+            index = os.path.join(place, "out", "index.html")
+            with browser.Browser(program, "file://" + index, SCREEN) as page:
+                report.claim(page.run(CUT) == 0, f"{len(which)} eyes: the grid is cut off")
+                broken = page.run(BROKEN % ".grid th,.grid td")
+                report.claim(not broken, f"{len(which)} eyes: broken words {broken}")
+                seen = page.run(SEEN)
+                shown = sum(name in seen for name in which)
+                report.claim(shown == 3 if len(which) == 3 else 1 <= shown < 5 and
+                             f"the worst {shown} of 5 eyes" in seen,
+                             f"{shown} of {len(which)} eyes in {seen[:400]!r}")
+                page.resize(390, 844)
+                broken = page.run(BROKEN % ".grid td")
+                report.claim(not broken, f"{len(which)} eyes, 390 px: broken words {broken}")
+                report.claim(page.run(CUT) == 0, f"{len(which)} eyes, 390 px: cut off")
+                small = page.run("document.querySelector('.grid td.bad').innerText")
+                report.claim(re.search(r"arc min high\s+contrast [\d.]+ : 1", small),
+                             f"a height that fails: {small!r}")
+
+
 def main(program, *folders):
     report, found, checker = Report(), browser.find(), axe()
     if not found:
@@ -212,6 +262,7 @@ def main(program, *folders):
     if not checker:
         report.skip("pages of reviews for screen readers: npm has no axe-core here")
     check_gazes(report, found, program)
+    check_names(report, found, program)
     for folder in folders:
         check_folder(report, found, os.path.abspath(folder), checker)
     if not folders:

@@ -234,7 +234,8 @@ TEST(sweeps_that_fail_come_first)
     const char *fails = strstr(link, " open><summary><span class=\"chip bad\">");
     const char *fold = strstr(fails, "1 that passes");
     assert_true(strstr(fails, " id=\"s1\"") < fold && strstr(page, " id=\"s0\"") > fold);
-    review.sweeps[1].failed_share = 0; /* an eye box: its middle never fails */
+    review.sweeps[1].failed_share = 0;
+    review.sweeps[1].worst.eye_failed_share = NAN; /* one eye */
     assert_string_equal(words_often(&review.sweeps[0], &arena), "never");
     assert_string_equal(words_often(&review.sweeps[1], &arena), "at worst");
     review.sweeps[1].failed_share = 0.04;
@@ -243,6 +244,38 @@ TEST(sweeps_that_fail_come_first)
     review.sweeps[1].longest_failure_minutes = NAN; /* directions alone */
     assert_string_equal(words_how_often(&review.sweeps[1], &arena),
                         "4.0 % of the sun's directions");
+}
+
+/* The share of eyes at the worst moment, and that of time of the middle one, each by its name;
+ * no share stands without one. */
+TEST(an_eye_box_names_whose_share_it_is)
+{
+    static const struct {
+        double eyes, failed, minutes;
+        const char *often, *how_often;
+    } BOX[] = {
+        {0.44, 0.012, 30, "44 % of eyes",
+         "44 % of eyes at its worst, the middle eye 1.2 % of the time"},
+        {0.44, 0, 0, "44 % of eyes", "44 % of eyes at its worst, the middle eye never"},
+        {1, 0.5, NAN, "100 % of eyes",
+         "100 % of eyes at its worst, the middle eye 50 % of the sun's directions"}};
+    for (int i = 0; i < 3; i++) {
+        Review       review = fixture_review(&arena);
+        ReviewSweep *s = &review.sweeps[0];
+        s->worst.eye_failed_share = BOX[i].eyes;
+        s->failed_share = BOX[i].failed;
+        s->longest_failure_minutes = BOX[i].minutes;
+        assert_string_equal(words_often(s, &arena), BOX[i].often);
+        assert_string_equal(words_how_often(s, &arena), BOX[i].how_often);
+        review.sweep_count = 1;
+        const char *page = page_of(&(ReviewPage){.review = &review});
+        const char *card = strstr(page, "<h2>Every sun, every hour");
+        assert_non_null(strstr(card, BOX[i].how_often));
+        assert_non_null(strstr(card, "of eyes fail at its worst"));
+        assert_non_null(strstr(card, "the middle eye fails"));
+        assert_null(strstr(card, "of the time it fails"));
+        assert_null(strstr(card, "directions it fails"));
+    }
 }
 
 /* Top: the answer, the worst symbol, when, why; the limit that nobody read is marked. */
@@ -352,9 +385,41 @@ TEST(the_mark_follows_the_kind_of_the_limit)
         assert_non_null(strstr(html.data, arena_format(&arena, ">%s needs", FORMS[i].words)));
         double dark = 100 + (i == 3 ? 100.0 / 3 : 0);
         double most = dark + c.luminance_cd_m2.foreground;
-        most = fmax(most + (i == 3 ? 0 : 100.0 / 3), 1.02 * FORMS[i].ratio * dark);
+        most = fmax(most, 1.02 * FORMS[i].ratio * dark);
         double mark = attribute_of(html.data, "mark", "x") / 100;
         assert_near(mark, FORMS[i].ratio * dark / most, 2e-3);
+    }
+}
+
+/* Where the upper bar ends, of the scale's 100. */
+static double bright_end(const char *svg)
+{
+    double end = 0;
+    for (const char *at = svg; (at = strstr(at, " y=\"18\" width=\"")); at++)
+        end += strtod(at + 15, NULL);
+    return end;
+}
+
+/* Whatever veil lies over it, and however its two reflections were estimated: the bright bar is
+ * as far beyond the mark as the judged contrast is beyond its limit. */
+TEST(no_bar_passes_its_mark_under_a_fail)
+{
+    static const double VEILS[] = {0, 5, 80, 1000}, LIMITS[] = {1.5, 2, 3, 10};
+    for (int i = 0; i < 32; i++) {
+        double veil = VEILS[i % 4], value = LIMITS[i / 4 % 4], added = 100 + veil * (i / 16);
+        ReviewCase   c = {.luminance_cd_m2 = {91, 2, 100, 55, 35, veil},
+                          .contrast_ratio = 191 / 102.0,
+                          .contrast_with_veil = (191 + veil) / (102 + veil),
+                          .limit_count = 1};
+        LimitVerdict limit = {.kind = "contrast_ratio", .unit = "1", .value = value,
+                              .found = (91 + added) / (2 + added)};
+        Text         html = {.arena = &arena};
+        c.limits = &limit;
+        review_bar_add_luminances(&html, &c, &arena);
+        assert_close(bright_end(html.data) / attribute_of(html.data, "mark", "x"),
+                     limit.found / value, 1e-4);
+        bool is_told = strstr(html.data, "in the eye, not in this contrast") != NULL;
+        assert_int_equal(is_told, i < 16 || veil == 0);
     }
 }
 
@@ -461,6 +526,25 @@ static const unsigned char *values_behind(const char *at, size_t cells)
     assert_done(base64_decode(text, strlen(text), bytes, &size, &err));
     assert_int_equal(size, 2 * cells);
     return bytes;
+}
+
+/* A year's map says whose answer stands between its steps, and an eye box's whose eye it is;
+ * a map of directions says neither. */
+TEST(a_map_says_what_its_cells_are)
+{
+    Review review = fixture_review(&arena);
+    for (int i = 0; i < 4; i++) {
+        Text      html = {.arena = &arena};
+        ReviewMap map = fixture_map(&arena, &review.sweeps[0]);
+        ENDS_BY(arena_release) Arena scratch = arena_reserve((size_t)1 << 26);
+        map.is_between_steps = i & 1;
+        review.sweeps[0].worst.eye_failed_share = i & 2 ? 0.25 : (double)NAN;
+        assert_done(review_map_add(&html, &map, &scratch, &err));
+        assert_int_equal(strstr(html.data, "the nearer one&#39;s answer is shown") != NULL,
+                         i & 1);
+        assert_int_equal(strstr(html.data, "As the middle eye of the box sees it") != NULL,
+                         i / 2);
+    }
 }
 
 /* What script tells at the pointer is the map's contrast within 0.06 %, and its verdict. */

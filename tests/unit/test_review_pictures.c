@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Pictures of a review's page: in it or beside it, once each, and the lines over them. */
+#include "review/output/review_words.h"
 #include "review_page_fixture.h"
 
 TEST(pictures_go_into_the_page_as_they_stand)
@@ -90,6 +91,48 @@ TEST(a_variants_pair_stands_before_its_cases)
     remove(path);
 }
 
+/* One display is lifted from 24 to 114 : 1, another has the least margin and stays: the row
+ * shows both, in the limit's quantity, and shares of time and of directions by their names. */
+TEST(a_variants_row_shows_what_moves_most_and_the_least)
+{
+    Review       review = fixture_review(&arena), changed = fixture_review(&arena);
+    const char  *changes[] = {"hood of 40 mm"};
+    ReviewCase  *before = &review.cases[4], *after = &changed.cases[4];
+    LimitVerdict limits[2] = {before->limits[0], after->limits[0]};
+    limits[0].found = limits[0].low = limits[0].high = 24;
+    limits[1].found = limits[1].low = limits[1].high = 114;
+    before->limits = &limits[0];
+    after->limits = &limits[1];
+    before->limit_count = after->limit_count = 1;
+    ReviewDifference all[3] = {{&review.cases[3], &changed.cases[3], NULL, NULL, 0, {0, 0}},
+                               {before, after, NULL, NULL, 0.5, {0.49, 0.51}},
+                               {&review.cases[1], &changed.cases[1], NULL, NULL, -0.1,
+                                {-0.11, -0.09}}};
+    ReviewVariantFound variant = {.name = "hood", .words = changes, .word_count = 1,
+                                  .review = &changed, .differences = all,
+                                  .difference_count = 3, .worst = all[0]};
+    const char *least = words_ratio(review.cases[3].limits[0].found, &arena);
+    changed.sweeps[0].longest_failure_minutes = NAN;
+    changed.sweeps[0].failed_share = 0.005;
+    changed.sweeps[1].longest_failure_minutes = 4;
+    changed.sweeps[1].failed_share = 0.02;
+    for (int i = 0; i < 2; i++) changed.sweeps[i].worst.eye_failed_share = NAN;
+    review.variants = &variant;
+    review.variant_count = 1;
+    const char *row = strstr(page_of(&(ReviewPage){.review = &review}), "<b>hood</b>");
+    row = arena_string(&arena, row, (size_t)(strstr(row, "</table>") - row));
+    assert_non_null(strstr(row, "<b>24.0 → 114 : 1</b>"));
+    assert_non_null(strstr(row, arena_format(&arena, "→ %s</b>", least)));
+    assert_non_null(strstr(row, words_case(after, &arena)));
+    assert_non_null(strstr(row, words_case(&changed.cases[3], &arena)));
+    assert_non_null(strstr(row, "2.0 % of the time; 0.5 % of the sun&#39;s directions"));
+    after->unjudged = UNJUDGED_HIDDEN; /* it moves more than any figure can */
+    after->verdict = VERDICT_UNJUDGED;
+    all[2].margin = -9;
+    row = strstr(page_of(&(ReviewPage){.review = &review}), "<b>hood</b>");
+    assert_non_null(strstr(row, "<b>24.0 : 1 → hidden</b>"));
+}
+
 /* The eye at the origin looks along -z, a right angle wide. */
 static const CaseView VIEW = {.right = {1, 0, 0}, .up = {0, 1, 0}, .forward = {0, 0, -1},
                               .is_perspective = true, .half_width = 1, .half_height = 0.5,
@@ -141,10 +184,55 @@ TEST(the_first_screen_has_a_line_around_its_symbol)
     c->rim_count = 4;
     assert_int_equal(count_of(page_of(&page),
                               "d=\"M88.0 57.0L112.0 57.0L112.0 43.0L88.0 43.0Z\""), 2);
+    assert_int_equal(count_of(page_of(&page), "class=\"close-up\""), 0);
+    shown.beside = "frames/a.png";
+    assert_int_equal(count_of(page_of(&page),
+                              "d=\"M88.0 57.0L112.0 57.0L112.0 43.0L88.0 43.0Z\""), 4);
     c->rim = BEHIND;
     c->rim_count = 3;
     assert_int_equal(count_of(page_of(&page), "class=\"rim\""), 0);
     remove(file);
+}
+
+/* Beside the frame, from the same picture: its viewBox has the frame's proportions, lies within
+ * it and is about the symbol, wherever in the frame that is. */
+TEST(the_first_screen_has_the_symbol_close_up)
+{
+    static const double MIDDLES[][2] = {{0, 0}, {0.9, 0.4}, {-0.95, -0.45}, {0.3, -0.2}};
+    static const double SIZES[] = {0.001, 0.03, 0.5};
+    for (int i = 0; i < 12; i++) {
+        const double *middle = MIDDLES[i % 4], size = SIZES[i / 4];
+        Review        review = fixture_review(&arena);
+        ReviewCase   *c = (ReviewCase *)(void *)review_worst(&review, arena);
+        const char   *file = fresh_name(".png");
+        Vec3          rim[4];
+        for (int k = 0; k < 4; k++) {
+            double x = middle[0] + (k % 3 ? size : -size) / 2;
+            double y = middle[1] + (k < 2 ? -size : size) / 4;
+            rim[k] = vec3((float)x, (float)y, -1);
+        }
+        c->view = &VIEW;
+        c->rim = rim;
+        c->rim_count = 4;
+        ReviewPicture shown = {.of = c, .title = "frame", .file = file, .view = &VIEW,
+                               .is_frame = true, .beside = "frames/a&b.png"};
+        assert_done(file_write(file, "Man", 3, &err));
+        const char *at = strstr(page_of(&(ReviewPage){.review = &review, .pictures = &shown,
+                                                      .picture_count = 1}), "\"close-up\"");
+        double box[4];
+        assert_non_null(at);
+        assert_int_equal(sscanf(strstr(at, "viewBox"), "viewBox=\"%lf %lf %lf %lf\"", &box[0],
+                                &box[1], &box[2], &box[3]), 4);
+        double x = 100 * (1 + middle[0]), y = 50 * (1 - 2 * middle[1]);
+        assert_near(box[2], 2 * box[3], 0.11);
+        assert_true(box[2] >= 24 && box[2] <= 80);
+        assert_true(box[0] >= 0 && box[1] >= 0 && box[0] + box[2] <= 200.06 &&
+                    box[1] + box[3] <= 100.06);
+        assert_true(box[0] < x && x < box[0] + box[2] && box[1] < y && y < box[1] + box[3]);
+        assert_non_null(strstr(at, "<image width=\"200\" height=\"100\" "
+                                   "href=\"frames/a&amp;b.png\"/>"));
+        remove(file);
+    }
 }
 
 TEST(a_picture_of_several_cards_stands_once)

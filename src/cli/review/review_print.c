@@ -47,11 +47,14 @@ static void print_case(const ReviewCase *c, Arena scratch)
 static void print_sweep(const ReviewSweep *s, Arena scratch)
 {
     bool is_sure = sweep_verdict(s) == VERDICT_FAIL || !(s->failed_share > 0);
-    print("%-16s %s, %s, %s: %.3g %% of %ld suns fail%s", verdict_names[sweep_verdict(s)],
+    print("%-16s %s, %s, %s: %.3g %% of %ld suns fail%s%s", verdict_names[sweep_verdict(s)],
           s->condition, s->eye, s->symbol, 100 * s->failed_share, s->cases,
+          sweep_has_box(s) ? " for the middle eye" : "",
           is_sure ? "" : " by their steps alone, none that was read again");
     if (s->longest_failure_minutes > 0)
         print(", %.4g minutes at a stretch", s->longest_failure_minutes);
+    if (sweep_has_box(s))
+        print("; at its worst %.3g %% of eyes fail", 100 * s->worst.eye_failed_share);
     if (s->worst.has_sun)
         print("; worst at azimuth %.1f, elevation %.1f", s->worst.sun_azimuth_deg,
               s->worst.sun_elevation_deg);

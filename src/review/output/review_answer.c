@@ -10,10 +10,16 @@
 #include "review/output/review_rays.h"
 #include "review/output/review_rests.h"
 #include "review/output/review_words.h"
+#include "review/quantity.h"
 #include "text/text.h"
 
 #define GRID_ROWS 7
 #define GRID_EYES 4
+#define GRID_WIDTH 790   /* pixels, of a screen of 1280, beside the worst case (review.css) */
+#define LETTER 8.7       /* pixels: bold letters of 13 pixels, wide ones */
+#define SMALL_LETTER 6.8
+#define LEAST_CELL 90
+#define CELL_MARGIN 22
 #define MENDS_LISTED 2
 #define SHARES_LISTED 3
 
@@ -123,6 +129,19 @@ static const char *below_words(const ReviewCase *c, Arena *arena)
     return arena_format(arena, "%s · %s", words_margin(limit->margin, arena), condition);
 }
 
+/* Of a case that another limit decides: its contrast, too; "": it is decided by that. */
+static const char *contrast_words(const ReviewCase *c, Arena *arena)
+{
+    const LimitVerdict *limit = case_worst_limit(c);
+    LimitKind           kind = limit ? limit_kind_named(limit->kind) : LIMIT_KIND_COUNT;
+    bool is_contrast = !limit || (kind < LIMIT_KIND_COUNT && limit_kinds[kind].is_contrast);
+    if (c->unjudged || is_contrast || isnan(c->contrast_ratio)) return "";
+    bool has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
+    const LimitVerdict *of = has_limit ? &c->limits[c->limit_id] : NULL;
+    return of ? arena_format(arena, "%s %s", words_kind(of), words_found(of, arena))
+              : arena_format(arena, "contrast %s", words_contrast(c, arena));
+}
+
 static void add_cell(Text *html, const Review *review, const ReviewCase *c, Arena *arena)
 {
     if (!c) {
@@ -134,6 +153,8 @@ static void add_cell(Text *html, const Review *review, const ReviewCase *c, Aren
     escape_markup(html, arena_format(arena, "%s %s", words_mark(c->verdict),
                                      words_judged(c, arena)));
     text_add(html, "</b>");
+    const char *contrast = contrast_words(c, arena);
+    if (contrast[0]) page_element(html, "em", contrast);
     page_element(html, "small", below_words(c, arena));
     text_add(html, "</a></td>");
 }
@@ -185,15 +206,44 @@ static const char *count_words(const Review *review, Arena *arena)
     return text.data;
 }
 
+/* Letters of its longest word. Text in letters that need no space between words, as in
+ * Chinese, breaks anywhere. */
+static int longest_word(const char *text)
+{
+    int most = 0, letters = 0;
+    for (const unsigned char *at = (const unsigned char *)(text ? text : ""); *at; at++) {
+        bool is_end = *at == ' ' || *at == '-' || *at >= 0xe3;
+        letters = is_end ? 0 : letters + ((*at & 0xc0) != 0x80);
+        if (letters > most) most = letters;
+    }
+    return most;
+}
+
+/* So that no word breaks and none is cut off, in pixels: about what letters of 13 and 11
+ * pixels take, and what is around them. */
+static double grid_width(const Grid *grid, int rows, int eyes)
+{
+    double symbol = 0, below = LEAST_CELL, width = 0;
+    for (int i = 0; i < rows; i++)
+        symbol = fmax(symbol, LETTER * longest_word(grid->symbols.list[i]));
+    for (int i = 0; i < grid->count; i++)
+        below = fmax(below, SMALL_LETTER * longest_word(grid->ranked[i]->condition));
+    for (int i = 0; i < eyes; i++)
+        width += fmax(below, LETTER * longest_word(grid->eyes.list[i])) + CELL_MARGIN;
+    return width + symbol + CELL_MARGIN;
+}
+
 static void add_grid(Text *html, const Review *review, Arena *arena)
 {
     Grid        grid = make_grid(review, arena);
     PageColumn  columns[GRID_EYES + 1] = {{"at its worst", false, NULL}};
     int         eyes = grid.eyes.count < GRID_EYES ? grid.eyes.count : GRID_EYES;
     int         rows = grid.symbols.count < GRID_ROWS ? grid.symbols.count : GRID_ROWS;
+    while (eyes > 1 && grid_width(&grid, rows, eyes) > GRID_WIDTH) eyes--;
     for (int i = 0; i < eyes; i++)
         columns[i + 1] = (PageColumn){grid.eyes.list[i], false, NULL};
-    text_add(html, "<div class=\"grid\">");
+    text_format(html, "<div class=\"grid%s\">",
+                grid_width(&grid, rows, eyes) > GRID_WIDTH ? " breaks" : "");
     page_table_begin(html, "", "matrix", columns, eyes + 1);
     add_rows(html, review, &grid, rows, eyes, arena);
     page_table_end(html);
@@ -310,14 +360,38 @@ static const ReviewPicture *frame_of(const ReviewAnswer *answer, const ReviewCas
     return NULL;
 }
 
+/* The part of the frame about the symbol, larger; of a frame that stands elsewhere. */
+static void add_close_up(Text *html, const ReviewPicture *frame)
+{
+    const CaseView *view = frame->of->view;
+    double          box[4];
+    if (!(frame->beside || frame->id) || !review_rays_close_up(frame->of, box)) return;
+    text_format(html, "<svg class=\"close-up\" viewBox=\"%.1f %.1f %.1f %.1f\" role=\"img\" "
+                "preserveAspectRatio=\"xMidYMid slice\" aria-label=\"close-up: ", box[0],
+                box[1], box[2], box[3]);
+    escape_markup(html, frame->of->symbol);
+    if (frame->beside) {
+        text_format(html, "\"><image width=\"%d\" height=\"%d\" href=\"", view->width,
+                    view->height);
+        escape_markup(html, frame->beside);
+        text_add(html, "\"/>");
+    } else {
+        text_format(html, "\"><use href=\"#%s\"/>", frame->id);
+    }
+    review_rays_add_line(html, frame->of);
+    text_add(html, "</svg>");
+}
+
 /* The case's card has it, too: there it stands. */
 static bool add_frame(Text *html, const ReviewPicture *frame, Arena scratch, Error *err)
 {
     ReviewPicture shown = *frame;
     shown.is_again = shown.id != NULL;
-    text_add(html, "<div class=\"shown\">");
+    text_add(html, "<div class=\"views\"><div class=\"shown\">");
     if (!review_card_add_picture(html, &shown, scratch, err)) return false;
     review_rays_add_rim(html, shown.of);
+    text_add(html, "</div>");
+    add_close_up(html, &shown);
     text_add(html, "</div>\n");
     return true;
 }

@@ -56,10 +56,11 @@ typedef struct BarPart {
 
 typedef struct Bars {
     BarPart bright[PARTS], dark[PARTS];
-    double  dark_sum;  /* that contrast is taken of */
+    bool    has_veil;  /* the eye's veil is in the contrast that is judged */
+    double  dark_sum;
     double  most;      /* the end of the scale */
     double  wanted;    /* contrast ratio; NaN: none that can be drawn */
-    const char *words; /* the limit that it stands for */
+    const char *words; /* of the mark */
 } Bars;
 
 static double or_zero(double value)
@@ -78,25 +79,34 @@ static bool is_of(const LimitVerdict *limit, double ratio)
     return is_close(limit->found, contrast_from_ratio(limit_kind_named(limit->kind), ratio));
 }
 
-static double sum_of(const BarPart *parts, int count)
+static double sum_of(const BarPart *parts)
 {
     double sum = 0;
-    for (int i = 0; i < count; i++) sum += parts[i].cd_m2;
+    for (int i = 0; i < PARTS; i++) sum += parts[i].cd_m2;
     return sum;
 }
 
-/* A veil that the limit does not ask for comes last, so that the sum before it is what the
- * contrast is taken of. */
-static void stack(const ReviewCase *c, double emitted, bool has_veil, BarPart out[PARTS])
+/* The sum that the contrast is taken of, and nothing else: a veil that the limit does not ask
+ * for is no part of it. The mirror's and the scattered light share what is reflected. */
+static void stack(const CaseLuminances *l, double emitted, bool has_veil, BarPart out[PARTS])
 {
-    const CaseLuminances *l = &c->luminance_cd_m2;
-    bool    is_split = isfinite(l->mirror) && isfinite(l->scattered);
-    BarPart veil = {"veil", or_zero(l->veil)};
-    BarPart parts[PARTS - 1] = {{"mirror", is_split ? or_zero(l->mirror) : 0},
-                                {"scatter", or_zero(is_split ? l->scattered : l->reflected)},
-                                {"emit", or_zero(emitted)}};
-    out[has_veil ? 0 : PARTS - 1] = veil;
-    for (int i = 0; i < PARTS - 1; i++) out[has_veil + i] = parts[i];
+    double mirror = or_zero(l->mirror), both = mirror + or_zero(l->scattered);
+    double reflected = or_zero(l->reflected);
+    double shiny = isfinite(l->mirror) && isfinite(l->scattered) && both > 0
+                       ? reflected * (mirror / both) : 0;
+    out[0] = (BarPart){"veil", has_veil ? or_zero(l->veil) : 0};
+    out[1] = (BarPart){"mirror", shiny};
+    out[2] = (BarPart){"scatter", reflected - shiny};
+    out[3] = (BarPart){"emit", or_zero(emitted)};
+}
+
+static const char *mark_words(const LimitVerdict *limit, Arena *arena)
+{
+    const char *value = words_limit(limit, arena);
+    if (limit_kind_named(limit->kind) != LIMIT_CONTRAST_RATIO)
+        value = arena_format(arena, "%s %s", words_kind(limit), value);
+    return arena_format(arena, limit->is_upper ? "%s allows this much" : "%s needs this much",
+                        value);
 }
 
 static Bars make_bars(const ReviewCase *c, Arena *arena)
@@ -104,23 +114,19 @@ static Bars make_bars(const ReviewCase *c, Arena *arena)
     const CaseLuminances *l = &c->luminance_cd_m2;
     double bright = fmax(or_zero(l->foreground), or_zero(l->background));
     double dark = fmin(or_zero(l->foreground), or_zero(l->background));
-    bool   has_veil = false;
     Bars   bars = {.wanted = NAN};
     if (c->limit_id >= 0 && c->limit_id < c->limit_count) {
         const LimitVerdict *limit = &c->limits[c->limit_id];
         LimitKind           kind = limit_kind_named(limit->kind);
-        has_veil = !is_of(limit, c->contrast_ratio) && is_of(limit, c->contrast_with_veil);
+        bars.has_veil = !is_of(limit, c->contrast_ratio) && is_of(limit, c->contrast_with_veil);
         if (kind < LIMIT_KIND_COUNT && limit_kinds[kind].is_contrast)
             bars.wanted = ratio_from_contrast(kind, limit->value);
-        bars.words = kind == LIMIT_CONTRAST_RATIO
-                         ? words_limit(limit, arena)
-                         : arena_format(arena, "%s %s", words_kind(limit),
-                                        words_limit(limit, arena));
+        bars.words = mark_words(limit, arena);
     }
-    stack(c, bright, has_veil, bars.bright);
-    stack(c, dark, has_veil, bars.dark);
-    bars.dark_sum = sum_of(bars.dark, has_veil ? PARTS : PARTS - 1);
-    bars.most = sum_of(bars.bright, PARTS);
+    stack(l, bright, bars.has_veil, bars.bright);
+    stack(l, dark, bars.has_veil, bars.dark);
+    bars.dark_sum = sum_of(bars.dark);
+    bars.most = sum_of(bars.bright);
     if (bars.wanted > 0) bars.most = fmax(bars.most, 1.02 * bars.wanted * bars.dark_sum);
     return bars;
 }
@@ -145,7 +151,7 @@ static void add_mark(Text *html, const Bars *bars)
                 "<text x=\"%.2f%%\" y=\"11\" dx=\"%d\" text-anchor=\"%s\">", x, x,
                 x > 50 ? -5 : 7, x > 50 ? "end" : "start");
     escape_markup(html, bars->words);
-    text_add(html, " needs this much</text>");
+    text_add(html, "</text>");
 }
 
 static void add_figure(Text *html, const char *kind, const char *name, double cd_m2,
@@ -156,7 +162,7 @@ static void add_figure(Text *html, const char *kind, const char *name, double cd
 }
 
 /* Below the bars, which show no numbers. */
-static void add_figures(Text *html, const CaseLuminances *l, Arena *arena)
+static void add_figures(Text *html, const CaseLuminances *l, bool has_veil, Arena *arena)
 {
     text_add(html, "<ul class=\"parts\">\n");
     add_figure(html, "emit", "the symbol's own light", l->foreground, arena);
@@ -164,7 +170,8 @@ static void add_figures(Text *html, const CaseLuminances *l, Arena *arena)
     add_figure(html, "", "reflected by the display, in all", l->reflected, arena);
     add_figure(html, "mirror", "of that, as in a mirror", l->mirror, arena);
     add_figure(html, "scatter", "of that, scattered", l->scattered, arena);
-    add_figure(html, "veil", "veil of stray light in the eye", l->veil, arena);
+    add_figure(html, has_veil ? "veil" : "", has_veil ? "veil of stray light in the eye"
+               : "veil of stray light in the eye, not in this contrast", l->veil, arena);
     text_add(html, "</ul>\n");
 }
 
@@ -180,5 +187,5 @@ void review_bar_add_luminances(Text *html, const ReviewCase *c, Arena *arena)
         add_mark(html, &bars);
         text_add(html, "</svg></div>\n");
     }
-    add_figures(html, &c->luminance_cd_m2, arena);
+    add_figures(html, &c->luminance_cd_m2, bars.has_veil, arena);
 }

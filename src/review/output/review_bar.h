@@ -17,6 +17,8 @@ void review_bar_add_margin(Text *html, const LimitVerdict *limit);
 /* A share 0..1 as a thin bar. */
 void review_bar_add_share(Text *html, double share);
 
-/* Luminances of the bright and the dark part of a symbol as the eye gets them, stacked by
- * origin, with a mark where the bright part would reach the limit; then all figures. */
+/* Luminances of the bright and the dark part of a symbol, stacked by origin, with a mark where
+ * the bright part would reach the limit; then all figures. Bars and mark are of the sum that
+ * the limit's contrast is taken of: the eye's veil is in them only where it is in that. So the
+ * bright bar passes the mark exactly where the contrast does. */
 void review_bar_add_luminances(Text *html, const ReviewCase *c, Arena *arena);

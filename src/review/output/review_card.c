@@ -99,7 +99,10 @@ static void add_sight_facts(Text *html, const ReviewCase *c, Arena *arena)
                                                     words_share(c->visible_share, arena)));
     if (c->hider_count) page_fact(html, "Hidden", words_hiders(c, arena));
     if (!isnan(c->eye_failed_share))
-        page_fact(html, "Places of the eye that fail", words_share(c->eye_failed_share, arena));
+        page_fact(html, "Eyes that fail",
+                  arena_format(arena, "%s of the places in the eye's box; the other figures "
+                               "are of its worst place",
+                               words_share(c->eye_failed_share, arena)));
     if (c->glare.threshold_cd_m2 > 0) add_glare_facts(html, &c->glare, arena);
 }
 

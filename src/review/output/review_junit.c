@@ -63,9 +63,10 @@ static void add_case(Text *xml, const Review *review, const ReviewCase *c, const
 static void add_sweep(Text *xml, const Review *review, const ReviewSweep *s)
 {
     Arena       arena = arena_reserve((size_t)1 << 20);
-    const char *name = arena_format(&arena, "%s (worst of %ld, %s %s fails)",
+    const char *name = arena_format(&arena, "%s (worst of %ld, %s %s fails%s)",
                                     words_case(&s->worst, &arena), s->cases,
-                                    words_share(s->failed_share, &arena), words_of_what(s));
+                                    words_share(s->failed_share, &arena), words_of_what(s),
+                                    sweep_has_box(s) ? " for the middle eye" : "");
     add_case(xml, review, &s->worst, name, sweep_verdict(s));
     arena_release(&arena);
 }

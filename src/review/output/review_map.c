@@ -256,8 +256,15 @@ static void add_map_keys(Text *html, const ReviewMap *map)
     add_key(html, PASSING, "just above");
     add_key(html, BEST, "margin +100 % or more");
     if (holds(map, VERDICT_UNJUDGED)) add_key(html, HIDDEN, "cannot be judged");
-    if (holds(map, GAP)) add_key(html, NONE, "no answer");
+    if (holds(map, GAP))
+        add_key(html, NONE, map->is_between_steps ? "no sun was computed there" : "no answer");
     text_add(html, "</div>\n");
+}
+
+/* A sweep goes by the middle of an eye's box. */
+static const char *whose_words(const ReviewSweep *sweep)
+{
+    return sweep && sweep_has_box(sweep) ? " As the middle eye of the box sees it." : "";
 }
 
 static void add_map_labels(Text *html, const ReviewMap *map, Arena *arena)
@@ -270,8 +277,12 @@ static void add_map_labels(Text *html, const ReviewMap *map, Arena *arena)
     add_map_keys(html, map);
     page_element(html, "figcaption", arena_format(
         arena, "Contrast against its limit, with the sun at every place of the sky; inside the "
-        "dark line it fails.%s", map->path_count > 0
-        ? " Dashed: the sun's way over the sky on these days." : ""));
+        "dark line it fails.%s%s%s",
+        whose_words(map->of),
+        map->is_between_steps ? " Where the sun passes between two steps that were computed, "
+                                "the nearer one's answer is shown; a cell shows the worst of "
+                                "its own steps." : "",
+        map->path_count > 0 ? " Dashed: the sun's way over the sky on these days." : ""));
 }
 
 /* Contrast of 1 to 10,000 by its logarithm, within 0.06 %. */
@@ -402,8 +413,9 @@ bool review_map_add_calendar(Text *html, const ReviewCalendar *calendar, Arena *
     add_calendar_keys(html, calendar);
     page_element(html, "figcaption",
                  arena_format(arena, "Every day from left to right, every hour from below "
-                              "(%s); %d heading%s of the vehicle.", calendar->clock,
-                              calendar->headings, calendar->headings == 1 ? "" : "s"));
+                              "(%s); %d heading%s of the vehicle.%s", calendar->clock,
+                              calendar->headings, calendar->headings == 1 ? "" : "s",
+                              whose_words(calendar->of)));
     text_add(html, "</figure>\n");
     return true;
 }

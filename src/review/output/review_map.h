@@ -36,6 +36,8 @@ typedef struct ReviewMap {
     const float         *contrast; /* NaN: not asked there */
     const float         *margin;   /* LimitVerdict's (verdict.h); NaN: no limit */
     const unsigned char *verdict;  /* a Verdict each */
+    bool                 is_between_steps; /* of a year: what the sun passes between two steps
+                                              has the answer of the nearer one */
     const SunPath       *paths;
     int                  path_count;
 } ReviewMap;

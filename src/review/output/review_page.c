@@ -162,17 +162,24 @@ static bool add_cases(Text *html, const ReviewPage *page, Arena *arena, Error *e
 
 static void add_sweep_keys(Text *html, const ReviewSweep *s, Arena *arena)
 {
+    bool is_sure = sweep_verdict(s) == VERDICT_FAIL, has_box = sweep_has_box(s);
+    const char *of = words_of_what(s), *whose = has_box ? "the middle eye" : "it";
     page_keys_begin(html);
-    bool is_sure = sweep_verdict(s) == VERDICT_FAIL;
-    const char *of = words_of_what(s);
+    if (has_box)
+        page_key(html, words_share(s->worst.eye_failed_share, arena),
+                 "of eyes fail at its worst", s->worst.eye_failed_share > 0);
     page_key(html, words_share(s->failed_share, arena),
-             arena_format(arena, is_sure || !(s->failed_share > 0)
-                                     ? "%s it fails" : "%s by its steps alone: not confirmed",
-                          of), is_sure && s->failed_share > 0);
+             is_sure || !(s->failed_share > 0)
+                 ? arena_format(arena, "%s %s fails", of, whose)
+                 : arena_format(arena, "%s by %s steps alone: not confirmed", of,
+                                has_box ? "the middle eye's" : "its"),
+             is_sure && s->failed_share > 0);
     if (!isnan(s->longest_failure_minutes))
         page_key(html, words_minutes(s->longest_failure_minutes, arena),
-                 "the longest failure at a stretch", s->longest_failure_minutes > 0);
-    page_key(html, words_judged(&s->worst, arena), "at its worst",
+                 has_box ? "the middle eye's longest failure at a stretch"
+                         : "the longest failure at a stretch", s->longest_failure_minutes > 0);
+    page_key(html, words_judged(&s->worst, arena), has_box ? "of the worst eye at its worst"
+                                                           : "at its worst",
              s->worst.verdict != VERDICT_PASS);
     page_key(html, arena_format(arena, "%ld", s->cases), "suns and hours judged", false);
     page_keys_end(html);

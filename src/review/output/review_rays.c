@@ -133,16 +133,48 @@ static void add_rim_path(Text *html, const ReviewCase *c)
     text_add(html, "Z\"/>");
 }
 
+void review_rays_add_line(Text *html, const ReviewCase *c)
+{
+    text_add(html, "<g class=\"rim\"><path class=\"under\" d=\"");
+    add_rim_path(html, c);
+    text_add(html, "<path d=\"");
+    add_rim_path(html, c);
+    text_add(html, "</g>");
+}
+
 void review_rays_add_rim(Text *html, const ReviewCase *c)
 {
     if (!c->view || !is_before_eye(c)) return;
     text_format(html, "<svg class=\"rim\" viewBox=\"0 0 %d %d\" aria-hidden=\"true\" "
-                "preserveAspectRatio=\"xMidYMid slice\"><path class=\"under\" d=\"",
-                c->view->width, c->view->height);
-    add_rim_path(html, c);
-    text_add(html, "<path d=\"");
-    add_rim_path(html, c);
+                "preserveAspectRatio=\"xMidYMid slice\">", c->view->width, c->view->height);
+    review_rays_add_line(html, c);
     text_add(html, "</svg>");
+}
+
+#define CLOSE_SIZE 6     /* of what is shown close up, over the symbol's */
+#define CLOSE_LEAST 0.12 /* share of the picture's width and height */
+#define CLOSE_MOST 0.4
+
+/* Where a stretch of `size` about `middle` begins, so that it lies within 0..all. */
+static double begin_within(double middle, double size, double all)
+{
+    return fmin(fmax(middle - size / 2, 0), all - size);
+}
+
+bool review_rays_close_up(const ReviewCase *c, double box[4])
+{
+    const CaseView *view = c->view;
+    if (!view || !is_before_eye(c)) return false;
+    PictureBox at = rim_box(c);
+    if (at.x < 0 || at.x > view->width || at.y < 0 || at.y > view->height) return false;
+    double share = CLOSE_SIZE * 2 * fmax(at.half_width / view->width,
+                                         at.half_height / view->height);
+    share = fmin(fmax(share, CLOSE_LEAST), CLOSE_MOST);
+    box[2] = share * view->width;
+    box[3] = share * view->height;
+    box[0] = begin_within(at.x, box[2], view->width);
+    box[1] = begin_within(at.y, box[3], view->height);
+    return true;
 }
 
 bool review_rays_has(const ReviewCase *c, int i)

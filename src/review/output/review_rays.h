@@ -21,5 +21,14 @@ const char *review_rays_id(const char *card_id, int i, Arena *arena);
  * where a picture of object-fit: cover is. Nothing where the symbol's rim is not known. */
 void review_rays_add_rim(Text *html, const ReviewCase *c);
 
+/* The same line alone, of a drawing in the frame's pixels: <g class="rim">. The rim must be
+ * known. */
+void review_rays_add_line(Text *html, const ReviewCase *c);
+
+/* What of the frame shows the symbol close up, with about it what is on its display: left, top,
+ * width, height, pixels, of the frame's proportions. False: the rim is not known, or not in the
+ * frame. */
+bool review_rays_close_up(const ReviewCase *c, double box[4]);
+
 /* <svg class="rays"> of the frame's size, a group for each cause. */
 void review_rays_add(Text *html, const ReviewCase *c, const char *card_id, Arena *arena);

@@ -113,6 +113,17 @@ void review_table_add_matrix(Text *html, const Review *review, Arena *arena)
 
 /* ---- sweeps at a glance ----------------------------------------------------------------- */
 
+/* Of what the share is that stands above it; "": there is none. */
+static const char *share_words(const ReviewSweep *s, Arena *arena)
+{
+    bool fails = sweep_verdict(s) == VERDICT_FAIL, is_share = fails && s->failed_share > 0;
+    if (fails && sweep_has_box(s))
+        return arena_format(arena, "middle eye %s%s%s · worst ",
+                            is_share ? words_share(s->failed_share, arena) : "never",
+                            is_share ? " " : "", is_share ? words_of_what(s) : "");
+    return is_share ? arena_format(arena, "%s · worst ", words_of_what(s)) : "";
+}
+
 static void add_sweep_cell(Text *html, const Matrix *m, const char *across, const char *down,
                            Arena *arena)
 {
@@ -126,10 +137,11 @@ static void add_sweep_cell(Text *html, const Matrix *m, const char *across, cons
     text_format(html, "<td class=\"%s\"><a href=\"%s\"><b>%s %s</b>", words_class(verdict),
                 review_card_link(m->review, &s->worst, arena), words_mark(verdict),
                 words_often(s, arena));
-    page_element(html, "small",
-                 arena_format(arena, "%s%s%s", words_judged(&s->worst, arena),
-                              limit ? limit->is_upper ? " · ≤ " : " · ≥ " : "",
-                              limit ? words_limit(limit, arena) : ""));
+    const char *required = !limit ? "" : arena_format(arena, " · %s %s",
+                                                      limit->is_upper ? "≤" : "≥",
+                                                      words_limit(limit, arena));
+    page_element(html, "small", arena_format(arena, "%s%s%s", share_words(s, arena),
+                                             words_judged(&s->worst, arena), required));
     text_add(html, "</a></td>");
 }
 

@@ -4,6 +4,7 @@
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "page/page.h"
 #include "review/output/review_decide.h"
@@ -96,10 +97,95 @@ static const char *counts_words(const Review *review, Arena *arena)
                         open);
 }
 
+/* The sweep that fails most, of those with times or of those over directions alone; NULL: none
+ * of them fails for sure. */
+static const ReviewSweep *failing_most(const Review *review, bool has_times)
+{
+    const ReviewSweep *most = NULL;
+    for (int i = 0; i < review->sweep_count; i++) {
+        const ReviewSweep *s = &review->sweeps[i];
+        bool is_kind = isnan(s->longest_failure_minutes) != has_times;
+        if (is_kind && sweep_verdict(s) == VERDICT_FAIL &&
+            (!most || s->failed_share > most->failed_share))
+            most = s;
+    }
+    return most;
+}
+
+/* Of none that fails: the worst outcome. */
+static const char *unfailed_words(const Review *review, Arena *arena)
+{
+    const ReviewSweep *worst = NULL;
+    for (int i = 0; i < review->sweep_count; i++) {
+        const ReviewSweep *s = &review->sweeps[i];
+        if (!worst || verdict_rank(sweep_verdict(s)) > verdict_rank(sweep_verdict(worst)))
+            worst = s;
+    }
+    return worst ? words_often(worst, arena) : "–";
+}
+
+static const char *share_words(const ReviewSweep *s, Arena *arena)
+{
+    return arena_format(arena, "%s %s", words_share(s->failed_share, arena), words_of_what(s));
+}
+
+/* "3.2 % of the sun's directions"; a share of time and one of directions are two. */
 static const char *failed_words(const Review *review, Arena *arena)
 {
-    double most = most_failed(review);
-    return most < 0 ? "–" : most > 0 ? words_share(most, arena) : "never";
+    Text text = {.arena = arena};
+    for (int i = 0; i < 2; i++) {
+        const ReviewSweep *s = failing_most(review, i == 0);
+        if (!s) continue;
+        bool is_bare = sweep_has_box(s) && s->failed_share > 0;
+        text_format(&text, "%s%s%s", text.data ? "; " : "",
+                    is_bare ? share_words(s, arena) : words_how_often(s, arena),
+                    is_bare ? " for the middle eye" : "");
+    }
+    return text.data ? text.data : unfailed_words(review, arena);
+}
+
+/* In the quantity of its limit of contrast. */
+static const char *figure_words(const ReviewCase *c, Arena *arena)
+{
+    bool has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
+    if (c->unjudged) return words_judged(c, arena);
+    return has_limit ? words_quantity(&c->limits[c->limit_id], arena)
+                     : words_contrast(c, arena);
+}
+
+/* "24 → 114 : 1": a unit or name that both have stands once. */
+static const char *change_words(const char *before, const char *after, Arena *arena)
+{
+    static const char UNIT[] = " : 1";
+    size_t size = strlen(before), unit = strlen(UNIT), end = strlen(after);
+    bool   is_ratio = size > unit && end > unit && !strcmp(before + size - unit, UNIT) &&
+                    !strcmp(after + end - unit, UNIT);
+    if (is_ratio) before = arena_string(arena, before, size - unit);
+    return arena_format(arena, "%s → %s", before, after);
+}
+
+static const char *moved_words(const ReviewDifference *d, Arena *arena)
+{
+    const char *after = figure_words(d->after, arena);
+    return d->before ? change_words(figure_words(d->before, arena), after, arena) : after;
+}
+
+/* How far a case moves: first what is judged in one of both alone, then by the margin. */
+static double distance_of(const ReviewDifference *d)
+{
+    if (!d->before || !d->after) return -1;
+    if (!d->before->unjudged != !d->after->unjudged) return (double)INFINITY;
+    return isnan(d->margin) ? -1 : fabs(d->margin);
+}
+
+/* NULL: of none is it known. */
+static const ReviewDifference *moving_most(const ReviewVariantFound *v)
+{
+    const ReviewDifference *most = NULL;
+    for (int i = 0; i < v->difference_count; i++)
+        if (distance_of(&v->differences[i]) > (most ? distance_of(most) : -1))
+            most = &v->differences[i];
+    return most;
 }
 
 /* ---- the table of all -------------------------------------------------------------------- */
@@ -119,10 +205,44 @@ static void add_name_cell(Text *html, const char *name, const char *below)
     text_add(html, "</td>");
 }
 
-static const char *worst_words(const ReviewCase *c, Arena *arena)
+/* A figure, and below it its margin and whose it is. */
+static void add_figure_cell(Text *html, const char *kind, const char *figure,
+                            const char *margins, const char *where)
 {
-    return c ? words_case(c, arena) : "nothing has a limit of contrast";
+    text_format(html, "<td class=\"%s\">", kind);
+    page_element(html, "b", figure);
+    if (margins[0]) page_element(html, "small", margins);
+    page_element(html, "small", where);
+    text_add(html, "</td>");
 }
+
+/* Whose the least margin is, before and after. */
+static const char *least_where(const ReviewDifference *d, Arena *arena)
+{
+    const ReviewCase *b = d->before, *a = d->after;
+    bool is_same = !b || (words_same(b->symbol, a->symbol) && words_same(b->eye, a->eye) &&
+                          words_same(b->condition, a->condition));
+    if (is_same) return words_case(a, arena);
+    return arena_format(arena, "before %s; now %s", words_case(b, arena), words_case(a, arena));
+}
+
+static const char *margins_words(const ReviewDifference *d, Arena *arena)
+{
+    const char *after = words_margin(d->after->margin, arena);
+    if (!d->before) return arena_format(arena, "margin %s", after);
+    return arena_format(arena, "margin %s → %s, difference %s",
+                        words_margin(d->before->margin, arena), after,
+                        difference_words(d, arena));
+}
+
+static void add_change_cell(Text *html, const ReviewDifference *d, const char *where,
+                            Arena *arena)
+{
+    add_figure_cell(html, difference_class(d), moved_words(d, arena), margins_words(d, arena),
+                    where);
+}
+
+#define NO_LIMIT "nothing has a limit of contrast"
 
 static void add_base_row(Text *html, const Review *review, const ReviewCase *least,
                          Arena *arena)
@@ -130,25 +250,32 @@ static void add_base_row(Text *html, const Review *review, const ReviewCase *lea
     page_row_begin(html, "same");
     add_name_cell(html, "as it stands", "the review itself");
     add_verdict_cell(html, review_verdict(review));
-    page_cell(html, "n", least ? words_margin(least->margin, arena) : "–");
+    if (least) {
+        const char *margin = words_margin(least->margin, arena);
+        add_figure_cell(html, "n", figure_words(least, arena),
+                        arena_format(arena, "margin %s", margin), words_case(least, arena));
+    } else {
+        page_cell(html, "", NO_LIMIT);
+    }
     page_cell(html, "n", "");
     page_cell(html, "n", counts_words(review, arena));
     page_cell(html, "n", failed_words(review, arena));
-    page_cell(html, "", worst_words(least, arena));
     page_row_end(html);
 }
 
 static void add_row(Text *html, const ReviewVariantFound *v, Arena *arena)
 {
-    const ReviewCase *worst = v->worst.after;
+    const ReviewDifference *most = moving_most(v);
     page_row_begin(html, "");
     add_name_cell(html, v->name, changes_words(v, arena));
     add_verdict_cell(html, review_verdict(v->review));
-    page_cell(html, "n", worst ? words_margin(worst->margin, arena) : "–");
-    page_cell(html, difference_class(&v->worst), difference_words(&v->worst, arena));
+    if (v->worst.after)
+        add_change_cell(html, &v->worst, least_where(&v->worst, arena), arena);
+    else page_cell(html, "", NO_LIMIT);
+    if (most) add_change_cell(html, most, words_case(most->after, arena), arena);
+    else page_cell(html, "n", "–");
     page_cell(html, "n", counts_words(v->review, arena));
     page_cell(html, "n", failed_words(v->review, arena));
-    page_cell(html, "", worst_words(worst, arena));
     page_row_end(html);
 }
 
@@ -157,11 +284,14 @@ static void add_table(Text *html, const Review *review, const ReviewVariantFound
 {
     static const PageColumn COLUMNS[] = {
         {"Variant", false, NULL}, {"Verdict", false, NULL},
-        {"Least margin", true, "the contrast that is nearest to its limit, or farthest below"},
-        {"Difference", true, "in percent of the limit, with its 95 % interval"},
-        {"Fail", true, "verdicts"}, {"Of the time", true, "the sweep that fails most"},
-        {"Where it is least", false, NULL}};
-    page_table_begin(html, "", "variants", COLUMNS, 7);
+        {"Least margin", true, "the contrast that is nearest to its limit, or farthest below, "
+                               "before and after; the difference with its 95 % interval"},
+        {"Moves most", true, "the case whose margin changes most, up or down, before and "
+                             "after"},
+        {"Fail", true, "verdicts"},
+        {"Fails at most", true, "the sweep over time, and that over the sun's directions, that "
+                                "fail most"}};
+    page_table_begin(html, "", "variants", COLUMNS, 6);
     add_base_row(html, review, ranked[0]->worst.before, arena);
     for (int i = 0; i < review->variant_count; i++) add_row(html, ranked[i], arena);
     page_table_end(html);
@@ -173,8 +303,7 @@ static int compare_change(const void *a, const void *b)
 {
     const ReviewDifference *one = *(const ReviewDifference *const *)a;
     const ReviewDifference *other = *(const ReviewDifference *const *)b;
-    double x = isnan(one->margin) ? 0 : fabs(one->margin);
-    double y = isnan(other->margin) ? 0 : fabs(other->margin);
+    double x = distance_of(one), y = distance_of(other);
     return x != y ? (x < y ? 1 : -1) : one < other ? -1 : 1;
 }
 
@@ -184,6 +313,7 @@ static void add_difference(Text *html, const ReviewDifference *d, Arena *arena)
     page_row_begin(html, "");
     page_cell(html, "", words_case(c, arena));
     add_verdict_cell(html, c->verdict);
+    page_cell(html, "n", moved_words(d, arena));
     page_cell(html, "n", d->before ? words_margin(d->before->margin, arena) : "–");
     page_cell(html, "n", words_margin(c->margin, arena));
     page_cell(html, difference_class(d), difference_words(d, arena));
@@ -214,6 +344,7 @@ static bool add_pair(Text *html, const ReviewPicture pair[2], Arena scratch, Err
 static void add_cases(Text *html, const ReviewVariantFound *v, Arena *arena)
 {
     static const PageColumn COLUMNS[] = {{"Case", false, NULL}, {"Verdict", false, NULL},
+                                         {"Before → after", true, NULL},
                                          {"Margin before", true, NULL},
                                          {"With the change", true, NULL},
                                          {"Difference", true, NULL}};
@@ -222,7 +353,7 @@ static void add_cases(Text *html, const ReviewVariantFound *v, Arena *arena)
     for (int i = 0; i < v->difference_count; i++) list[i] = &v->differences[i];
     if (v->difference_count > 0)
         qsort(list, (size_t)v->difference_count, sizeof *list, compare_change);
-    page_table_begin(html, "", "", COLUMNS, 5);
+    page_table_begin(html, "", "", COLUMNS, 6);
     for (int i = 0; i < v->difference_count; i++) add_difference(html, list[i], arena);
     page_table_end(html);
 }

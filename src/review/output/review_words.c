@@ -231,12 +231,20 @@ const char *words_verdict(Verdict verdict)
     return WORDS[verdict];
 }
 
+bool sweep_has_box(const ReviewSweep *sweep)
+{
+    return !isnan(sweep->worst.eye_failed_share);
+}
+
 const char *words_often(const ReviewSweep *sweep, Arena *arena)
 {
     static const char *const NAMES[4] = {"never", "at worst", "too close",
                                          "cannot be judged"};
     Verdict verdict = sweep_verdict(sweep);
     bool    fails = verdict == VERDICT_FAIL && sweep->failed_share > 0;
+    if (verdict == VERDICT_FAIL && sweep_has_box(sweep))
+        return arena_format(arena, "%s of eyes",
+                            words_share(sweep->worst.eye_failed_share, arena));
     return fails ? words_share(sweep->failed_share, arena) : NAMES[verdict];
 }
 
@@ -249,6 +257,10 @@ const char *words_how_often(const ReviewSweep *sweep, Arena *arena)
 {
     bool is_share = sweep_verdict(sweep) == VERDICT_FAIL && sweep->failed_share > 0;
     const char *often = words_often(sweep, arena);
+    if (sweep_has_box(sweep) && sweep_verdict(sweep) == VERDICT_FAIL)
+        return arena_format(arena, "%s at its worst, the middle eye %s%s%s", often,
+                            is_share ? words_share(sweep->failed_share, arena) : "never",
+                            is_share ? " " : "", is_share ? words_of_what(sweep) : "");
     return is_share ? arena_format(arena, "%s %s", often, words_of_what(sweep)) : often;
 }
 

@@ -73,15 +73,19 @@ const char *words_required(const LimitVerdict *limit, Arena *arena);
 /* "Passes", "Fails", "Too close to call", "Cannot be judged": begins a sentence. */
 const char *words_verdict(Verdict verdict);
 
-/* How often a sweep fails: "0.5 %"; where its worst does not, or none of its steps: "never",
- * "at worst" (an eye box: a sweep goes by its middle), "too close", "cannot be
- * judged". */
+/* Has the sweep's eye a box or ellipse? The suns are then judged as its middle sees them, the
+ * worst of those at every point. */
+bool sweep_has_box(const ReviewSweep *sweep);
+
+/* How often a sweep fails: "0.5 %"; of a box "44 % of eyes", at its worst; where its worst does
+ * not, or none of its steps: "never", "at worst", "too close", "cannot be judged". */
 const char *words_often(const ReviewSweep *sweep, Arena *arena);
 
 /* "of the time"; of a sweep of directions alone "of the sun's directions". */
 const char *words_of_what(const ReviewSweep *sweep);
 
-/* The two together, where there is a share: "0.5 % of the time". */
+/* The two together, where there is a share: "0.5 % of the time"; of a box "44 % of eyes at its
+ * worst, the middle eye 1.2 % of the time". */
 const char *words_how_often(const ReviewSweep *sweep, Arena *arena);
 
 /* Seen without colours too: "✓", "✗", "≈", "∅". */

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/calendar.h"
+#include "base/units.h"
 #include "text/text.h"
 
 #define MINUTES_A_DAY 1440
@@ -84,6 +85,82 @@ static void put_worst(const SweepTable *table, int sun, MapCells *cells, size_t 
     cells->verdict[at] = table->figures.verdict[sun];
 }
 
+/* ---- between the steps of a year --------------------------------------------------------- */
+
+/* A step's answer stands for half a step of time before it and after it. Where the sun passes
+ * in that time, cells without a step of their own get the answer of the step nearest in time:
+ * no other answer is made, and cells that the sun does not pass stay empty. */
+
+typedef struct SunWay {
+    const SweepTable *table;
+    const ReviewMap  *map;
+    MapCells         *cells;
+    float            *apart; /* [cell] part of a step's time from its answer's; 0: its own */
+} SunWay;
+
+static int cell_at(const ReviewMap *map, double azimuth_deg, double elevation_deg)
+{
+    const ReviewAxis *across = &map->azimuth_deg, *up = &map->elevation_deg;
+    int a = (int)floor((azimuth_deg - across->first) / across->step + 0.5);
+    int e = (int)floor((elevation_deg - up->first) / up->step + 0.5);
+    a = (a % across->count + across->count) % across->count;
+    return e < 0 || e >= up->count ? -1 : e * across->count + a;
+}
+
+static void direction_of(const SweepSun *sun, double out[3])
+{
+    double turn = radians_from_degrees(sun->azimuth_deg);
+    double up = radians_from_degrees(sun->elevation_deg);
+    out[0] = cos(up) * sin(turn);
+    out[1] = cos(up) * cos(turn);
+    out[2] = sin(up);
+}
+
+/* The answer of `sun`, `apart` of a step away. */
+static void offer(const SunWay *way, int sun, int at, float apart)
+{
+    if (at < 0 || apart > way->apart[at]) return;
+    if (apart < way->apart[at]) way->cells->contrast[at] = NAN;
+    way->apart[at] = apart;
+    put_worst(way->table, sun, way->cells, (size_t)at);
+}
+
+/* From one step to the next, by the straight way, which is within 0.3 degrees of the sun's. */
+static void walk(const SunWay *way, int from, int to)
+{
+    double a[3], b[3], at[3], cosine = 0;
+    direction_of(&way->table->suns->list[from], a);
+    direction_of(&way->table->suns->list[to], b);
+    for (int i = 0; i < 3; i++) cosine += a[i] * b[i];
+    double angle = degrees_from_radians(acos(fmin(fmax(cosine, -1), 1)));
+    int    parts = 2 * (int)ceil(2 * angle / way->map->azimuth_deg.step);
+    for (int k = 1; k < parts; k++) {
+        double t = (double)k / parts;
+        for (int i = 0; i < 3; i++) at[i] = a[i] + t * (b[i] - a[i]);
+        int cell = cell_at(way->map, degrees_from_radians(atan2(at[0], at[1])),
+                           degrees_from_radians(atan2(at[2], hypot(at[0], at[1]))));
+        if (2 * k <= parts) offer(way, from, cell, (float)t);
+        if (2 * k >= parts) offer(way, to, cell, (float)(1 - t));
+    }
+}
+
+/* Steps of one heading, where the sun is up at both. */
+static void fill_between(const SunWay *way, Arena scratch)
+{
+    const SweepSuns *suns = way->table->suns;
+    int  headings = 0;
+    int *before;
+    for (int i = 0; i < suns->count; i++)
+        if (suns->list[i].heading_id >= headings) headings = suns->list[i].heading_id + 1;
+    before = ARENA_NEW(&scratch, int, headings + 1);
+    for (int h = 0; h < headings; h++) before[h] = -1;
+    for (int i = 0; i < suns->count; i++) {
+        int *last = &before[suns->list[i].heading_id];
+        if (*last >= 0 && suns->list[*last].step + 1 == suns->list[i].step) walk(way, *last, i);
+        *last = i;
+    }
+}
+
 static ReviewMap grid_map(const SweepTable *table, const ReviewSweep *sweep, Arena *arena)
 {
     const SweepSuns *suns = table->suns;
@@ -106,13 +183,15 @@ ReviewMap sweep_map(const SweepTable *table, const ReviewSweep *sweep, double st
     ReviewAxis azimuth = {0, step_deg, (int)(360 / step_deg)};
     ReviewAxis elevation = {0.5 * step_deg, step_deg, (int)(90 / step_deg)};
     ReviewMap map = empty_map(sweep, azimuth, elevation, &cells, arena);
+    SunWay    way = {table, &map, &cells,
+                     ARENA_NEW(arena, float, azimuth.count * elevation.count)};
+    for (int i = 0; i < azimuth.count * elevation.count; i++) way.apart[i] = 1;
     for (int i = 0; i < suns->count; i++) {
         const SweepSun *sun = &suns->list[i];
-        int a = (int)floor(sun->azimuth_deg / step_deg + 0.5) % azimuth.count;
-        int e = (int)floor(sun->elevation_deg / step_deg);
-        if (e < 0 || e >= elevation.count) continue;
-        put_worst(table, i, &cells, (size_t)e * (size_t)azimuth.count + (size_t)a);
+        offer(&way, i, cell_at(&map, sun->azimuth_deg, sun->elevation_deg), 0);
     }
+    map.is_between_steps = suns->step_minutes > 0;
+    if (map.is_between_steps) fill_between(&way, *arena);
     return map;
 }
 

@@ -13,7 +13,8 @@ bool sweep_table_write(const SweepTable *table, const ReviewCondition *condition
                        const char *path, Error *err);
 
 /* Contrast over the sun's place in the vehicle's frame: cells of `step_deg`, each with the
- * worst of its suns; of a sweep over the sun its own grid. */
+ * worst of its suns; of a sweep over the sun its own grid. A cell that the sun of a year passes
+ * between two steps has the answer of the one that is nearer in time. */
 ReviewMap sweep_map(const SweepTable *table, const ReviewSweep *sweep, double step_deg,
                     Arena *arena);
 
