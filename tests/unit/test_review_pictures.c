@@ -111,7 +111,8 @@ TEST(a_variants_row_shows_what_moves_most_and_the_least)
     ReviewVariantFound variant = {.name = "hood", .words = changes, .word_count = 1,
                                   .review = &changed, .differences = all,
                                   .difference_count = 3, .worst = all[0]};
-    const char *least = words_ratio(review.cases[3].limits[0].found, &arena);
+    const char *least = arena_format(&arena, "%s : 1",
+                                     words_figure(review.cases[3].limits[0].found, &arena));
     changed.sweeps[0].longest_failure_minutes = NAN;
     changed.sweeps[0].failed_share = 0.005;
     changed.sweeps[1].longest_failure_minutes = 4;

@@ -173,7 +173,7 @@ const char *words_measured(const LimitVerdict *limit, Arena *arena)
     return with_unit(limit, figure, arena);
 }
 
-static const char *words_quantity(const LimitVerdict *limit, Arena *arena)
+const char *words_quantity(const LimitVerdict *limit, Arena *arena)
 {
     const char *found = words_found(limit, arena);
     LimitKind   kind = limit_kind_named(limit->kind);
@@ -398,7 +398,7 @@ static const char *mean_words(const ReviewCase *c, Arena *arena)
     LimitKind    kind = limit ? limit_kind_named(limit->kind) : LIMIT_KIND_COUNT;
     LimitVerdict mean = limit ? *limit : (LimitVerdict){0};
     if (kind == LIMIT_KIND_COUNT || !limit_kinds[kind].is_contrast)
-        return words_ratio(c->whole.contrast_ratio, arena);
+        return arena_format(arena, "%s : 1", words_figure(c->whole.contrast_ratio, arena));
     mean.found = contrast_from_ratio(kind, c->whole.contrast_ratio);
     return words_found(&mean, arena);
 }
