@@ -12,6 +12,7 @@
 #include "cli/equip/equip_files.h"
 #include "cli/equip/equip_patch.h"
 #include "cli/equip/equip_shipped.h"
+#include "scene/load/display_frame.h"
 #include "scene/load/material_data.h"
 #include "scene/load/scene_load.h"
 #include "text/json_text.h"
@@ -97,6 +98,22 @@ static bool check_names(const Equip *equip, const Scene *scene, Error *err)
         if (!check_name(equip, scene, equip->eyes[i].name, equip->eyes[i].place, err))
             return false;
     return true;
+}
+
+static void doubt_forward(const Equip *equip, Problems *problems)
+{
+    const double *f = equip->forward;
+    for (int i = 0; i < equip->eye_count; i++) {
+        const EquipEye *eye = &equip->eyes[i];
+        double          degrees, way[3];
+        for (int k = 0; k < 3; k++) way[k] = eye->target_m[k] - eye->position_m[k];
+        if (forward_angle_deg(f, way, &degrees) && degrees > FORWARD_MOST_DEG)
+            problems_add(problems, SEVERITY_WARNING, equip->file, "/forward",
+                         "(%.3g, %.3g, %.3g) is %.0f degrees off where \"%.60s\" looks, (%.3g, "
+                         "%.3g, %.3g) m away, expected within %g: does the vehicle point there?",
+                         f[0], f[1], f[2], degrees, eye->name, way[0], way[1], way[2],
+                         FORWARD_MOST_DEG);
+    }
 }
 
 static bool check_output(const EquipOrder *order, const char *path, Error *err)
@@ -318,11 +335,14 @@ static bool prepare(Applying *at, Error *err)
     if (!equip_file_read(order->with, at->arena, &at->equip, err) ||
         !equip_files_open(order->model, order->output, order->root, at->arena, &at->files, err))
         return false;
+    doubt_forward(&at->equip, at->problems);
     at->result.scene = order->output;
     at->result.review = equip_files_beside(&at->files, ".review.json");
     at->result.display_count = at->equip.display_count;
     at->result.eye_count = at->equip.eye_count;
     at->result.material_count = at->equip.material_count;
+    at->result.forward_is_proposed = at->equip.forward_is_proposed;
+    memcpy(at->result.forward, at->equip.forward, sizeof at->result.forward);
     return check_output(order, at->result.scene, err) &&
            check_output(order, at->result.review, err) && check_model(at, err);
 }

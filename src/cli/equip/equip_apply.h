@@ -24,6 +24,8 @@ typedef struct EquipResult {
     const char **copies;               /* beside the scene */
     int          copy_count;
     int          display_count, eye_count, material_count;
+    double       forward[3]; /* where the vehicle points */
+    bool         forward_is_proposed;  /* from where the first eye looks */
     int          without_data; /* materials that still have none */
 } EquipResult;
 

@@ -7,10 +7,12 @@
 #include "cli/equip/usual_material.h"
 #include "review/profile.h"
 #include "review/request/request_fields.h"
+#include "scene/load/display_frame.h"
 
 #define METRES_MAX 1e4
-#define LEAST_M 0.001   /* a display's side */
+#define LEAST_M 0.001   /* a display's side of any size */
 #define MOST_M 100.0
+#define LEVEL_MAX 100.0
 #define NEAR_M 0.001    /* an eye that is nearer looks nowhere */
 #define SQUARE 1e-3     /* of two unit vectors' product */
 #define MATERIALS_MAX 10000
@@ -53,6 +55,39 @@ static bool square(const JsonView *view, EquipDisplay *display, Error *err)
     return true;
 }
 
+/* 25 is meant as 25 %: a level above what was measured has to say so. */
+static bool read_level(const JsonView *view, EquipDisplay *out, Error *err)
+{
+    out->level = out->max_level = 1;
+    return json_view_number(view, "max_level", 1, LEVEL_MAX, &out->max_level, err) &&
+           json_view_number(view, "level", 0, LEVEL_MAX, &out->level, err) &&
+           (out->level <= out->max_level ||
+            field_fails(view, "level", err,
+                        "is %g, required a level from 0 to %g: 1 is as measured, 0.25 a quarter "
+                        "of it; \"max_level\" beside it allows a panel driven above that",
+                        out->level, out->max_level));
+}
+
+static bool check_side(const JsonView *view, const EquipDisplay *display, const char *key,
+                       double m, Error *err)
+{
+    return display->any_size || display_side_is_plausible(m) ||
+           field_fails(view, key, err,
+                       "is %.4g m, required %g to %g m: is the model in metres? If it is meant: "
+                       "\"any_size\": true beside it",
+                       m, DISPLAY_LEAST_M, DISPLAY_MOST_M);
+}
+
+static bool read_size(const JsonView *view, EquipDisplay *out, Error *err)
+{
+    const double side[2] = {LEAST_M, MOST_M};
+    return field_boolean(view, "any_size", &out->any_size, err) &&
+           wanted_number(view, "width_m", side, &out->width_m, err) &&
+           wanted_number(view, "height_m", side, &out->height_m, err) &&
+           check_side(view, out, "width_m", out->width_m, err) &&
+           check_side(view, out, "height_m", out->height_m, err);
+}
+
 /* Absent: full white. */
 static bool read_content(const JsonView *view, const char **out, Error *err)
 {
@@ -61,20 +96,17 @@ static bool read_content(const JsonView *view, const char **out, Error *err)
 
 static bool read_display(const JsonView *view, EquipDisplay *out, Error *err)
 {
-    const double side[2] = {LEAST_M, MOST_M};
-    double       before_mm = 0.5;
+    double before_mm = 0.5;
     out->place = view->path;
-    out->level = 1;
     bool ok = field_name(view, "name", &out->name, err) &&
               position(view, "centre_m", out->centre_m, err) &&
               direction(view, "right", out->right, err) &&
               direction(view, "up", out->up, err) && square(view, out, err) &&
-              wanted_number(view, "width_m", side, &out->width_m, err) &&
-              wanted_number(view, "height_m", side, &out->height_m, err) &&
+              read_size(view, out, err) &&
               json_view_number(view, "before_mm", 0.05, 1000, &before_mm, err) &&
               field_name(view, "panel", &out->panel, err) &&
               read_content(view, &out->content, err) &&
-              json_view_number(view, "level", 0, 100, &out->level, err);
+              read_level(view, out, err);
     out->before_m = before_mm / 1000;
     return ok;
 }
@@ -91,7 +123,8 @@ static bool is_taken(const Equip *equip, int displays, int eyes, const char *nam
 static bool read_displays(const JsonView *root, Equip *out, Error *err)
 {
     static const char *const keys[] = {"name", "on", "centre_m", "right", "up", "width_m",
-                                       "height_m", "before_mm", "panel", "content", "level"};
+                                       "height_m", "before_mm", "panel", "content", "level",
+                                       "max_level", "any_size"};
     int count;
     if (!field_list(root, "displays", EQUIP_DISPLAYS_MAX, &count, err)) return false;
     EquipDisplay *list = ARENA_NEW(root->arena, EquipDisplay, count);
@@ -250,10 +283,23 @@ static bool read_place(const JsonView *root, Equip *out, Error *err)
                        where[0], where[1]);
 }
 
+/* The axis that is nearest to where the first eye looks; of one that looks straight down, -Z. */
+static void propose_forward(Equip *out)
+{
+    const EquipEye *eye = &out->eyes[0];
+    double          x = eye->target_m[0] - eye->position_m[0];
+    double          z = eye->target_m[2] - eye->position_m[2];
+    bool            is_x = fabs(x) > fabs(z);
+    out->forward[0] = is_x ? copysign(1, x) : 0;
+    out->forward[2] = is_x ? 0 : z > 0 ? 1 : -1;
+}
+
 static bool read_forward(const JsonView *root, Equip *out, Error *err)
 {
-    out->forward[2] = -1;
-    if (!field_unit_vector(root, "forward", out->forward, NULL, err)) return false;
+    bool is_given = false;
+    propose_forward(out);
+    if (!field_unit_vector(root, "forward", out->forward, &is_given, err)) return false;
+    out->forward_is_proposed = !is_given;
     return hypot(out->forward[0], out->forward[2]) > VERTICAL ||
            field_fails(root, "forward", err,
                        "is vertical, wanted where the vehicle points");

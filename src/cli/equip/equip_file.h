@@ -25,7 +25,8 @@ typedef struct EquipDisplay {
     double      before_m;     /* so far before the face */
     const char *panel;        /* a shipped one's name, or a path beside the model */
     const char *content;      /* likewise; NULL: full white */
-    double      level;        /* multiplies its light */
+    double      level, max_level; /* level multiplies its light; 1: as measured */
+    bool        any_size;     /* however large: it is meant */
 } EquipDisplay;
 
 typedef struct EquipEye {
@@ -50,6 +51,7 @@ typedef struct Equip {
     int                  display_count, eye_count, material_count;
     const char          *profile;    /* a shipped one's name */
     double               forward[3]; /* where the vehicle points */
+    bool                 forward_is_proposed; /* from the first eye: the file says none */
     bool                 has_place;
     ReviewPlace          place;
 } Equip;

@@ -155,6 +155,9 @@ static int add_screen(json_t *document, const EquipDisplay *display, const Equip
 {
     json_t *own = json_pack("{s:o, s:f}", "panel", json_text(names->panel), "level",
                             display->level);
+    if (display->max_level > 1)
+        json_object_set_new(own, "max_level", json_real(display->max_level));
+    if (display->any_size) json_object_set_new(own, "any_size", json_true());
     json_t *material =
         json_pack("{s:o, s:{s:[i,i,i,i], s:i, s:f}}", "name", json_text(display->name),
                   "pbrMetallicRoughness", "baseColorFactor", 0, 0, 0, 1, "metallicFactor", 0,

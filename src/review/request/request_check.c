@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "review/request/request_doubt.h"
 #include "text/nearest_word.h"
 
 #define ADVICE_CHARS 320
@@ -242,5 +243,6 @@ bool review_request_check(const ReviewRequest *request, const Scene *scene, Prob
     for (int i = 0; i < request->level_count; i++) check_level(&check, &request->levels[i]);
     for (int i = 0; i < request->condition_count; i++) check_contents(&check, i);
     if (request->change) check_change(&check, request->change);
+    if (problems->error_count == before) review_request_doubt(request, scene, problems);
     return problems->error_count == before;
 }

@@ -19,6 +19,6 @@ bool review_camera_find(const Scene *scene, const ReviewEye *eye, Arena scratch,
 
 /* Everything that the request names of the scene is there: cameras and displays of eyes,
  * symbols, levels and contents. All that is not goes to *problems, with file and path; false
- * when there was any. */
+ * when there was any. Besides, what cannot be meant (request_doubt.h). */
 bool review_request_check(const ReviewRequest *request, const Scene *scene,
                           Problems *problems);

@@ -84,7 +84,8 @@ static bool read_levels(VariantReading *v, Error *err)
 {
     const ReviewRequest *request = v->reading->request;
     ReviewVariant       *variant = v->variant;
-    if (!request_levels_of(&v->view, &variant->levels, &variant->level_count, err))
+    if (!request_levels_of(&v->view, request->max_level, &variant->levels,
+                           &variant->level_count, err))
         return false;
     for (int i = 0; i < variant->level_count; i++) {
         const char *name = variant->levels[i].name;
@@ -104,7 +105,7 @@ static bool read_brightness(VariantReading *v, Error *err)
     FieldMembers      members;
     ReviewFixedLevel *list;
     if (!field_members(&v->view, "brightness", NAMES_MAX, &members, err) ||
-        !request_levels_fixed(&members, &list, err))
+        !request_brightness_read(&members, &list, err))
         return false;
     for (int i = 0; i < members.count; i++)
         say(v, arena_format(arena_of(v), "%s %g times as bright",

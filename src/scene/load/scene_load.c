@@ -22,6 +22,7 @@
 #include "scene/gltf/tree.h"
 #include "scene/gltf/variant.h"
 #include "scene/load/display.h"
+#include "scene/load/display_frame.h"
 #include "scene/load/graph.h"
 #include "scene/load/hood.h"
 #include "scene/load/image.h"
@@ -228,6 +229,7 @@ static Scene *assemble(Loader *load)
     measure_bounds(scene);
     fill_gaps(scene);
     sort_extensions(scene);
+    displays_doubt(scene, load->problems);
     warn_if_odd(scene, load);
     return scene;
 }
