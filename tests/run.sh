@@ -61,6 +61,7 @@ start 'variants of a review' variants python3 tests/image/variants.py $program
 start 'the README as written, its review met' guides guides_and_meeting
 start 'the command line' cli python3 tests/hostile/cli.py $program
 start 'options given twice' options python3 tests/hostile/options.py $program
+start 'settings that cannot be meant' settings python3 tests/hostile/settings.py $program
 start 'reviews that ask wrongly' review-request python3 tests/hostile/review_request.py $program
 start 'panel commands' panel-commands python3 tests/hostile/panel_commands.py $program
 start 'a second reader of panels' library-agreement \

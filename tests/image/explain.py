@@ -119,12 +119,13 @@ def check_remedies(report, reviewer):
 
     brighter = remedies["the"]
     document["levels"] = {"more": {"*": brighter["level"]}}
+    document["max_level"] = 100
     document["conditions"][0]["level"] = "more"
     _, review = reviewer.review(document, "brighter")
     judged("brighter", brighter["contrast_ratio"], review["cases"][0])
     wall = next(name for name in remedies if name in ("floor", "side"))
     named_dashboard(wall).write(os.path.join(reviewer.folder, "dash.gltf"))
-    del document["levels"], document["conditions"][0]["level"]
+    del document["levels"], document["max_level"], document["conditions"][0]["level"]
     _, review = reviewer.review(document, "black")
     judged("a black wall", remedies[wall]["contrast_ratio"], review["cases"][0])
     named_dashboard().write(os.path.join(reviewer.folder, "dash.gltf"))

@@ -9,7 +9,6 @@
 #define FRONT_COS 0.5f      /* of 60 degrees */
 #define LOOK_COS 0.5       /* a camera looks at what is within 60 degrees of its axis */
 #define LOOK_MOST_M 5.0    /* and no farther off: others show the room */
-#define FLAT_COS 0.87f     /* of 30 degrees: one that lies so has its up where somebody sits */
 #define ACROSS_LEAST 0.05f /* sine between the view and what is up */
 #define LEVEL_LEAST 1e-3   /* horizontal length of a unit vector: less is vertical */
 
@@ -107,17 +106,45 @@ static bool looks_at(const SceneCamera *camera, const DisplayFrame *frame)
            -vec3_dot(world->z, way) > (float)LOOK_COS * length;
 }
 
-/* The camera that sees the picture least turned; NULL where none looks at it. */
+static bool camera_turn(const SceneCamera *camera, const DisplayFrame *frame, double *degrees)
+{
+    const Transform *world = &camera->world_from_camera;
+    return looks_at(camera, frame) &&
+           display_frame_turn(frame, world->origin, world->y, degrees);
+}
+
+static bool frame_of_part(const Scene *scene, int part, DisplayFrame *out)
+{
+    return scene->materials[scene->parts[part].material_id].display_id != NO_ID &&
+           display_frame_of(scene, &scene->parts[part], out);
+}
+
+/* Sees some display upright: an eye. Others show the car from outside. */
+static bool is_eye(const Scene *scene, const SceneCamera *camera)
+{
+    bool found = false;
+    for (int i = 0; i < scene->part_count && !found; i++) {
+        DisplayFrame frame;
+        double       degrees;
+        found = frame_of_part(scene, i, &frame) && camera_turn(camera, &frame, &degrees) &&
+                fabs(degrees) <= DISPLAY_TURN_MOST_DEG;
+    }
+    return found;
+}
+
+/* The camera that sees the picture least turned, an eye if there is one; NULL where none looks
+ * at it. */
 static const SceneCamera *best_camera(const Scene *scene, const DisplayFrame *frame,
                                       double *turn)
 {
     const SceneCamera *best = NULL;
+    bool               has_eyes = false;
+    for (int i = 0; i < scene->camera_count && !has_eyes; i++)
+        has_eyes = is_eye(scene, &scene->cameras[i]);
     for (int i = 0; i < scene->camera_count; i++) {
         const SceneCamera *camera = &scene->cameras[i];
-        const Transform   *world = &camera->world_from_camera;
         double             degrees;
-        if (!looks_at(camera, frame) ||
-            !display_frame_turn(frame, world->origin, world->y, &degrees) ||
+        if ((has_eyes && !is_eye(scene, camera)) || !camera_turn(camera, frame, &degrees) ||
             (best && fabs(degrees) >= fabs(*turn)))
             continue;
         best = camera;
@@ -146,8 +173,7 @@ static void doubt_turn(const Scene *scene, const Part *part, const DisplayFrame 
 {
     double             turn;
     const SceneCamera *camera = best_camera(scene, frame, &turn);
-    if (!camera || fabs(turn) <= DISPLAY_TURN_MOST_DEG || fabsf(frame->normal.y) > FLAT_COS)
-        return;
+    if (!camera || fabs(turn) <= DISPLAY_TURN_MOST_DEG) return;
     problems_add(problems, SEVERITY_WARNING, scene->inputs[0], "",
                  "display \"%s\" on \"%s\": seen from camera \"%s\" its picture stands %s "
                  "(turned by %.0f degrees): are its texture coordinates turned?",
@@ -159,13 +185,10 @@ static void doubt_turn(const Scene *scene, const Part *part, const DisplayFrame 
 void displays_doubt(const Scene *scene, Problems *problems)
 {
     for (int i = 0; i < scene->part_count; i++) {
-        const Part  *part = &scene->parts[i];
         DisplayFrame frame;
-        if (scene->materials[part->material_id].display_id == NO_ID ||
-            !display_frame_of(scene, part, &frame))
-            continue;
-        doubt_size(scene, part, &frame, problems);
-        doubt_turn(scene, part, &frame, problems);
+        if (!frame_of_part(scene, i, &frame)) continue;
+        doubt_size(scene, &scene->parts[i], &frame, problems);
+        doubt_turn(scene, &scene->parts[i], &frame, problems);
     }
 }
 
@@ -185,10 +208,8 @@ static bool looks_at_any(const Scene *scene, const SceneCamera *camera)
 {
     bool found = false;
     for (int i = 0; i < scene->part_count && !found; i++) {
-        const Part  *part = &scene->parts[i];
         DisplayFrame frame;
-        found = scene->materials[part->material_id].display_id != NO_ID &&
-                display_frame_of(scene, part, &frame) && looks_at(camera, &frame);
+        found = frame_of_part(scene, i, &frame) && looks_at(camera, &frame);
     }
     return found;
 }
