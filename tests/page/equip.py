@@ -152,7 +152,8 @@ def check_review(work, name, saved):
     with open(work.path(name), encoding="utf-8") as file:
         review = json.load(file)
     names = [condition["name"] for condition in review["conditions"]]
-    work.report.claim(names == ["noon", "night", "any sun", "a year"], f"{name}: {names}")
+    work.report.claim(names == ["an ordinary day", "an ordinary night", "noon", "night",
+                                "any sun", "a year"], f"{name}: {names}")
     work.report.claim(list(review["eyes"]) == [eye["name"] for eye in saved["eyes"]] and
                       review["forward"] == saved["forward"], f"{name}: {review['eyes']}")
 

@@ -169,6 +169,7 @@ EQUIP = {"equip": 1, "model": "car.glb",
                        {"index": 1, "base_color": [0.1, 0.1, 0.1], "roughness": 0.5,
                         "metallic": 0, "transmission": 0, "ior": 1.4}],
          "profile": "iso-15008", "forward": [0, 0, -1],
+         "occupant": {"eye": "the eye", "shirt": "grey"},
          "place": {"where": [48, 11, 500], "year": 2026, "headings_deg": [0, 90]}}
 WRONG_EQUIPS = [("equip", None), ("equip", 2), ("eyes", None), ("eyes", []), ("eye", []),
                 ("displays", {}), ("displays/0/name", ""), ("displays/0/up", [0, 0, 0]),
@@ -181,7 +182,8 @@ WRONG_EQUIPS = [("equip", None), ("equip", 2), ("eyes", None), ("eyes", []), ("e
                 ("eyes/0/target_m", [0, 0, 0]), ("eyes/0/position_m", None),
                 ("materials/0/index", -1), ("materials/0/as", None),
                 ("materials/0/ior", 0.5), ("materials/1/base_color", [1, 1, 2]),
-                ("profile", "a/b"), ("forward", [0, 0, 0]), ("place", {}),
+                ("profile", "a/b"), ("forward", [0, 0, 0]), ("occupant/eye", None),
+                ("occupant/shirt", "red"), ("place", {}),
                 ("place/where", [91, 0, 0]), ("place/year", 1900), ("place/headings_deg", [])]
 
 

@@ -92,14 +92,15 @@ static bool print_result(const EquipWords *words, const EquipResult *r, Arena *a
 {
     if (words->cli.json)
         return cli_print_json(
-            json_pack("{s:o, s:o, s:o, s:o, s:i, s:i, s:i, s:i, s:[f,f,f], s:b}", "scene",
+            json_pack("{s:o, s:o, s:o, s:o, s:i, s:i, s:i, s:i, s:[f,f,f], s:b, s:o}", "scene",
                       json_text(r->scene),
                       "bin", json_text_or_null(r->bin), "review",
                       json_text_or_null(r->review), "copies",
                       json_texts(r->copies, r->copy_count), "displays", r->display_count,
                       "eyes", r->eye_count, "materials", r->material_count, "without_data",
                       r->without_data, "forward", r->forward[0], r->forward[1], r->forward[2],
-                      "forward_is_proposed", r->forward_is_proposed),
+                      "forward_is_proposed", r->forward_is_proposed, "occupant",
+                      json_text_or_null(r->occupant)),
             err);
     printf("scene        %s: displays %d, eyes %d, materials %d\n", r->scene, r->display_count,
            r->eye_count, r->material_count);
@@ -107,6 +108,8 @@ static bool print_result(const EquipWords *words, const EquipResult *r, Arena *a
            r->forward[2] + 0.0,
            r->forward_is_proposed ? ": proposed from where the first eye looks" : "");
     if (r->bin) printf("bytes        %s\n", r->bin);
+    if (r->occupant) printf("occupant     %s\n", r->occupant);
+    else printf("occupant     none: nobody sits in the driver's seat; \"occupant\" seats one\n");
     for (int i = 0; i < r->copy_count; i++) printf("copy         %s\n", r->copies[i]);
     if (r->review) printf("review       %s\n", r->review);
     else printf("review       none: no display shows content that could be read\n");

@@ -6,10 +6,12 @@
 #include <string.h>
 #include <jansson.h>
 
+#include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
 #include "base/reference.h"
 #include "cli/equip/equip_files.h"
+#include "cli/equip/equip_occupant.h"
 #include "cli/equip/equip_patch.h"
 #include "cli/equip/equip_shipped.h"
 #include "scene/load/display_frame.h"
@@ -37,7 +39,7 @@ static bool name_file(const EquipOrder *order, EquipFiles *files, const ShippedK
 {
     const char *path;
     return find_file(order, kind, text, files->arena, &path, err) &&
-           equip_files_uri(files, path, uri, err);
+           equip_files_take(files, path, uri, err);
 }
 
 /* A fault of a name in the equip file, at its place there. */
@@ -248,6 +250,13 @@ static bool has_content(const Equip *equip)
     return found;
 }
 
+static const char *occupant_uri(const Applying *at)
+{
+    if (!at->result.occupant) return NULL;
+    const char *name = arena_format(at->arena, "/%s", path_name(at->result.occupant));
+    return uri_between("/", name, at->arena);
+}
+
 static bool start_review(const Applying *at, const Scene *scene, Error *err)
 {
     const Equip *e = &at->equip;
@@ -258,7 +267,9 @@ static bool start_review(const Applying *at, const Scene *scene, Error *err)
     const ReviewWishes wishes = {
         .profile = e->profile, .forward = {e->forward[0], e->forward[1], e->forward[2]},
         .eyes = eyes, .eye_count = e->eye_count, .displays = displays,
-        .display_count = e->display_count, .place = e->has_place ? &e->place : NULL};
+        .display_count = e->display_count, .place = e->has_place ? &e->place : NULL,
+        .occupant = at->result.occupant ? e->occupant.name : NULL,
+        .occupant_uri = occupant_uri(at)};
     const ReviewStart start = {&at->order->output, 1, at->result.review, NULL, &wishes,
                                at->order->overwrites};
     return review_request_start(&start, scene, at->arena, err);
@@ -300,13 +311,32 @@ static void report_copies(Applying *at)
     for (int i = 0; i < files->count; i++) at->result.copies[i] = files->copies[i].name;
 }
 
+/* Before the copies: it may name more of them. */
+static bool write_occupant(Applying *at, Error *err)
+{
+    const char *path = equip_files_beside(&at->files, ".occupant.gltf");
+    if (at->equip.occupant.eye_id == NO_ID) return true;
+    if (!check_output(at->order, path, err) ||
+        !equip_occupant_write(&at->equip, &at->files, path, err))
+        return false;
+    at->result.occupant = path;
+    return true;
+}
+
+static void take_back(const Applying *at)
+{
+    const char *const written[] = {at->result.bin, at->result.occupant};
+    equip_files_undo(&at->files);
+    for (int i = 0; i < COUNT_OF(written); i++)
+        if (written[i] && !at->order->overwrites) file_remove(written[i]);
+}
+
 static bool write_all(Applying *at, Error *err)
 {
     Scene *scene;
-    if (!equip_files_write(&at->files, err) || !name_bin(at, err) ||
-        !write_scene(at, &scene, err)) {
-        equip_files_undo(&at->files);
-        if (at->result.bin && !at->order->overwrites) file_remove(at->result.bin);
+    if (!write_occupant(at, err) || !equip_files_write(&at->files, err) ||
+        !name_bin(at, err) || !write_scene(at, &scene, err)) {
+        take_back(at);
         return false;
     }
     scene_without_data(scene, &at->result.without_data, at->arena);

@@ -21,6 +21,7 @@ typedef struct EquipOrder {
 
 typedef struct EquipResult {
     const char  *scene, *bin, *review; /* NULL: no .bin; no display shows content to read */
+    const char  *occupant;             /* NULL: nobody sits there */
     const char **copies;               /* beside the scene */
     int          copy_count;
     int          display_count, eye_count, material_count;

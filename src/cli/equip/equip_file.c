@@ -305,6 +305,30 @@ static bool read_forward(const JsonView *root, Equip *out, Error *err)
                        "is vertical, wanted where the vehicle points");
 }
 
+static bool read_occupant(const JsonView *root, Equip *out, Error *err)
+{
+    static const char *const keys[] = {"eye", "shirt"};
+    static const char *const shirts[] = {"white", "grey", "black"};
+    static const char *const scenes[] = {"occupant", "occupant_grey", "occupant_dark"};
+    JsonView    view;
+    const char *eyes[EQUIP_EYES_MAX];
+    int         shirt = 0;
+    out->occupant.eye_id = NO_ID;
+    if (!json_view_child(root, "occupant", false, &view, err)) return false;
+    if (!view.object) return true;
+    for (int i = 0; i < out->eye_count; i++) eyes[i] = out->eyes[i].name;
+    if (!json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
+        !field_wanted(&view, "eye", err) ||
+        !field_choice(&view, "eye", (FieldWords){eyes, out->eye_count}, &out->occupant.eye_id,
+                      err) ||
+        !field_choice(&view, "shirt", (FieldWords){shirts, COUNT_OF(shirts)}, &shirt, err))
+        return false;
+    out->occupant.shirt = shirts[shirt];
+    out->occupant.scene = scenes[shirt];
+    out->occupant.name = arena_format(root->arena, "driver in %s", shirts[shirt]);
+    return true;
+}
+
 static bool read_profile(const JsonView *root, Equip *out, Error *err)
 {
     const Profile *profile;
@@ -329,13 +353,13 @@ static bool read_version(const JsonView *root, Error *err)
 static bool read_all(const JsonView *root, Equip *out, Error *err)
 {
     static const char *const keys[] = {"equip", "model", "displays", "eyes", "materials",
-                                       "profile", "forward", "place"};
+                                       "profile", "forward", "place", "occupant"};
     const char *model = "";
     return json_view_check_keys(root, keys, COUNT_OF(keys), err) && read_version(root, err) &&
            json_view_text(root, "model", &model, err) && read_displays(root, out, err) &&
            read_eyes(root, out, err) && read_materials(root, out, err) &&
            read_profile(root, out, err) && read_forward(root, out, err) &&
-           read_place(root, out, err);
+           read_occupant(root, out, err) && read_place(root, out, err);
 }
 
 bool equip_file_read(const char *file, Arena *arena, Equip *out, Error *err)

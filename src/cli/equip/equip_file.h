@@ -43,6 +43,14 @@ typedef struct EquipMaterial {
     double      base_color[3], roughness, metallic, transmission, ior;
 } EquipMaterial;
 
+/* Somebody sits where an eye is. */
+typedef struct EquipOccupant {
+    int         eye_id; /* NO_ID: nobody does */
+    const char *shirt;  /* "white", "grey", "black" */
+    const char *scene;  /* the shipped scene that it is */
+    const char *name;   /* in the review */
+} EquipOccupant;
+
 typedef struct Equip {
     const char          *file;
     const EquipDisplay  *displays;
@@ -52,6 +60,7 @@ typedef struct Equip {
     const char          *profile;    /* a shipped one's name */
     double               forward[3]; /* where the vehicle points */
     bool                 forward_is_proposed; /* from the first eye: the file says none */
+    EquipOccupant        occupant;
     bool                 has_place;
     ReviewPlace          place;
 } Equip;

@@ -4,7 +4,8 @@
  *
  * Every perspective camera is an eye. Every display that shows something has one symbol,
  * "find": "text" over what it shows of its content; one whose material several nodes wear has
- * one a node. Wishes set more, and put a sweep over every sun beside the noon.
+ * one a node. Wishes set more, and put an ordinary day and
+ * night and a sweep over every sun beside them.
  *
  * Memory   the arena's. Threads: one at a time.
  * Fails    ERROR_INPUT when the scene has no such display or camera, or lies where the file may
@@ -29,6 +30,8 @@ typedef struct ReviewWishes {
     const char *const  *displays;   /* those that are to be read, by name */
     int                 display_count;
     const ReviewPlace  *place;      /* NULL: no year */
+    const char         *occupant;   /* who sits there in every condition; NULL: nobody */
+    const char         *occupant_uri; /* the file that he is, as the new file names it */
 } ReviewWishes;
 
 typedef struct ReviewStart {
