@@ -18,7 +18,7 @@
 
 /* Files beside this one, and Debian's three.js; the build embeds them. */
 extern const char EQUIP_STYLE[], EQUIP_BODY[], EQUIP_VIEW[], EQUIP_FACE[], EQUIP_EYE[],
-    EQUIP_SCRIPT[], THREE_NOTICE[], THREE_SCRIPT[];
+    EQUIP_BASE[], EQUIP_DISPLAY[], EQUIP_SCRIPT[], THREE_NOTICE[], THREE_SCRIPT[];
 
 #define STEPS 16777215.0 /* of a coordinate over the model's size: three bytes */
 #define GRID 12          /* of places where a texture is asked for its mean */
@@ -358,7 +358,8 @@ bool equip_page_write(const Scene *scene, const char *model, const char *command
                       const char *path, Arena *arena, Error *err)
 {
     static const char *const scripts[] = {THREE_NOTICE, THREE_SCRIPT, "\n", EQUIP_VIEW,
-                                          EQUIP_FACE, EQUIP_EYE, EQUIP_SCRIPT, NULL};
+                                          EQUIP_FACE, EQUIP_EYE, EQUIP_BASE, EQUIP_DISPLAY,
+                                          EQUIP_SCRIPT, NULL};
     if (!check_size(scene, model, err)) return false;
     json_t *data = data_json(scene, model, command, arena);
     Arena   own = arena_reserve((size_t)64 << 30);
