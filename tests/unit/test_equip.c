@@ -7,7 +7,9 @@
 #include "cli/equip/equip_page.h"
 #include "cli/equip/equip_shipped.h"
 #include "cli/equip/usual_material.h"
+#include "scene/load/display_frame.h"
 #include "scene/load/scene_load.h"
+#include "text/text.h"
 
 #define OFF 1e-5 /* m, and of unit vectors */
 
@@ -283,6 +285,74 @@ ARENA_TEST(a_folder_can_be_sent_to_somebody)
     assert_null(strstr(read_text(in_folder("sent/n.gltf"), &arena), "../"));
 }
 
+/* An eighth of a cylinder of radius 0.4 m about the Y axis, seen from its axis: corners by sine
+ * and cosine, normals towards the axis. */
+static const char *cylinder(Arena *arena)
+{
+    enum { STRIPS = 12 };
+    Text text = {.arena = arena};
+    text_add(&text, "\"mesh\": {\"positions_m\": [");
+    for (int i = 0; i <= STRIPS; i++)
+        for (int y = 0; y < 2; y++) {
+            double angle = M_PI / 4 * ((double)i / STRIPS - 0.5);
+            text_format(&text, "%s%.9g, %.9g, %.9g", i || y ? ", " : "", 0.4 * sin(angle),
+                        0.2 * y, -0.4 * cos(angle));
+        }
+    text_add(&text, "], \"uv\": [");
+    for (int i = 0; i <= STRIPS; i++)
+        text_format(&text, "%s%.9g, 1, %.9g, 0", i ? ", " : "", (double)i / STRIPS,
+                    (double)i / STRIPS);
+    text_add(&text, "], \"triangles\": [");
+    for (int i = 0; i < STRIPS; i++)
+        text_format(&text, "%s%d, %d, %d, %d, %d, %d", i ? ", " : "", 2 * i, 2 * i + 2,
+                    2 * i + 3, 2 * i, 2 * i + 3, 2 * i + 1);
+    text_add(&text, "]}, \"panel\"");
+    return text.data;
+}
+
+ARENA_TEST(a_curved_face_is_a_display)
+{
+    EquipResult  result;
+    DisplayFrame frame;
+    const char  *model = write_glb("m.glb");
+    write_changed("\"panel\"", cylinder(&arena), &arena);
+    assert_done(apply(model, in_folder("c.gltf"), true, &arena, &result, &err));
+    Scene      *scene = load(in_folder("c.gltf"), &arena);
+    const Part *part = part_named(scene, "speed");
+    assert_int_equal(part->triangle_count, 24);
+    assert_true(display_frame_of(scene, part, &frame));
+    assert_near(frame.width_m, 0.4 * 24 * sin(M_PI / 96), 1e-5); /* 12 chords */
+    assert_near(frame.height_m, 0.2, 1e-5);
+    assert_vec(frame.normal, 0, 0, 1);
+    for (uint32_t v = 2; v < 24; v++) { /* all but the rims see both strips */
+        Vec3 n = part->normals[v], p = scene->positions[part->first_vertex + v];
+        assert_near(n.x, -p.x / 0.4, 1e-5);
+        assert_near(n.z, -p.z / 0.4, 1e-5);
+    }
+    scene_close(scene);
+}
+
+ARENA_TEST(what_is_read_stands_in_the_review)
+{
+    EquipResult result;
+    const char *model = write_glb("m.glb");
+    write_changed("\"level\": 0.5", "\"symbols\": [{\"name\": \"48\", \"uv\": [0.1, 0.2, 0.3, "
+                  "0.4], \"polarity\": \"light-on-dark\"}, {\"name\": \"km/h\", \"uv\": [0, 0, "
+                  "1, 0.5]}]", &arena);
+    assert_done(apply(model, in_folder("s.gltf"), true, &arena, &result, &err));
+    const char *review = read_text(result.review, &arena);
+    assert_text_has(review, "\"48\": {");
+    assert_text_has(review, "[0.1, 0.2, 0.3, 0.4]");
+    assert_text_has(review, "\"light-on-dark\"");
+    assert_text_has(review, "\"km/h\": {");
+    assert_null(strstr(review, "\"find\""));
+    assert_text_has(review, "\"an ordinary day\"");
+    assert_text_has(review, "\"an ordinary night\"");
+    write_changed("\"level\": 0.5", "\"symbols\": []", &arena);
+    assert_done(apply(model, in_folder("s.gltf"), true, &arena, &result, &err));
+    assert_null(result.review);
+}
+
 ARENA_TEST(forward_is_proposed_from_the_first_eye)
 {
     EquipResult result;
@@ -304,6 +374,16 @@ static const struct {
     {"\"width_m\": 0.3", "\"width_m\": 0", "/displays/0/width_m", "from 0.001 to 100"},
     {"\"width_m\": 0.3", "\"width_m\": 1.75", "/displays/0/width_m", "required 0.005 to 1.5 m"},
     {"\"level\": 0.5", "\"level\": 50", "/displays/0/level", "required a level from 0 to 1"},
+    {"\"level\": 0.5", "\"symbols\": [{\"name\": \"a\", \"uv\": [0.3, 0, 0.2, 1]}]",
+     "/displays/0/symbols/0/uv", "required left < right"},
+    {"\"level\": 0.5", "\"symbols\": [{\"name\": \"a\", \"uv\": [0, 0, 1, 1]}, {\"name\": "
+     "\"a\", \"uv\": [0, 0, 1, 1]}]", "/displays/0/symbols/1/name", "is 'a' once more"},
+    {"\"level\": 0.5", "\"mesh\": {\"positions_m\": [0, 0, 0, 1], \"uv\": [0, 0], \"triangles\": "
+     "[0, 0, 0]}", "/displays/0/mesh/positions_m", "required a multiple of 3"},
+    {"\"level\": 0.5", "\"mesh\": {\"positions_m\": [0, 0, 0, 1, 0, 0, 0, 1, 0], \"uv\": [0, 0], "
+     "\"triangles\": [0, 1, 2]}", "/displays/0/mesh/uv", "required one of each of 3"},
+    {"\"level\": 0.5", "\"mesh\": {\"positions_m\": [0, 0, 0, 1, 0, 0, 0, 1, 0], \"uv\": [0, 0, "
+     "1, 0, 0, 1], \"triangles\": [0, 1, 3]}", "/displays/0/mesh/triangles", "below 3"},
     {"\"profile\"", "\"occupant\": {\"eye\": \"drver\"}, \"profile\"", "/occupant/eye",
      "did you mean driver?"},
     {"\"profile\"", "\"occupant\": {\"eye\": \"down\", \"shirt\": \"red\"}, \"profile\"",

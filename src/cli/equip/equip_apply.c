@@ -243,11 +243,35 @@ static bool make_document(Applying *at, Error *err)
 /* ---- writing ----------------------------------------------------------------------------- */
 
 /* Without content there is nothing for a review to read. */
+static bool is_read(const EquipDisplay *display)
+{
+    return display->content && (!display->has_symbols || display->symbol_count);
+}
+
 static bool has_content(const Equip *equip)
 {
     bool found = false;
-    for (int i = 0; i < equip->display_count; i++) found |= equip->displays[i].content != NULL;
+    for (int i = 0; i < equip->display_count; i++) found |= is_read(&equip->displays[i]);
     return found;
+}
+
+/* Displays whose text a review finds itself, and what is read of the others. */
+static void share_displays(const Equip *e, Arena *arena, ReviewWishes *wishes)
+{
+    int          total = 0;
+    const char **found = ARENA_NEW(arena, const char *, e->display_count);
+    for (int i = 0; i < e->display_count; i++) total += e->displays[i].symbol_count;
+    ReviewRead *reads = ARENA_NEW(arena, ReviewRead, total);
+    for (int i = 0; i < e->display_count; i++) {
+        const EquipDisplay *d = &e->displays[i];
+        if (!d->has_symbols) found[wishes->display_count++] = d->name;
+        for (int k = 0; k < d->symbol_count; k++)
+            reads[wishes->read_count++] = (ReviewRead){d->name, d->symbols[k].name,
+                                                       d->symbols[k].polarity,
+                                                       d->symbols[k].uv};
+    }
+    wishes->displays = found;
+    wishes->reads = reads;
 }
 
 static const char *occupant_uri(const Applying *at)
@@ -261,15 +285,13 @@ static bool start_review(const Applying *at, const Scene *scene, Error *err)
 {
     const Equip *e = &at->equip;
     const char **eyes = ARENA_NEW(at->arena, const char *, e->eye_count);
-    const char **displays = ARENA_NEW(at->arena, const char *, e->display_count);
     for (int i = 0; i < e->eye_count; i++) eyes[i] = e->eyes[i].name;
-    for (int i = 0; i < e->display_count; i++) displays[i] = e->displays[i].name;
-    const ReviewWishes wishes = {
+    ReviewWishes wishes = {
         .profile = e->profile, .forward = {e->forward[0], e->forward[1], e->forward[2]},
-        .eyes = eyes, .eye_count = e->eye_count, .displays = displays,
-        .display_count = e->display_count, .place = e->has_place ? &e->place : NULL,
+        .eyes = eyes, .eye_count = e->eye_count, .place = e->has_place ? &e->place : NULL,
         .occupant = at->result.occupant ? e->occupant.name : NULL,
         .occupant_uri = occupant_uri(at)};
+    share_displays(e, at->arena, &wishes);
     const ReviewStart start = {&at->order->output, 1, at->result.review, NULL, &wishes,
                                at->order->overwrites};
     return review_request_start(&start, scene, at->arena, err);

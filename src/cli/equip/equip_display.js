@@ -7,6 +7,8 @@ var view=equipView,data=view.data,base=equipBase,state=base.state,pictures=base.
 var make=base.make,say=base.say,round=base.round,list=base.list;
 /* What is built: 5 mm to 1.5 m (display_frame.h). */
 var LEAST_M=0.005,MOST_M=1.5,HANDLE_PIXELS=12,DEGREES_A_PIXEL=0.25,GAP=0.04;
+/* Of a content's texts, the largest: as many as a review finds by itself. */
+var READ_FIRST=6;
 var RAD=Math.PI/180;
 
 /* ---- where it is ---- */
@@ -60,11 +62,16 @@ function defaultContent(){
     return pictures[n]&&!used.includes(n);
   })||(data.contents[0]||{name:''}).name;
 }
-/* What of its content is read: all that was found, until it is unticked. */
+/* What of its content is read, until it is unticked. Names mean one thing on a display. */
 function takeTexts(d){
   var c=pictures[d.content];
   d.texts=((c&&c.texts)||[]).map(function(t,i){
-    return {uv:t.uv,crop:t.crop,name:t.name||d.content+' '+(i+1),on:true};
+    return {uv:t.uv,crop:t.crop,name:t.name||d.content+' '+(i+1),
+      polarity:t.polarity,on:i<READ_FIRST};
+  });
+  d.texts.forEach(function(t,i){
+    for(var n=2,wish=t.name;d.texts.slice(0,i).some(function(u){return u.name===t.name;});n++)
+      t.name=wish+' '+n;
   });
 }
 function add(fit,place){
@@ -150,7 +157,7 @@ function numbers(d){
 }
 function plainButton(text,act,isHidden){
   var button=make('button',{type:'button','class':'plain',hidden:!!isHidden},text);
-  button.addEventListener('click',act);
+  button.addEventListener('click',function(e){e.stopPropagation();act();});
   return button;
 }
 /* Words of the content that are read, each by a picture of it. */
@@ -238,13 +245,13 @@ function mark(d){
 }
 
 /* ---- handles ---- */
-/* x, y: of the corner or side that is dragged, 0 0 the middle; kind "tilt" stands before it. */
+/* x, y: of the corner or side that is dragged, 0 0 the middle; kind "tilt" stands above it. */
 function handlesOf(d){
-  var f=frame(d),far=Math.max(0.03,0.35*Math.min(d.width,d.height)),out=[];
+  var f=frame(d),far=Math.max(0.02,0.2*Math.min(d.width,d.height)),out=[];
   [[0,0],[-1,-1],[1,-1],[1,1],[-1,1],[0,-1],[1,0],[0,1],[-1,0]].forEach(function(c){
     out.push({x:c[0],y:c[1],kind:c[0]||c[1]?'size':'move',at:placeOn(f,d,c[0],c[1])});
   });
-  out.push({kind:'tilt',at:f.centre.clone().addScaledVector(f.normal,far)});
+  out.push({kind:'tilt',at:placeOn(f,d,0,1).addScaledVector(f.up,far)});
   return out;
 }
 function handleMarks(d){
@@ -258,7 +265,7 @@ function handleMarks(d){
   geometry.setAttribute('color',new THREE.BufferAttribute(colour,3));
   var points=new THREE.Points(geometry,new THREE.PointsMaterial({size:11,sizeAttenuation:false,
     vertexColors:THREE.VertexColors||true,depthTest:false,transparent:true}));
-  var line=new THREE.Line(new THREE.BufferGeometry().setFromPoints([list[0].at,
+  var line=new THREE.Line(new THREE.BufferGeometry().setFromPoints([list[7].at,
     list[list.length-1].at]),new THREE.LineBasicMaterial({color:0x19bf33,depthTest:false}));
   points.renderOrder=line.renderOrder=10;
   group.add(line,points);
@@ -294,7 +301,6 @@ function dragTo(x,y){
   if(drag.handle&&drag.handle.kind==='tilt'){
     d.tilt_deg=within(drag.tilt+DEGREES_A_PIXEL*(drag.y-y),80);
     d.swivel_deg=within(drag.swivel+DEGREES_A_PIXEL*(x-drag.x),80);
-    moveTo(d,drag.centre);
     say('"'+d.name+'": tilted back by '+d.tilt_deg.toFixed(1)+'°, swivelled to the right by '+
       d.swivel_deg.toFixed(1)+'°.');
   }else{
@@ -324,8 +330,7 @@ view.onpress=function(x,y){
   var found=under(x,y);
   if(found){
     var d=found.d;
-    drag={d:d,handle:found.handle,x:x,y:y,tilt:d.tilt_deg,swivel:d.swivel_deg,
-      centre:frame(d).centre};
+    drag={d:d,handle:found.handle,x:x,y:y,tilt:d.tilt_deg,swivel:d.swivel_deg};
   }else drag=state.mode==='draw'?startDrawing(x,y):null;
   return !!drag;
 };
@@ -363,7 +368,9 @@ function saved(d){
   if(d.mesh)out.mesh={positions_m:list(d.mesh.positions),uv:list(d.mesh.uv),
     triangles:d.mesh.triangles};
   if(d.texts&&d.texts.length)out.symbols=d.texts.filter(function(t){return t.on;})
-    .map(function(t){return {name:t.name,uv:t.uv};});
+    .map(function(t){
+      return Object.assign({name:t.name,uv:t.uv},t.polarity?{polarity:t.polarity}:{});
+    });
   return out;
 }
 function isSame(a,b){
@@ -385,7 +392,7 @@ function taken(d){
   });
   d.symbols.forEach(function(s){
     if(!out.texts.some(function(t){return isSame(s.uv,t.uv);}))
-      out.texts.push({uv:s.uv,crop:'',name:s.name,on:true});
+      out.texts.push(Object.assign({crop:'',on:true},s));
   });
   return out;
 }

@@ -6,6 +6,7 @@
 
 #include "cli/equip/usual_material.h"
 #include "review/profile.h"
+#include "review/request/request_eyes.h"
 #include "review/request/request_fields.h"
 #include "scene/load/display_frame.h"
 
@@ -94,6 +95,92 @@ static bool read_content(const JsonView *view, const char **out, Error *err)
     return !json_object_get(view->object, "content") || field_name(view, "content", out, err);
 }
 
+static bool read_symbol(const JsonView *view, int i, EquipSymbol *out, Error *err)
+{
+    static const char *const keys[] = {"name", "uv", "polarity"};
+    JsonView       item;
+    ReviewPolarity any;
+    if (!field_item(view, "symbols", i, (FieldWords){keys, COUNT_OF(keys)}, &item, err) ||
+        !field_name(&item, "name", &out->name, err) || !field_wanted(&item, "uv", err) ||
+        !field_numbers(&item, "uv", (JsonRange){0, 1, 4}, out->uv, NULL, err) ||
+        !request_polarity_read(&item, "polarity", &any, err) ||
+        !json_view_text(&item, "polarity", &out->polarity, err))
+        return false;
+    return (out->uv[0] < out->uv[2] && out->uv[1] < out->uv[3]) ||
+           field_fails(&item, "uv", err,
+                       "is [%g, %g, %g, %g], required left < right and top < bottom",
+                       out->uv[0], out->uv[1], out->uv[2], out->uv[3]);
+}
+
+/* An empty list: nothing of it is read. */
+static bool read_symbols(const JsonView *view, EquipDisplay *out, Error *err)
+{
+    const json_t *list = json_object_get(view->object, "symbols");
+    out->has_symbols = list != NULL;
+    if (!list || (json_is_array(list) && !json_array_size(list))) return true;
+    if (!field_list(view, "symbols", EQUIP_SYMBOLS_MAX, &out->symbol_count, err)) return false;
+    EquipSymbol *symbols = ARENA_NEW(view->arena, EquipSymbol, out->symbol_count);
+    for (int i = 0; i < out->symbol_count; i++) {
+        if (!read_symbol(view, i, &symbols[i], err)) return false;
+        for (int k = 0; k < i; k++)
+            if (!strcmp(symbols[k].name, symbols[i].name))
+                return field_fails(view, arena_format(view->arena, "symbols/%d/name", i), err,
+                                   "is '%.60s' once more, required a new name",
+                                   symbols[i].name);
+    }
+    out->symbols = symbols;
+    return true;
+}
+
+/* A list of numbers, so many an item. */
+static bool read_column(const JsonView *view, const char *key, JsonRange range, int each,
+                        const double **out, int *count, Error *err)
+{
+    double *list = ARENA_NEW(view->arena, double, range.capacity);
+    *out = list;
+    if (!field_wanted(view, key, err) || !json_view_numbers(view, key, range, list, count, err))
+        return false;
+    if (*count % each)
+        return field_fails(view, key, err, "has %d numbers, required a multiple of %d", *count,
+                           each);
+    *count /= each;
+    return true;
+}
+
+static bool check_mesh(const JsonView *view, const EquipMesh *mesh, int uv_count, Error *err)
+{
+    if (uv_count != mesh->vertex_count)
+        return field_fails(view, "uv", err, "has %d pairs, required one of each of %d positions",
+                           uv_count, mesh->vertex_count);
+    for (int i = 0; i < 3 * mesh->triangle_count; i++) {
+        double vertex = mesh->triangles[i];
+        if (vertex != floor(vertex) || vertex >= mesh->vertex_count)
+            return field_fails(view, "triangles", err,
+                               "holds %g, required whole numbers below %d", vertex,
+                               mesh->vertex_count);
+    }
+    return true;
+}
+
+static bool read_mesh(const JsonView *view, EquipMesh *out, Error *err)
+{
+    static const char *const keys[] = {"positions_m", "uv", "triangles"};
+    const JsonRange places = {-METRES_MAX, METRES_MAX, 3 * EQUIP_VERTICES_MAX};
+    const JsonRange uvs = {0, 1, 2 * EQUIP_VERTICES_MAX};
+    const JsonRange ids = {0, EQUIP_VERTICES_MAX, 6 * EQUIP_VERTICES_MAX};
+    JsonView mesh;
+    int      uv_count;
+    if (!json_view_child(view, "mesh", false, &mesh, err)) return false;
+    if (!mesh.object) return true;
+    return json_view_check_keys(&mesh, keys, COUNT_OF(keys), err) &&
+           read_column(&mesh, "positions_m", places, 3, &out->positions_m, &out->vertex_count,
+                       err) &&
+           read_column(&mesh, "uv", uvs, 2, &out->uv, &uv_count, err) &&
+           read_column(&mesh, "triangles", ids, 3, &out->triangles, &out->triangle_count,
+                       err) &&
+           check_mesh(&mesh, out, uv_count, err);
+}
+
 static bool read_display(const JsonView *view, EquipDisplay *out, Error *err)
 {
     double before_mm = 0.5;
@@ -106,7 +193,8 @@ static bool read_display(const JsonView *view, EquipDisplay *out, Error *err)
               json_view_number(view, "before_mm", 0.05, 1000, &before_mm, err) &&
               field_name(view, "panel", &out->panel, err) &&
               read_content(view, &out->content, err) &&
-              read_level(view, out, err);
+              read_level(view, out, err) && read_symbols(view, out, err) &&
+              read_mesh(view, &out->mesh, err);
     out->before_m = before_mm / 1000;
     return ok;
 }
@@ -124,7 +212,7 @@ static bool read_displays(const JsonView *root, Equip *out, Error *err)
 {
     static const char *const keys[] = {"name", "on", "centre_m", "right", "up", "width_m",
                                        "height_m", "before_mm", "panel", "content", "level",
-                                       "max_level", "any_size"};
+                                       "max_level", "any_size", "symbols", "mesh"};
     int count;
     if (!field_list(root, "displays", EQUIP_DISPLAYS_MAX, &count, err)) return false;
     EquipDisplay *list = ARENA_NEW(root->arena, EquipDisplay, count);

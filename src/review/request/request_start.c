@@ -175,6 +175,19 @@ static void add_symbols_of(json_t *symbols, const Scene *scene, const Display *d
     }
 }
 
+/* By its own name, or by its display's before it where that is taken. */
+static void add_read(json_t *symbols, const ReviewRead *read, Arena *arena)
+{
+    const char *name = read->name;
+    json_t     *symbol = json_pack("{s:o, s:[f,f,f,f]}", "display", json_text(read->display),
+                                   "uv", read->uv[0], read->uv[1], read->uv[2], read->uv[3]);
+    if (read->polarity) json_object_set_new(symbol, "polarity", json_text(read->polarity));
+    for (int i = 1; json_object_get(symbols, name); i++)
+        name = i == 1 ? arena_format(arena, "%s: %s", read->display, read->name)
+                      : arena_format(arena, "%s: %s %d", read->display, read->name, i);
+    json_object_set_new(symbols, name, symbol);
+}
+
 static bool add_symbols(json_t *document, const ReviewStart *start, const Scene *scene,
                         Arena *arena, Error *err)
 {
@@ -183,6 +196,8 @@ static bool add_symbols(json_t *document, const ReviewStart *start, const Scene 
     for (int i = 0; i < scene->display_count; i++)
         if (is_read(start->wishes, &scene->displays[i]))
             add_symbols_of(symbols, scene, &scene->displays[i], arena);
+    for (int i = 0; start->wishes && i < start->wishes->read_count; i++)
+        add_read(symbols, &start->wishes->reads[i], arena);
     return json_object_size(symbols) > 0 ||
            error_at(err, ERROR_INPUT, scene->inputs[0], "",
                     "has no display that shows content, wanted one to review");

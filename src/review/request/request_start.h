@@ -22,13 +22,21 @@ typedef struct ReviewPlace {
     int           heading_count; /* 1 or more */
 } ReviewPlace;
 
+/* What is read of a display: a rectangle of its content. */
+typedef struct ReviewRead {
+    const char *display, *name, *polarity; /* polarity NULL: "auto" */
+    const double *uv;                      /* left, top, right, bottom */
+} ReviewRead;
+
 typedef struct ReviewWishes {
     const char         *profile;    /* a name, or a path as the new file has it */
     double              forward[3]; /* where the vehicle points, world */
     const char *const  *eyes;       /* the cameras that are eyes, by their nodes' names */
     int                 eye_count;  /* 1 or more */
-    const char *const  *displays;   /* those that are to be read, by name */
+    const char *const  *displays;   /* those in which text is to be found, by name */
     int                 display_count;
+    const ReviewRead   *reads;      /* and what is to be read of others */
+    int                 read_count;
     const ReviewPlace  *place;      /* NULL: no year */
     const char         *occupant;   /* who sits there in every condition; NULL: nobody */
     const char         *occupant_uri; /* the file that he is, as the new file names it */
