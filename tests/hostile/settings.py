@@ -66,8 +66,9 @@ def cockpit(size=(0.3, 0.15), turn=0, heading=0, eye=(0, 0.2, 0.8), **display):
         c, s = math.cos(math.radians(heading)), math.sin(math.radians(heading))
         return [c * v[0] + s * v[2], v[1], c * v[2] - s * v[0]]
     scene = Scene()
-    picture = scene.image("image/png", png(40, 20, [[255 * (5 < x < 30 and 4 < y < 12) for x in range(40)
-                                            for _ in range(3)] for y in range(20)]))
+    picture = scene.image("image/png", png(40, 20, [
+        [255 * (5 < x < 30 and 4 < y < 12) for x in range(40) for _ in range(3)]
+        for y in range(20)]))
     material = scene.material("screen", {"PARHELION_display": {
         "panel": "p.panel", "content": {"index": picture}, **display}})
     right, up = turned([1, 0, 0], [0, 1, 0], turn)
@@ -232,7 +233,8 @@ def check_turns(bench):
         said = bench.check("s.gltf")
         wanted = f"turned by {abs(turn)} degrees"
         if words:
-            bench.claim_said(f"turned by {turn}", done, 0, words, wanted, "/symbols/bar/display")
+            bench.claim_said(f"turned by {turn}", done, 0, words, wanted,
+                             "/symbols/bar/display")
         else:
             bench.claim_silent(f"turned by {turn}", done)
         bench.report.claim(len(said) == 1 and words in said[0] and wanted in said[0]
@@ -309,7 +311,8 @@ def check_keys(bench):
         scene.environment(**members)
         scene.write(os.path.join(bench.folder, "k.gltf"))
         said = bench.check("k.gltf")
-        bench.report.claim(any(f'is "{wanted}" meant?' in s for s in said), f"{members}: {said}")
+        bench.report.claim(any(f'is "{wanted}" meant?' in s for s in said),
+                           f"{members}: {said}")
 
 
 def check_case(bench):

@@ -237,8 +237,8 @@ ARENA_TEST(without_content_there_is_no_review)
     assert_false(file_exists(in_folder("bare.review.json")));
 }
 
-/* The figures of scenes/occupant.gltf: its head's top is 1.434 m up and its toes are 0.75 m ahead
- * of its node, above which its eyes are, at 1.3 m. */
+/* The figures of scenes/occupant.gltf: its head's top is 1.434 m up and its toes are 0.75 m
+ * ahead of its node, above which its eyes are, at 1.3 m. */
 ARENA_TEST(an_occupant_sits_where_the_eye_is)
 {
     static const struct { const char *forward; double x, z; } ways[] = {
@@ -357,7 +357,7 @@ ARENA_TEST(forward_is_proposed_from_the_first_eye)
 {
     EquipResult result;
     const char *model = write_glb("m.glb");
-    write_changed("\"forward\": [1, 0, 0],", "", &arena); /* the eye looks along (0.67, , -0.61) */
+    write_changed("\"forward\": [1, 0, 0],", "", &arena); /* it looks along (0.67, , -0.61) */
     assert_done(apply(model, in_folder("f.gltf"), true, &arena, &result, &err));
     assert_true(result.forward_is_proposed && result.forward[0] == 1 && result.forward[2] == 0);
     assert_null(result.occupant);
@@ -378,12 +378,14 @@ static const struct {
      "/displays/0/symbols/0/uv", "required left < right"},
     {"\"level\": 0.5", "\"symbols\": [{\"name\": \"a\", \"uv\": [0, 0, 1, 1]}, {\"name\": "
      "\"a\", \"uv\": [0, 0, 1, 1]}]", "/displays/0/symbols/1/name", "is 'a' once more"},
-    {"\"level\": 0.5", "\"mesh\": {\"positions_m\": [0, 0, 0, 1], \"uv\": [0, 0], \"triangles\": "
-     "[0, 0, 0]}", "/displays/0/mesh/positions_m", "required a multiple of 3"},
-    {"\"level\": 0.5", "\"mesh\": {\"positions_m\": [0, 0, 0, 1, 0, 0, 0, 1, 0], \"uv\": [0, 0], "
-     "\"triangles\": [0, 1, 2]}", "/displays/0/mesh/uv", "required one of each of 3"},
-    {"\"level\": 0.5", "\"mesh\": {\"positions_m\": [0, 0, 0, 1, 0, 0, 0, 1, 0], \"uv\": [0, 0, "
-     "1, 0, 0, 1], \"triangles\": [0, 1, 3]}", "/displays/0/mesh/triangles", "below 3"},
+    {"\"level\": 0.5", "\"mesh\": {\"positions_m\": [0, 0, 0, 1], \"uv\": [0, 0], "
+     "\"triangles\": [0, 0, 0]}", "/displays/0/mesh/positions_m", "required a multiple of 3"},
+    {"\"level\": 0.5", "\"mesh\": {\"positions_m\": [0, 0, 0, 1, 0, 0, 0, 1, 0], "
+     "\"uv\": [0, 0], \"triangles\": [0, 1, 2]}", "/displays/0/mesh/uv",
+     "required one of each of 3"},
+    {"\"level\": 0.5", "\"mesh\": {\"positions_m\": [0, 0, 0, 1, 0, 0, 0, 1, 0], "
+     "\"uv\": [0, 0, 1, 0, 0, 1], \"triangles\": [0, 1, 3]}", "/displays/0/mesh/triangles",
+     "below 3"},
     {"\"profile\"", "\"occupant\": {\"eye\": \"drver\"}, \"profile\"", "/occupant/eye",
      "did you mean driver?"},
     {"\"profile\"", "\"occupant\": {\"eye\": \"down\", \"shirt\": \"red\"}, \"profile\"",

@@ -109,7 +109,7 @@ static bool print_result(const EquipWords *words, const EquipResult *r, Arena *a
            r->forward_is_proposed ? ": proposed from where the first eye looks" : "");
     if (r->bin) printf("bytes        %s\n", r->bin);
     if (r->occupant) printf("occupant     %s\n", r->occupant);
-    else printf("occupant     none: nobody sits in the driver's seat; \"occupant\" seats one\n");
+    else printf("occupant     none: nobody sits in the driver's seat\n");
     for (int i = 0; i < r->copy_count; i++) printf("copy         %s\n", r->copies[i]);
     if (r->review) printf("review       %s\n", r->review);
     else printf("review       none: no display shows content that could be read\n");

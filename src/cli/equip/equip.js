@@ -342,7 +342,7 @@ function connect(){
   MODES.forEach(function(m){
     $('mode-'+m).addEventListener('click',function(){setMode(m);});
   });
-  $('forward').addEventListener('change',function(){state.forwardIsChosen=true;});
+  $('forward').addEventListener('input',function(){state.forwardIsChosen=true;});
   $('show-all').addEventListener('click',function(){
     view.hide(null);
     $('show-all').hidden=true;

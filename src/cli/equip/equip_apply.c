@@ -111,8 +111,9 @@ static void doubt_forward(const Equip *equip, Problems *problems)
         for (int k = 0; k < 3; k++) way[k] = eye->target_m[k] - eye->position_m[k];
         if (forward_angle_deg(f, way, &degrees) && degrees > FORWARD_MOST_DEG)
             problems_add(problems, SEVERITY_WARNING, equip->file, "/forward",
-                         "(%.3g, %.3g, %.3g) is %.0f degrees off where \"%.60s\" looks, (%.3g, "
-                         "%.3g, %.3g) m away, expected within %g: does the vehicle point there?",
+                         "(%.3g, %.3g, %.3g) is %.0f degrees off where \"%.60s\" looks, "
+                         "(%.3g, %.3g, %.3g) m away, expected within %g: does the vehicle "
+                         "point there?",
                          f[0], f[1], f[2], degrees, eye->name, way[0], way[1], way[2],
                          FORWARD_MOST_DEG);
     }

@@ -106,12 +106,12 @@ function click(hit){
 }
 /* Two side by side, with a gap between them. */
 function divide(d){
-  var f=frame(d),width=d.width*(1-GAP)/2,other=Object.assign({},d,{width:width,
+  var f=frame(d),width=d.width*(1-GAP)/2,apart=d.width*(1+GAP)/4,other=Object.assign({},d,{width:width,
     content:defaultContent(),name:''});
   other.name=base.freeName(other.content||d.name);
   d.width=other.width=width;
-  moveTo(d,f.centre.clone().addScaledVector(f.right,-width*(0.5+GAP/2)));
-  moveTo(other,f.centre.clone().addScaledVector(f.right,width*(0.5+GAP/2)));
+  moveTo(d,f.centre.clone().addScaledVector(f.right,-apart));
+  moveTo(other,f.centre.clone().addScaledVector(f.right,apart));
   takeTexts(other);
   state.displays.push(other);
   state.chosen=other;

@@ -64,8 +64,9 @@ static bool read_level(const JsonView *view, EquipDisplay *out, Error *err)
            json_view_number(view, "level", 0, LEVEL_MAX, &out->level, err) &&
            (out->level <= out->max_level ||
             field_fails(view, "level", err,
-                        "is %g, required a level from 0 to %g: 1 is as measured, 0.25 a quarter "
-                        "of it; \"max_level\" beside it allows a panel driven above that",
+                        "is %g, required a level from 0 to %g: 1 is as measured, 0.25 a "
+                        "quarter of it; \"max_level\" beside it allows a panel driven above "
+                        "that",
                         out->level, out->max_level));
 }
 
@@ -74,8 +75,8 @@ static bool check_side(const JsonView *view, const EquipDisplay *display, const 
 {
     return display->any_size || display_side_is_plausible(m) ||
            field_fails(view, key, err,
-                       "is %.4g m, required %g to %g m: is the model in metres? If it is meant: "
-                       "\"any_size\": true beside it",
+                       "is %.4g m, required %g to %g m: is the model in metres? If it is "
+                       "meant: \"any_size\": true beside it",
                        m, DISPLAY_LEAST_M, DISPLAY_MOST_M);
 }
 
@@ -132,26 +133,35 @@ static bool read_symbols(const JsonView *view, EquipDisplay *out, Error *err)
     return true;
 }
 
-/* A list of numbers, so many an item. */
-static bool read_column(const JsonView *view, const char *key, JsonRange range, int each,
-                        const double **out, int *count, Error *err)
+/* A list of numbers of a mesh, so many an item. */
+typedef struct MeshColumn {
+    const char    *key;
+    JsonRange      range;
+    int            each;
+    const double **out;
+    int           *count; /* of items */
+} MeshColumn;
+
+static bool read_column(const JsonView *view, const MeshColumn *c, Error *err)
 {
-    double *list = ARENA_NEW(view->arena, double, range.capacity);
-    *out = list;
-    if (!field_wanted(view, key, err) || !json_view_numbers(view, key, range, list, count, err))
+    double *list = ARENA_NEW(view->arena, double, c->range.capacity);
+    *c->out = list;
+    if (!field_wanted(view, c->key, err) ||
+        !json_view_numbers(view, c->key, c->range, list, c->count, err))
         return false;
-    if (*count % each)
-        return field_fails(view, key, err, "has %d numbers, required a multiple of %d", *count,
-                           each);
-    *count /= each;
+    if (*c->count % c->each)
+        return field_fails(view, c->key, err, "has %d numbers, required a multiple of %d",
+                           *c->count, c->each);
+    *c->count /= c->each;
     return true;
 }
 
 static bool check_mesh(const JsonView *view, const EquipMesh *mesh, int uv_count, Error *err)
 {
     if (uv_count != mesh->vertex_count)
-        return field_fails(view, "uv", err, "has %d pairs, required one of each of %d positions",
-                           uv_count, mesh->vertex_count);
+        return field_fails(view, "uv", err,
+                           "has %d pairs, required one of each of %d positions", uv_count,
+                           mesh->vertex_count);
     for (int i = 0; i < 3 * mesh->triangle_count; i++) {
         double vertex = mesh->triangles[i];
         if (vertex != floor(vertex) || vertex >= mesh->vertex_count)
@@ -165,20 +175,20 @@ static bool check_mesh(const JsonView *view, const EquipMesh *mesh, int uv_count
 static bool read_mesh(const JsonView *view, EquipMesh *out, Error *err)
 {
     static const char *const keys[] = {"positions_m", "uv", "triangles"};
-    const JsonRange places = {-METRES_MAX, METRES_MAX, 3 * EQUIP_VERTICES_MAX};
-    const JsonRange uvs = {0, 1, 2 * EQUIP_VERTICES_MAX};
-    const JsonRange ids = {0, EQUIP_VERTICES_MAX, 6 * EQUIP_VERTICES_MAX};
     JsonView mesh;
-    int      uv_count;
+    int      uv_count = 0;
+    const MeshColumn columns[] = {
+        {"positions_m", {-METRES_MAX, METRES_MAX, 3 * EQUIP_VERTICES_MAX}, 3,
+         &out->positions_m, &out->vertex_count},
+        {"uv", {0, 1, 2 * EQUIP_VERTICES_MAX}, 2, &out->uv, &uv_count},
+        {"triangles", {0, EQUIP_VERTICES_MAX, 6 * EQUIP_VERTICES_MAX}, 3, &out->triangles,
+         &out->triangle_count}};
     if (!json_view_child(view, "mesh", false, &mesh, err)) return false;
     if (!mesh.object) return true;
-    return json_view_check_keys(&mesh, keys, COUNT_OF(keys), err) &&
-           read_column(&mesh, "positions_m", places, 3, &out->positions_m, &out->vertex_count,
-                       err) &&
-           read_column(&mesh, "uv", uvs, 2, &out->uv, &uv_count, err) &&
-           read_column(&mesh, "triangles", ids, 3, &out->triangles, &out->triangle_count,
-                       err) &&
-           check_mesh(&mesh, out, uv_count, err);
+    if (!json_view_check_keys(&mesh, keys, COUNT_OF(keys), err)) return false;
+    for (int i = 0; i < COUNT_OF(columns); i++)
+        if (!read_column(&mesh, &columns[i], err)) return false;
+    return check_mesh(&mesh, out, uv_count, err);
 }
 
 static bool read_display(const JsonView *view, EquipDisplay *out, Error *err)
@@ -371,7 +381,7 @@ static bool read_place(const JsonView *root, Equip *out, Error *err)
                        where[0], where[1]);
 }
 
-/* The axis that is nearest to where the first eye looks; of one that looks straight down, -Z. */
+/* The axis nearest to where the first eye looks; of one that looks straight down, -Z. */
 static void propose_forward(Equip *out)
 {
     const EquipEye *eye = &out->eyes[0];

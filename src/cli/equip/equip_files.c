@@ -108,7 +108,7 @@ static bool uri_within(EquipFiles *files, const char *path, int climb, const cha
     return true;
 }
 
-bool equip_files_uri(EquipFiles *files, const char *path, const char **uri, Error *err)
+static bool uri_of(EquipFiles *files, const char *path, const char **uri, Error *err)
 {
     return uri_within(files, path, files->takes_all ? 0 : 1, uri, err);
 }
@@ -167,7 +167,7 @@ static const char *named_file(const EquipFiles *files, const char *uri)
 static bool renamed(EquipFiles *files, json_t *text, json_t **out, Error *err)
 {
     const char *path = named_file(files, json_string_value(text)), *uri;
-    if (path && !equip_files_uri(files, path, &uri, err)) return false;
+    if (path && !uri_of(files, path, &uri, err)) return false;
     *out = path ? json_text(uri) : json_incref(text);
     return true;
 }

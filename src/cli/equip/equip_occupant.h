@@ -2,7 +2,7 @@
 /* equip_occupant.h -- the car's driver (scenes/README.md) as a scene of its own, seated so that
  * the eyes are where a model's eye is.
  *
- * Its size and pose are as modelled: feet and hands may meet the model's floor and wheel or not.
+ * Its size and pose are as modelled: feet and hands may miss the model's floor and wheel.
  *
  * Memory   texts in the files' arena. Threads: one at a time.
  * Fails    as equip_shipped.h and equip_files.h.

@@ -175,19 +175,30 @@ static int add_screen(json_t *document, const EquipDisplay *display, const Equip
     return add_to(document, "materials", material);
 }
 
-/* A vertex's normal: the sum of its triangles' areas as vectors. */
+/* What a triangle adds to the normal of its corner k: its own by the angle there (Thuermer and
+ * Wuethrich 1998), so that it does not matter how a surface is cut into triangles. */
+static void add_normal(const double *const p[3], int k, float normal[3])
+{
+    double e[3], f[3], n[3], along = 0, length;
+    for (int i = 0; i < 3; i++) {
+        e[i] = p[(k + 1) % 3][i] - p[k][i];
+        f[i] = p[(k + 2) % 3][i] - p[k][i];
+        along += e[i] * f[i];
+    }
+    cross(e, f, n);
+    length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int i = 0; i < 3 && length > 0; i++)
+        normal[i] += (float)(n[i] / length * atan2(length, along));
+}
+
 static void add_normals(const EquipMesh *mesh, float *normals)
 {
     for (int t = 0; t < mesh->triangle_count; t++) {
-        double       e[3], f[3], n[3];
         const double *p[3];
         for (int k = 0; k < 3; k++)
             p[k] = mesh->positions_m + 3 * (int)mesh->triangles[3 * t + k];
-        for (int i = 0; i < 3; i++) e[i] = p[1][i] - p[0][i], f[i] = p[2][i] - p[0][i];
-        cross(e, f, n);
         for (int k = 0; k < 3; k++)
-            for (int i = 0; i < 3; i++)
-                normals[3 * (int)mesh->triangles[3 * t + k] + i] += (float)n[i];
+            add_normal(p, k, normals + 3 * (int)mesh->triangles[3 * t + k]);
     }
     for (int v = 0; v < mesh->vertex_count; v++) {
         float *n = normals + 3 * v, length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);

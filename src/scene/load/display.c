@@ -150,8 +150,8 @@ static void set_content(Loader *load, int display_id, const char *option, const 
     display->content.texture_id = texture_add(load, texture);
 }
 
-/* Percent. Below 1 a share may be meant, above 100 what was measured is left: both are said with
- * the unit behind them. */
+/* Percent. Below 1 a share may be meant, above 100 what was measured is left: both are said
+ * with the unit behind them. */
 static void set_level(Loader *load, int display_id, const char *option, const char *value)
 {
     char *end;
@@ -166,8 +166,8 @@ static void set_level(Loader *load, int display_id, const char *option, const ch
     }
     if (percent > 100 && !has_unit) {
         option_error(load, option,
-                     "\"%.100s\" is above 100 percent, what was measured: required 0 to 100, or "
-                     "\"%.100s%%\" for a panel that is driven above that",
+                     "\"%.100s\" is above 100 percent, what was measured: required 0 to 100, "
+                     "or \"%.100s%%\" for a panel that is driven above that",
                      value, value);
         return;
     }

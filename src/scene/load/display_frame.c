@@ -86,8 +86,8 @@ bool display_frame_turn(const DisplayFrame *frame, Vec3 eye, Vec3 up, double *de
     if (-vec3_dot(way, frame->normal) < FRONT_COS || length < ACROSS_LEAST) return false;
     across = vec3_scale(across, 1 / length);
     Vec3 above = vec3_cross(across, way);
-    *degrees = degrees_from_radians(atan2(-(double)vec3_dot(frame->up, across),
-                                          (double)vec3_dot(frame->up, above)));
+    *degrees = degrees_from_radians(atan2_d(-(double)vec3_dot(frame->up, across),
+                                            (double)vec3_dot(frame->up, above)));
     return true;
 }
 
