@@ -115,6 +115,9 @@ def check_levels(bench):
             bench.claim_silent(f"{place} {value}", bench.review(request(**members)))
     bench.claim_silent("brightness says what it is",
                        bench.review(request(variants={"v": {"brightness": {"*": 4}}})))
+    bench.claim_said("a brightness of 80", bench.review(
+        request(variants={"v": {"brightness": {"screen": 80}}})), 0,
+        "/variants/v/brightness/screen", "is 80 times as bright", "0.8 is")
 
 
 def check_scene_levels(bench):
@@ -199,6 +202,10 @@ def check_other_eyes(bench):
     bench.claim_silent("forward is -X", bench.review(request(eyes=seat, forward=[-1, 0, 0])))
     gaze = [{"at": "symbols"}, {"name": "road", "direction": [0, 0, -1]}]
     bench.claim_silent("a gaze to the road", bench.review(request(eyes=seat, gaze=gaze)))
+    box = {"seat": {"centre_m": [0.8, 0.2, 0], "half_size_m": [0.05, 5, 0.05],
+                    "grid": [1, 2, 1]}}
+    bench.claim_said("a box of 10 m", bench.review(request(eyes=box, forward=[-1, 0, 0])), 0,
+                     "/eyes/seat", "reaches over 10 m", "at most 1 m")
     far = {"seat": {"position_m": [800, 200, 0]}}
     done = bench.review(request(eyes=far, forward=[-1, 0, 0]))
     bench.claim_said("an eye in millimetres", done, 0, "/eyes/seat", "825 m from",

@@ -239,6 +239,7 @@ static void check_change(const RequestCheck *check, const ReviewChange *change)
 
 #define NEAR_M 0.1 /* from an eye to a display that it reads */
 #define FAR_M 10.0
+#define BOX_MOST_M 1.0
 
 /* The eye that is looked at, and the displays of the symbols. */
 typedef struct RequestDoubt {
@@ -328,6 +329,19 @@ static void doubt_distance(const RequestDoubt *doubt, const ReviewEye *eye,
                       "is its place in metres?", nearest, NEAR_M, FAR_M));
 }
 
+/* A head is moved by less: boxes reach half a metre, ellipses (SAE J941) are 0.2 m long. */
+static void doubt_box(const RequestDoubt *doubt, const ReviewEye *eye)
+{
+    double most = 0;
+    for (int i = 0; i < 3; i++)
+        most = fmax(most, eye->kind == EYE_BOX ? 2 * eye->half_size_m[i] : eye->axes_m[i]);
+    if (review_eye_is_wide(eye) && most > BOX_MOST_M)
+        warn(doubt, arena_format(doubt->check->problems->arena, "/eyes/%s", eye->name),
+             arena_format(doubt->check->problems->arena,
+                          "reaches over %.3g m, expected at most %g m: is it in metres?", most,
+                          BOX_MOST_M));
+}
+
 static void doubt_turn(const RequestDoubt *doubt, const ReviewEye *eye, const EyeStand *stand)
 {
     const ReviewRequest *request = doubt->check->request;
@@ -383,6 +397,7 @@ static void doubt_all(const RequestCheck *check)
         doubt_forward(&doubt, i, &stand);
         doubt_distance(&doubt, &request->eyes[i], &stand);
         doubt_turn(&doubt, &request->eyes[i], &stand);
+        doubt_box(&doubt, &request->eyes[i]);
     }
 }
 

@@ -27,8 +27,7 @@ bool display_side_is_plausible(double m);
 
 /* How far a picture is turned, as whoever is at `eye` with `up` (unit) above sees it: 0 is
  * upright, 180 upside down, positive to the left. False where its front is not
- * seen within 60 degrees of
- * the normal, or `up` is along the view. */
+ * seen within 60 degrees of the normal, or `up` is along the view. */
 bool display_frame_turn(const DisplayFrame *frame, Vec3 eye, Vec3 up, double *degrees);
 
 /* Beyond it a picture lies on its side. */
