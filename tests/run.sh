@@ -84,6 +84,7 @@ start 'panels of coarse grids' panel-coarse \
     python3 tests/bench/panel_coarse.py $program --cases few
 start 'what one pixel sees' probe python3 tests/image/probe.py $program
 start 'scenes moved and turned' moved python3 tests/image/moved.py $program
+start 'a scene far off is the same' far python3 tests/image/far.py $program
 start 'luminaires as lamps' lamps python3 tests/image/lamps.py $program
 start 'a render that is watched' live-view python3 tests/hostile/live_view.py $program
 start 'faults and their outcomes' faults python3 tests/hostile/faults.py $program

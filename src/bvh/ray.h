@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* ray.h -- a ray, and where it met a triangle. Metres, world space. */
+/* ray.h -- a ray, and where it met a triangle. Metres, scene coordinates. */
 #pragma once
 #include <stdint.h>
 

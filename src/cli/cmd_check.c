@@ -213,6 +213,10 @@ static void print_size(const Scene *scene, Arena *arena)
     if (scene->triangle_count)
         printf("size         %.4g x %.4g x %.4g m\n", (double)(high.x - low.x),
                (double)(high.y - low.y), (double)(high.z - low.z));
+    const double *o = scene->origin;
+    if (o[0] != 0 || o[1] != 0 || o[2] != 0)
+        printf("origin       %.10g, %.10g, %.10g m: coordinates are reckoned from there\n",
+               o[0], o[1], o[2]);
     printf("materials    %d, textures %d\n", scene->material_count, scene->texture_count);
     material_list_print_one_sided(scene, arena);
     if (scene->ignored_occlusion_count)
@@ -356,6 +360,16 @@ static json_t *json_cameras(const Scene *scene)
     return list;
 }
 
+/* The corners of a box around all triangles; null: there are none. */
+static json_t *json_bounds(const Scene *scene)
+{
+    double low[3], high[3];
+    if (!scene->triangle_count) return json_null();
+    world_from_scene(scene->origin, scene->bounds_min, low);
+    world_from_scene(scene->origin, scene->bounds_max, high);
+    return json_pack("[o,o]", cli_json_point(low), cli_json_point(high));
+}
+
 static json_t *json_animations(const Scene *scene)
 {
     json_t *list = json_array();
@@ -379,6 +393,8 @@ static bool print_json(const Scene *scene, const Problems *problems, Arena *aren
         "materials", scene->material_count, "textures", scene->texture_count, "triangles",
         (json_int_t)scene->triangle_count, "extensions",
         json_texts(scene->extensions, scene->extension_count));
+    json_object_set_new(answer, "bounds_m", json_bounds(scene));
+    json_object_set_new(answer, "origin_m", cli_json_point(scene->origin));
     json_object_set_new(answer, "variants",
                         json_texts(scene->variants, scene->variant_count));
     json_object_set_new(answer, "animations", json_animations(scene));
@@ -399,7 +415,8 @@ static bool run_check(int argc, char **argv, Arena *arena, Error *err)
          "which materials there are, on which nodes, how large, and which look like screens",
          &materials},
         LAMP_OPTIONS(&words),
-        {"--strict", OPTION_FLAG, NULL, "materials without optical data are errors",
+        {"--strict", OPTION_FLAG, NULL, "materials without optical data, and panels that say they are "
+         "not usable, are errors",
          &is_strict},
         STATE_OPTIONS(&words.state),
     };
@@ -419,6 +436,7 @@ static bool run_check(int argc, char **argv, Arena *arena, Error *err)
     hdri_warn(&scene->environment, &problems);
     data_warn(scene, is_strict ? SEVERITY_ERROR : SEVERITY_WARNING, &problems);
     forward_doubt(scene, &problems);
+    panels_warn(scene, is_strict ? SEVERITY_ERROR : SEVERITY_WARNING, &problems);
     if (cli.json)
         done = print_json(scene, &problems, arena, err);
     else if (materials)

@@ -414,12 +414,13 @@ static void print_line(const MergeRun *work)
 {
     const FilmPart *whole = &work->whole;
     const FilmRect *crop = &whole->crop;
+    char            error[32];
     printf("%s: %d part%s, pixels %d,%d,%d,%d of %dx%d, samples %u:%u, relative "
-           "error %.2f%%%s\n",
+           "error %s%s\n",
            work->output, work->count,
            work->count == 1 ? "" : "s", crop->x0, crop->y0, crop->x1,
            crop->y1, whole->width, whole->height, whole->first_sample,
-           whole->end_sample, 100 * work->error.frame,
+           whole->end_sample, cli_relative_error(work->error.frame, error, sizeof error),
            work->keeps_sums ? ", with its sums" : "");
 }
 

@@ -134,13 +134,13 @@ static bool print_answer(const Cli *cli, const LuxmeterRequest *request, const P
 
 /* ---- the measurement --------------------------------------------------------------------- */
 
-static LitPoint *lit_points(const Places *places, Arena *arena)
+static LitPoint *lit_points(const Scene *scene, const Places *places, Arena *arena)
 {
     LitPoint *out = ARENA_NEW(arena, LitPoint, places->count);
     for (int i = 0; i < places->count; i++) {
-        const double *p = places->list[i].place, *n = places->list[i].normal;
-        out[i] = (LitPoint){vec3((float)p[0], (float)p[1], (float)p[2]),
-                            vec3((float)n[0], (float)n[1], (float)n[2]), false};
+        const FacingPoint *at = &places->list[i];
+        out[i] = (LitPoint){scene_from_world(scene->origin, at->place),
+                            vec3_from_doubles(at->normal), false};
     }
     return out;
 }
@@ -157,7 +157,7 @@ bool luxmeter_run(const Cli *cli, const LuxmeterRequest *request, Arena *arena, 
     if (!scene_options_load(&asked, arena, &problems, &scene, err)) return false;
     cli_print_warnings(&problems);
     const IlluminanceOptions options = {
-        .points = lit_points(&places, arena), .count = places.count,
+        .points = lit_points(scene, &places, arena), .count = places.count,
         .samples = request->samples, .max_bounces = 64, .threads = cli->threads,
         .progress = places.count > MANY ? cli->progress : PROGRESS_NONE};
     Illuminance *found = ARENA_NEW(arena, Illuminance, places.count);

@@ -13,7 +13,7 @@
 #include "guide/guide.h"
 
 typedef struct GuidePlace {
-    Vec3 position, normal; /* just off a surface, on the normal's side; world */
+    Vec3 position, normal; /* just off a surface, on the normal's side; scene */
 } GuidePlace;
 
 #define GUIDE_POINTS 4 /* of a cell in a round */

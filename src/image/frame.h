@@ -12,7 +12,7 @@
  *   R G B                                 cd m^-2, negative values kept
  *   xyz.{X,Y,Z}                           CIE XYZ, Y in cd m^-2
  *   depth.Z                               m along the ray
- *   position.{X,Y,Z}  normal.{X,Y,Z}      world, m and unit
+ *   position.{X,Y,Z}  normal.{X,Y,Z}      world, m (as 32-bit numbers) and unit
  *   albedo.{R,G,B}                        linear Rec.709
  *   id.part  id.display                   whole numbers, -1 none
  *   uv.{U,V}

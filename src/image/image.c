@@ -2,6 +2,7 @@
 #include "image/image.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 #include <webp/decode.h>
@@ -295,6 +296,22 @@ static bool decode_other(const Encoded *file, Arena *arena, Image *out, Error *e
     return ok;
 }
 
+/* A code of a Radiance picture is the whole steps of a value: Radiance's tools take (m + 1/2)
+ * 2^(e - 136) (G. Ward, "Real Pixels", Graphics Gems II, 1991), the library takes m. A step is
+ * a 256th of the power of two above the largest component. */
+static void move_to_middles(const Image *image)
+{
+    float *rgba = (float *)image->pixels;
+    size_t count = (size_t)image->width * (size_t)image->height;
+    for (size_t i = 0; i < count; i++, rgba += 4) {
+        float most = fmaxf(rgba[0], fmaxf(rgba[1], rgba[2]));
+        int   exponent;
+        if (!(most > 0)) continue;
+        frexpf(most, &exponent);
+        for (int c = 0; c < 3; c++) rgba[c] += ldexpf(0.5f, exponent - 8);
+    }
+}
+
 /* A PNG without the library. False: it is for the library. */
 static bool decode_plain(const Encoded *file, Arena *arena, Image *out)
 {
@@ -462,7 +479,11 @@ static bool decode(const Encoded *file, Arena *arena, Image *out, Error *err)
     ExrReader *reader;
     if (decode_plain(file, arena, out)) return true;
     if (strcmp(file->format, "webp") == 0) return decode_webp(file, arena, out, err);
-    if (strcmp(file->format, "openexr") != 0) return decode_other(file, arena, out, err);
+    if (strcmp(file->format, "openexr") != 0) {
+        if (!decode_other(file, arena, out, err)) return false;
+        if (strcmp(file->format, "hdr") == 0) move_to_middles(out);
+        return true;
+    }
     if (!exr_reader_create(file->name, file->bytes, file->size, &reader, err)) return false;
     bool ok = decode_exr(reader, arena, out, err);
     exr_reader_destroy(reader);

@@ -25,7 +25,8 @@ typedef struct Image {
 } Image;
 
 /* Decodes PNG, JPEG, EXR, HDR, TIFF ... `name` is for messages, and its ending a hint.
- * Grey becomes R = G = B; alpha stays straight. Negative or non-finite floats are kept. */
+ * Grey becomes R = G = B; alpha stays straight. Negative or non-finite floats are kept. A code
+ * of a Radiance picture stands for the middle of its step, as in Radiance's tools. */
 bool image_read(const char *path, Arena *arena, Image *out, Error *err);
 bool image_read_memory(const void *bytes, size_t size, const char *name, Arena *arena,
                        Image *out, Error *err);

@@ -174,32 +174,9 @@ static void apply(const LightScale *scale, const Image *image)
     }
 }
 
-/* A step is a 256th of the power of two above the largest component. */
-static void move_to_middles(const Image *image)
+bool light_picture_read(const void *bytes, size_t size, const char *name, Arena *arena,
+                        LightPicture *out, Error *err)
 {
-    float *rgba = (float *)image->pixels;
-    size_t count = (size_t)image->width * (size_t)image->height;
-    for (size_t i = 0; i < count; i++, rgba += 4) {
-        float most = fmaxf(rgba[0], fmaxf(rgba[1], rgba[2]));
-        int   exponent;
-        if (!(most > 0)) continue;
-        frexpf(most, &exponent);
-        for (int c = 0; c < 3; c++) rgba[c] += ldexpf(0.5f, exponent - 8);
-    }
-}
-
-typedef struct PictureBytes {
-    const void *bytes;
-    size_t      size;
-    const char *name;
-    bool        takes_middles;
-} PictureBytes;
-
-static bool read_picture(const PictureBytes *from, Arena *arena, LightPicture *out, Error *err)
-{
-    const void *bytes = from->bytes;
-    const char *name = from->name;
-    size_t      size = from->size;
     LightScale   scale = {.scale = {1, 1, 1}, .unit_cd_m2 = 1};
     LightPicture picture;
     bool is_radiance = size > 2 && !memcmp(bytes, "#?", 2);
@@ -207,22 +184,8 @@ static bool read_picture(const PictureBytes *from, Arena *arena, LightPicture *o
     if (is_radiance && !read_radiance(bytes, size, name, &scale, err)) return false;
     if (!image_read_memory(bytes, size, name, arena, &picture.image, err)) return false;
     if (is_exr && !read_exr(bytes, size, name, &scale, err)) return error_in_file(err, name);
-    if (from->takes_middles && is_radiance && picture.image.format == IMAGE_RGBA32F)
-        move_to_middles(&picture.image);
     if (picture.image.format == IMAGE_RGBA32F) apply(&scale, &picture.image);
     picture.unit_cd_m2 = scale.unit_cd_m2;
     *out = picture;
     return true;
-}
-
-bool light_picture_read(const void *bytes, size_t size, const char *name, Arena *arena,
-                        LightPicture *out, Error *err)
-{
-    return read_picture(&(PictureBytes){bytes, size, name, false}, arena, out, err);
-}
-
-bool light_picture_read_middles(const void *bytes, size_t size, const char *name, Arena *arena,
-                                LightPicture *out, Error *err)
-{
-    return read_picture(&(PictureBytes){bytes, size, name, true}, arena, out, err);
 }

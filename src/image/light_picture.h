@@ -4,7 +4,8 @@
  *
  * Radiance (.hdr) holds radiance, W m^-2 sr^-1, times all its EXPOSURE= and COLORCORR= (several
  * multiply; each is divided out again), in the primaries of PRIMARIES=; times 179 lm/W it is
- * luminance (Radiance's file formats and WHTEFFICACY, G. Ward). Without PRIMARIES= colours are
+ * luminance (Radiance's file formats and WHTEFFICACY, G. Ward); a code stands for the middle of
+ * its step, as in Radiance's tools (image.h). Without PRIMARIES= colours are
  * taken as Rec.709, which is what other programs mean that write none; Radiance itself would
  * mean its own primaries and equal-energy white. OpenEXR (.exr): `whiteLuminance` is the
  * cd m^-2 of a white of 1 (1 where it is missing), `chromaticities` the primaries. Other
@@ -27,9 +28,3 @@ typedef struct LightPicture {
  * may serve as light is the caller's decision. */
 bool light_picture_read(const void *bytes, size_t size, const char *name, Arena *arena,
                         LightPicture *out, Error *err);
-
-/* The same with each code of a Radiance picture in the middle of its step, as Radiance's tools
- * decode them, where the other takes the lower end: 0.2 to 0.4 % more of the largest
- * component. */
-bool light_picture_read_middles(const void *bytes, size_t size, const char *name, Arena *arena,
-                                LightPicture *out, Error *err);

@@ -9,7 +9,7 @@
 
 /* place: the pair in [0, 1)^2 that is a pixel path's place in the pixel. The choice of the
  * target leaves a number that is as even. */
-static Vec3 target_of(const ProbeAim *aim, int path, Vec2 place)
+static Vec3 target_of(const ProbeAim *aim, int path, Vec2 place, int *which)
 {
     int   target = path % aim->target_count;
     float along = place.x;
@@ -18,6 +18,7 @@ static Vec3 target_of(const ProbeAim *aim, int path, Vec2 place)
         target = (int)scaled < aim->target_count ? (int)scaled : aim->target_count - 1;
         along = scaled - (float)target;
     }
+    *which = target;
     if (!aim->patches) return aim->targets[target];
     const ProbePatch *patch = &aim->patches[target];
     return vec3_add(aim->targets[target], vec3_add(vec3_scale(patch->along, along - 0.5f),
@@ -30,15 +31,19 @@ typedef struct ProbePath {
     Wavelengths wavelengths;
     Sampler     sampler;
     Ray         ray; /* of an eye */
+    int         target;
 } ProbePath;
 
-/* sampler: place's. */
-static Ray ray_of(const ProbeAim *aim, int path, Vec2 place, const Sampler *sampler)
+/* place: of the path's sampler. */
+static void set_ray(const ProbeAim *aim, int path, Vec2 place, ProbePath *out)
 {
     const ProbePixel *pixel = aim->pixel;
-    if (pixel) return camera_pixel_ray(pixel->camera, pixel->x, pixel->y, place, sampler);
-    Vec3 to = vec3_sub(target_of(aim, path, place), aim->eye);
-    return (Ray){aim->eye, vec3_normalize(to), 0, INFINITY};
+    if (pixel) {
+        out->ray = camera_pixel_ray(pixel->camera, pixel->x, pixel->y, place, &out->sampler);
+        return;
+    }
+    Vec3 to = vec3_sub(target_of(aim, path, place, &out->target), aim->eye);
+    out->ray = (Ray){aim->eye, vec3_normalize(to), 0, INFINITY};
 }
 
 static void start_path(const ProbeAim *aim, int path, PathStatistics *statistics,
@@ -51,7 +56,8 @@ static void start_path(const ProbeAim *aim, int path, PathStatistics *statistics
     wavelengths_sample(sampler_1d(&out->sampler), &out->wavelengths);
     out->start = (PathStart){.context = aim->context, .wavelengths = &out->wavelengths,
                              .sampler = &out->sampler, .statistics = statistics};
-    if (!aim->meter) out->ray = ray_of(aim, path, place, &out->sampler);
+    out->target = 0;
+    if (!aim->meter) set_ray(aim, path, place, out);
 }
 
 /* ---- by the light that is there ---------------------------------------------------------- */
@@ -105,6 +111,7 @@ static void look(const ProbeAim *aim, int path, ProbeLook *out, PathStatistics *
         return;
     }
     out->is_found = true;
+    out->target = own.target;
     for (int i = 0; i < 3; i++) {
         out->reflected[i] = seen.path.xyz[i] - emitted[i];
         out->mirror[i] = seen.path.mirror[i];

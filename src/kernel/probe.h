@@ -31,7 +31,7 @@ typedef struct ProbePixel {
 /* An eye and the points that it looks at, one path each; more paths than points begin again. */
 typedef struct ProbeAim {
     const PathContext *context;
-    Vec3            eye;       /* m, world */
+    Vec3            eye;       /* m, scene */
     const Vec3     *targets;   /* of surfaces that the eye sees */
     int             target_count;
     const ProbePatch *patches; /* of which targets are the middles: paths go anywhere within;
@@ -54,6 +54,7 @@ typedef struct ProbeLook {
     float reflected[3]; /* all but what the first surface emits; of a luxmeter all */
     float mirror[3];    /* of it, by way of a display's mirror */
     bool  is_found;     /* the first surface is a display, or a luxmeter's; else these are 0 */
+    int   target;       /* of the aim, that it went to; of a luxmeter or a pixel 0 */
     ProbeOwn display[PROBE_DISPLAYS]; /* of these, what each of the scene's displays sends, if
                                          the aim wants it; else 0 */
 } ProbeLook;

@@ -16,6 +16,14 @@ static void set3(float to[3], Vec3 from)
     to[2] = from.z;
 }
 
+/* Of the world: what a frame shows. */
+static void set_position(float to[3], const Scene *scene, Vec3 p)
+{
+    double at[3];
+    world_from_scene(scene->origin, p, at);
+    set3(to, vec3_from_doubles(at));
+}
+
 static void add_features(const TileJob *job, const PathResult *result,
                          const Wavelengths *wavelengths, FilmSample *sample)
 {
@@ -23,7 +31,7 @@ static void add_features(const TileJob *job, const PathResult *result,
     path_features(job->context, result, wavelengths, &features);
     sample->hit = true;
     sample->depth = features.depth;
-    set3(sample->position, features.position);
+    set_position(sample->position, job->context->scene, features.position);
     set3(sample->normal, features.normal);
     copy3(sample->albedo, features.albedo);
     sample->uv[0] = features.uv[0];

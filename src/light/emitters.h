@@ -41,7 +41,7 @@ typedef struct EmitterChoice {
 typedef struct EmitterNode EmitterNode;
 struct EmitterNode {
     int          count;
-    Spectrum     centre[3]; /* of their cells, by power; m, world */
+    Spectrum     centre[3]; /* of their cells, by power; m, scene */
     Spectrum     spread2;   /* mean square distance of their points from it, m^2 */
     Spectrum     radius;    /* m: no cell reaches farther from it */
     Spectrum     power;     /* luminance x area, cd; 0 in lanes that are not used */

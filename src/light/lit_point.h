@@ -4,7 +4,7 @@
 #include "base/vec.h"
 
 typedef struct LitPoint {
-    Vec3 position;   /* m, world */
+    Vec3 position;   /* m, scene */
     Vec3 ns;         /* unit, world: its shading normal */
     bool both_sides; /* light from behind counts, too; else only from the normal's side */
 } LitPoint;

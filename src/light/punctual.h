@@ -28,7 +28,7 @@ typedef struct PunctualProfile {
 typedef struct PunctualNode PunctualNode;
 struct PunctualNode {
     int          count;
-    Spectrum     centre[3]; /* of the lamps, by intensity; m, world */
+    Spectrum     centre[3]; /* of the lamps, by intensity; m, scene */
     Spectrum     spread2;   /* mean square distance of the lamps from it, m^2 */
     Spectrum     radius;    /* m: none reaches farther from it */
     Spectrum     power;     /* sum of the largest intensities, cd; 0 in lanes not used */

@@ -29,7 +29,7 @@
  * seen to get out; of rays at angles evenly down to 0.006 degrees, by decades, one in 10^6 did
  * without that.)
  *
- * Units    m, world.
+ * Units    m, scene.
  * Threads  pure functions.
  */
 #pragma once

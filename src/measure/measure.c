@@ -546,6 +546,9 @@ static bool no_pixel(const MeasureRequest *request, const Sums *sums, Error *err
                         "no pixel shows display %s alone, and how much the %ld at its rim show "
                         "is not known — render it again with --layers display",
                         request->display, sums->rim_pixels);
+    if (!request->display && !sums->nonfinite)
+        return error_at(err, ERROR_INPUT, request->frame_name, "",
+                        "no pixel to measure: all lie outside the fisheye's circle");
     return error_at(err, ERROR_INPUT, request->frame_name, "",
                     "no pixel to measure%s%s: %ld are not finite",
                     request->display ? " on display " : "",

@@ -72,7 +72,7 @@ bool mirrors_have(const Mirrors *mirrors, MirrorPair pair);
 typedef struct MirrorQuery {
     int   part_id;
     bool  is_rough; /* then by u, in [0, 1)^2, facets lean as GGX facets do */
-    Vec3  from;     /* the point, m, world */
+    Vec3  from;     /* the point, m, scene */
     Vec3  towards;  /* unit, to the light */
     Vec2  u;
 } MirrorQuery;

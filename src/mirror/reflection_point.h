@@ -4,7 +4,7 @@
  * The triangle is flat, its mirror normal is the interpolated one: none, one or some points of
  * it can do so, and all of them are found. No chance is in it.
  *
- * Units    metres, world; spread without unit.
+ * Units    metres, scene; spread without unit.
  * Threads  pure functions.
  */
 #pragma once

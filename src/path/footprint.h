@@ -9,7 +9,7 @@
  * Left out: the shift of an image by the thickness of a pane (nearly the same for all rays
  * nearby), and in dispersive glass the difference of an index from the mean one.
  *
- * Frame    world, m.
+ * Frame    scene, m.
  * Threads  plain values. HOT: no allocation, no libm.
  */
 #pragma once

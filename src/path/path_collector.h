@@ -37,7 +37,7 @@ typedef struct SunMirror {
 typedef struct PathFound {
     LightSet set;
     int      source_id; /* emitters: scene part; punctual: scene light; else 0 */
-    Vec3     from;      /* where it began, m, world; is_distant: unit, towards it */
+    Vec3     from;      /* where it began, m, scene; is_distant: unit, towards it */
     bool     is_distant;
     Vec3     way;       /* unit: its direction where it left its source */
     Spectrum radiance;  /* per lane, as it comes to the eye; of a display that counts by its

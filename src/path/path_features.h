@@ -5,7 +5,7 @@
 
 typedef struct PathFeatures {
     float depth;       /* m along the ray */
-    Vec3  position;    /* m, world */
+    Vec3  position;    /* m, scene */
     Vec3  normal;      /* unit, world, shading */
     float albedo[3];   /* linear Rec.709 */
     float uv[2];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* path_state.h -- the state of a path on its way; collectors (path_collector.h) see it, too.
  *
- * Units    metres, world; spectral radiance per lane.
+ * Units    metres, scene; spectral radiance per lane.
  * Threads  one thread's.
  */
 #pragma once

@@ -18,7 +18,7 @@ typedef struct SurfaceTables SurfaceTables;
 const SurfaceTables *surface_tables_build(const Scene *scene, bool is_polarised, Arena *arena);
 
 typedef struct Surface {
-    Vec3  position;    /* m, world */
+    Vec3  position;    /* m, scene */
     Vec3  ng;          /* unit geometric normal of the front */
     Frame frame;       /* shading frame; for all but solids that refract turned to wo's side */
     Vec3  local_wo;    /* wo in it */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* illuminance.h -- luxmeters in a scene.
  *
- * Units    places in metres (world); results in lx.
+ * Units    places in metres; results in lx.
  * Memory   the lights come from the arena; the ray tracer's memory is gone on return.
  * Threads  starts its own; the same figures for any number, and at each point the same as
  *          without the others.

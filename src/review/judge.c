@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "base/count.h"
+
 /* A figure with its 95 % interval. */
 typedef struct Figure {
     double found, low, high;
@@ -14,17 +16,52 @@ void judge_ambient(ReviewCase *review_case, const Profile *profile, bool sun_on_
         profile_ambient(profile, review_case->display_lux, sun_on_display);
 }
 
+/* ---- contrasts --------------------------------------------------------------------------- */
+
+/* What the eye gets of the brighter and the darker part: shares of what each emits. */
+typedef struct Shown {
+    double brighter, darker;
+} Shown;
+
+static double contrast_of(const CaseLuminances *l, Shown shown, double reflected)
+{
+    double brighter = fmax(l->foreground, l->background);
+    double darker = fmin(l->foreground, l->background);
+    if (isnan(l->foreground) || isnan(l->background)) return (double)NAN;
+    return luminance_contrast(shown.brighter * brighter, shown.darker * darker, reflected);
+}
+
+static const Shown AS_IT_IS = {1, 1};
+
+/* One end of the interval, where so much is reflected; sign: -1 the low one. The doubts of
+ * sampling, of what the panel reflects and of each of its two luminances are independent. */
+static double contrast_end(const ReviewCase *c, double reflected, double sign)
+{
+    const CaseLuminances *l = &c->luminance_cd_m2;
+    double reflects = sign * INTERVAL_SIGMAS * c->panel.reflection_error;
+    double emits = sign * INTERVAL_SIGMAS * c->panel.emission_error;
+    double middle = c->contrast_ratio, squares = 0;
+    const double ends[] = {
+        contrast_of(l, AS_IT_IS, reflected),
+        contrast_of(l, AS_IT_IS, l->reflected * fmax(1 - reflects, 0)),
+        contrast_of(l, (Shown){fmax(1 + emits, 0), 1}, l->reflected),
+        contrast_of(l, (Shown){1, fmax(1 - emits, 0)}, l->reflected)};
+    if (isinf(middle) || (reflects == 0 && emits == 0)) return ends[0];
+    for (int i = 0; i < COUNT_OF(ends); i++)
+        squares += (ends[i] - middle) * (ends[i] - middle);
+    return sign < 0 ? fmax(middle - sqrt(squares), 1) : middle + sqrt(squares);
+}
+
 void judge_contrasts(ReviewCase *review_case, MeanInterval reflected)
 {
     ReviewCase           *c = review_case;
     const CaseLuminances *l = &c->luminance_cd_m2;
     double veil = isnan(l->veil) ? 0 : l->veil;
     c->reflected_range = reflected;
-    c->contrast_ratio = luminance_contrast(l->foreground, l->background, l->reflected);
-    c->contrast_low = luminance_contrast(l->foreground, l->background, reflected.high);
-    c->contrast_high = luminance_contrast(l->foreground, l->background, reflected.low);
-    c->contrast_with_veil =
-        luminance_contrast(l->foreground, l->background, l->reflected + veil);
+    c->contrast_ratio = contrast_of(l, AS_IT_IS, l->reflected);
+    c->contrast_low = contrast_end(c, reflected.high, -1);
+    c->contrast_high = contrast_end(c, reflected.low, 1);
+    c->contrast_with_veil = contrast_of(l, AS_IT_IS, l->reflected + veil);
 }
 
 /* ---- figures ----------------------------------------------------------------------------- */
@@ -47,30 +84,16 @@ static Figure contrast_figure(const ReviewCase *c, const Profile *profile)
                     below_veil(c, c->contrast_high)};
 }
 
-/* A contrast ratio in the words of a kind of limit; rising with it. */
-static double in_words_of(LimitKind kind, double ratio)
-{
-    if (kind == LIMIT_LUMINANCE_CONTRAST) return ratio - 1;
-    if (kind == LIMIT_MODULATION) return (ratio - 1) / (ratio + 1);
-    return ratio;
-}
-
-/* The way back. */
-static double ratio_of(LimitKind kind, double value)
-{
-    if (kind == LIMIT_LUMINANCE_CONTRAST) return value + 1;
-    if (kind == LIMIT_MODULATION) return value < 1 ? (1 + value) / (1 - value) : INFINITY;
-    return value;
-}
-
 static Figure figure_of(LimitKind kind, const ReviewCase *c, const Profile *profile)
 {
     if (kind == LIMIT_CHARACTER_HEIGHT)
         return (Figure){c->height_arcmin, c->height_arcmin, c->height_arcmin};
+    if (kind == LIMIT_STROKE_RATIO)
+        return (Figure){c->stroke_ratio, c->stroke_ratio, c->stroke_ratio};
     if (!limit_kinds[kind].is_contrast) return (Figure){NAN, NAN, NAN};
     Figure ratio = contrast_figure(c, profile);
-    return (Figure){in_words_of(kind, ratio.found), in_words_of(kind, ratio.low),
-                    in_words_of(kind, ratio.high)};
+    return (Figure){contrast_from_ratio(kind, ratio.found), contrast_from_ratio(kind, ratio.low),
+                    contrast_from_ratio(kind, ratio.high)};
 }
 
 /* ---- limits ------------------------------------------------------------------------------ */
@@ -89,15 +112,11 @@ static double value_at(const ProfileLimit *limit, double height_arcmin)
     return limit->value + s->per_arcmin * (s->reference_arcmin - height_arcmin);
 }
 
-/* Comparisons with NaN are false: what is not known is too close to call. */
-static Verdict verdict_of(Figure figure, double limit, bool is_upper)
+/* Nothing, or not a contrast, of the case can be judged, whatever its figures. */
+static bool is_unjudged(const ReviewCase *c, bool is_contrast)
 {
-    if (is_upper) {
-        if (figure.high <= limit) return VERDICT_PASS;
-        return figure.low > limit ? VERDICT_FAIL : VERDICT_TOO_CLOSE;
-    }
-    if (figure.low >= limit) return VERDICT_PASS;
-    return figure.high < limit ? VERDICT_FAIL : VERDICT_TOO_CLOSE;
+    return !(c->visible_share > 0) || c->panel.is_unusable ||
+           (is_contrast && c->without_data_share > UNJUDGED_DATA_SHARE);
 }
 
 static LimitVerdict judge_limit(const ProfileLimit *limit, const ReviewCase *c,
@@ -106,27 +125,63 @@ static LimitVerdict judge_limit(const ProfileLimit *limit, const ReviewCase *c,
     const LimitKindFacts *kind = &limit_kinds[limit->kind];
     bool   is_visible = c->visible_share > 0;
     Figure figure = is_visible ? figure_of(limit->kind, c, profile) : (Figure){NAN, NAN, NAN};
-    double value = value_at(limit, c->height_arcmin);
-    return (LimitVerdict){
+    LimitVerdict judged = {
         .name = limit->name, .kind = kind->name, .unit = kind->unit, .source = limit->source,
-        .value = value, .read_in_the_standard = limit->read_in_the_standard,
-        .is_upper = limit->is_upper, .is_advice = limit->is_advice, .found = figure.found,
-        .low = figure.low, .high = figure.high,
-        .margin = (limit->is_upper ? value / figure.found : figure.found / value) - 1,
-        .verdict = is_visible ? verdict_of(figure, value, limit->is_upper)
-                              : VERDICT_NOT_VISIBLE};
+        .value = value_at(limit, c->height_arcmin),
+        .read_in_the_standard = limit->read_in_the_standard, .is_upper = limit->is_upper,
+        .is_advice = limit->is_advice, .found = figure.found, .low = figure.low,
+        .high = figure.high};
+    judged.margin =
+        quantity_margin(limit->kind, limit->is_upper, judged.found, judged.value);
+    judged.verdict = is_unjudged(c, kind->is_contrast) ? VERDICT_UNJUDGED
+                                                       : quantity_verdict(&judged);
+    return judged;
 }
 
 /* ---- the case ---------------------------------------------------------------------------- */
 
-static bool counts(const ProfileLimit *limit)
+/* Advice does not, nor what is not measured: of a shape that has no strokes their width. */
+static bool counts(const ProfileLimit *limit, const ReviewCase *c)
 {
+    if (limit->kind == LIMIT_STROKE_RATIO && isnan(c->stroke_ratio)) return false;
     return !limit->is_advice && limit_kinds[limit->kind].is_measured;
 }
 
 static Verdict worse(Verdict one, Verdict other)
 {
     return verdict_rank(one) >= verdict_rank(other) ? one : other;
+}
+
+static Unjudged why_unjudged(const ReviewCase *c, int counted)
+{
+    if (c->verdict != VERDICT_UNJUDGED) return UNJUDGED_NOT;
+    if (!(c->visible_share > 0)) return UNJUDGED_HIDDEN;
+    if (c->panel.is_unusable) return UNJUDGED_PANEL;
+    if (!counted) return UNJUDGED_LIMIT;
+    return c->without_data_share > UNJUDGED_DATA_SHARE ? UNJUDGED_DATA : UNJUDGED_FIGURE;
+}
+
+/* The share of sampling in the contrast's doubt below or above it: the panel's stated errors
+ * are the rest, and no path lessens those. */
+static double sampling_share(const ReviewCase *c, bool is_below)
+{
+    double end = is_below ? c->reflected_range.high : c->reflected_range.low;
+    double all = is_below ? c->contrast_low : c->contrast_high;
+    double half = contrast_of(&c->luminance_cd_m2, AS_IT_IS, end) - c->contrast_ratio;
+    double share = half / (all - c->contrast_ratio);
+    return share < 1 ? share : 1;
+}
+
+/* Times its paths until the limit lies clear of the figure: twice what sampling leaves in doubt
+ * beside the panel's own doubt is to fit between them. */
+static double times_to_decide(const ReviewCase *c, const LimitVerdict *limit)
+{
+    bool   is_above = limit->found > limit->value;
+    double gap = fabs(limit->found - limit->value);
+    double half = is_above ? limit->found - limit->low : limit->high - limit->found;
+    double share = sampling_share(c, is_above), sampled = half * share;
+    double room = gap * gap - half * half * (1 - share * share);
+    return room > 0 ? fmax(4 * sampled * sampled / room, 1) : (double)INFINITY;
 }
 
 void judge_paths(ReviewCase *review_case)
@@ -136,13 +191,9 @@ void judge_paths(ReviewCase *review_case)
     if (c->verdict != VERDICT_TOO_CLOSE) return;
     for (int i = 0; i < c->limit_count; i++) {
         const LimitVerdict *limit = &c->limits[i];
-        if (limit->is_advice || limit->verdict != VERDICT_TOO_CLOSE || isnan(limit->found))
-            continue;
-        bool   is_above = limit->found > limit->value;
-        double half = is_above ? limit->found - limit->low : limit->high - limit->found;
-        double ratio = 2 * half / fabs(limit->found - limit->value);
+        if (limit->is_advice || limit->verdict != VERDICT_TOO_CLOSE) continue;
         c->paths_to_decide =
-            fmax(c->paths_to_decide, (double)c->paths * fmax(ratio * ratio, 1));
+            fmax(c->paths_to_decide, (double)c->paths * times_to_decide(c, limit));
     }
 }
 
@@ -151,23 +202,26 @@ void judge_case(ReviewCase *review_case, const Profile *profile, Arena *arena)
     ReviewCase   *c = review_case;
     LimitVerdict *limits = ARENA_NEW(arena, LimitVerdict, profile->limit_count);
     double        greatest = -INFINITY;
+    int           counted = 0;
     c->limits = limits;
     c->limit_count = 0;
     c->limit_id = -1;
     c->margin = NAN;
-    c->verdict = c->visible_share > 0 ? VERDICT_PASS : VERDICT_NOT_VISIBLE;
+    c->verdict = VERDICT_PASS;
     for (int i = 0; i < profile->limit_count; i++) {
         const ProfileLimit *limit = &profile->limits[i];
         if (!is_asked(limit, c)) continue;
-        LimitVerdict judged = judge_limit(limit, c, profile);
-        if (counts(limit)) c->verdict = worse(judged.verdict, c->verdict);
-        double asked = ratio_of(limit->kind, judged.value);
-        if (counts(limit) && limit_kinds[limit->kind].is_contrast && !limit->is_upper &&
-            asked > greatest) {
+        LimitVerdict judged = limits[c->limit_count++] = judge_limit(limit, c, profile);
+        if (!counts(limit, c)) continue;
+        counted++;
+        c->verdict = worse(judged.verdict, c->verdict);
+        double asked = ratio_from_contrast(limit->kind, judged.value);
+        if (limit_kinds[limit->kind].is_contrast && !limit->is_upper && asked > greatest) {
             greatest = asked;
-            c->limit_id = c->limit_count;
+            c->limit_id = c->limit_count - 1;
             c->margin = judged.margin;
         }
-        limits[c->limit_count++] = judged;
     }
+    if (!counted || is_unjudged(c, false)) c->verdict = VERDICT_UNJUDGED;
+    c->unjudged = why_unjudged(c, counted);
 }

@@ -3,10 +3,14 @@
  *
  * A limit is kept when the whole 95 % interval of its figure keeps it, broken when the whole
  * interval breaks it, and too close to call when the limit lies within. A case is as bad as the
- * worst limit that counts: fail, then too close, then pass. Advice is listed and does not
- * count, nor does a limit of which the program measures no figure (`found` NaN); a figure that
- * it does measure and could not find out (NaN) is too close to call. A case of which nothing is
- * visible is neither good nor bad: not visible. One without limits passes, with limit_id -1.
+ * worst limit that counts: fail, then cannot be judged, then too close, then pass. Advice is
+ * listed and does not count, nor does a limit of which the program measures no figure: of a
+ * width, and of a shape that has no strokes their ratio (`found` NaN).
+ *
+ * A case cannot be judged (`unjudged`, in this order) where nothing of it is seen, where its
+ * panel says of itself that it is not usable, where no limit that counts applies to it, where
+ * more than UNJUDGED_DATA_SHARE of the light that it reflects came via materials without data
+ * (its contrasts: a height that fails fails all the same), and where a figure is NaN.
  *
  * Memory   lists come from the arena.
  * Threads  pure functions but for the case that is passed in.
@@ -20,16 +24,20 @@ void judge_ambient(ReviewCase *review_case, const Profile *profile, bool sun_on_
 
 /* The one place where contrasts are made: from the case's luminances and the interval of what
  * is reflected. Sets reflected_range, contrast_ratio, contrast_low, contrast_high and
- * contrast_with_veil (of no veil, NaN: contrast_ratio). */
+ * contrast_with_veil (of no veil, NaN: contrast_ratio). The ends hold, besides that interval,
+ * what the panel states of its own errors, each taken as normal and as independent of all else:
+ * of what it reflects, and of each of the two luminances. */
 void judge_contrasts(ReviewCase *review_case, MeanInterval reflected);
 
 /* Sets paths_to_decide of a case that was judged, from its paths and intervals: errors fall as
  * the root of the paths, and a reading is as long as a pilot of its own length asks for, so
- * that twice the half interval is to fit between figure and limit. */
+ * that twice the half interval is to fit between figure and limit. Infinite where the panel's
+ * own errors reach the limit: no path lessens those. */
 void judge_paths(ReviewCase *review_case);
 
-/* From the case's ambient, contrasts and their interval, height and visible_share:
- * sets limits, limit_count, limit_id, margin and verdict. limit_id is, among the contrast
+/* From the case's ambient, contrasts and their interval, height, stroke_ratio, visible_share,
+ * panel and without_data_share: sets limits, limit_count, limit_id, margin, verdict and
+ * unjudged. limit_id is, among the contrast
  * limits that count, the one that asks the greatest ratio; margin is its margin.
  *
  * A profile that uses the veil is asked of contrast_with_veil; its interval is that of

@@ -13,15 +13,6 @@
 
 #define LARGEST 1e9 /* of any number in a profile */
 
-const LimitKindFacts limit_kinds[LIMIT_KIND_COUNT] = {
-    [LIMIT_CONTRAST_RATIO] = {"contrast_ratio", "1", true, true},
-    [LIMIT_LUMINANCE_CONTRAST] = {"luminance_contrast", "1", true, true},
-    [LIMIT_MODULATION] = {"modulation", "1", true, true},
-    [LIMIT_CHARACTER_HEIGHT] = {"character_height", "arcmin", false, true},
-    [LIMIT_STROKE_RATIO] = {"stroke_ratio", "1", false, false},
-    [LIMIT_WIDTH_RATIO] = {"width_ratio", "1", false, false},
-};
-
 /* ---- values of any object ---------------------------------------------------------------- */
 
 static bool missing(const JsonView *view, const char *key, Error *err)

@@ -12,27 +12,9 @@
 #pragma once
 #include "base/arena.h"
 #include "base/error.h"
-#include "review/verdict.h"
+#include "review/quantity.h"
 
 enum { AMBIENT_COUNT = 4 };
-
-/* The quantity that a limit bounds. */
-typedef enum LimitKind {
-    LIMIT_CONTRAST_RATIO,     /* brighter over darker, what is reflected included */
-    LIMIT_LUMINANCE_CONTRAST, /* the same less one: (L2 - L1)/L1 */
-    LIMIT_MODULATION,         /* (CR - 1)/(CR + 1) */
-    LIMIT_CHARACTER_HEIGHT,   /* arc minutes */
-    LIMIT_STROKE_RATIO,       /* stroke over the character's height: not measured here */
-    LIMIT_WIDTH_RATIO,        /* width over height: not measured here */
-    LIMIT_KIND_COUNT
-} LimitKind;
-
-typedef struct LimitKindFacts {
-    const char *name, *unit;
-    bool        is_contrast, is_measured;
-} LimitKindFacts;
-
-extern const LimitKindFacts limit_kinds[LIMIT_KIND_COUNT];
 
 /* A limit that rises as characters get smaller: for heights of from_arcmin to to_arcmin it is
  * value + per_arcmin (reference_arcmin - height), and there is none beyond them. */

@@ -3,13 +3,17 @@
 
 #include <math.h>
 
-const char *const verdict_names[4] = {"pass", "fail", "too close", "not visible"};
+const char *const verdict_names[4] = {"pass", "fail", "too close", "cannot be judged"};
+const char *const unjudged_names[UNJUDGED_COUNT] = {
+    [UNJUDGED_HIDDEN] = "hidden", [UNJUDGED_PANEL] = "panel not usable",
+    [UNJUDGED_DATA] = "no optical data", [UNJUDGED_LIMIT] = "no limit",
+    [UNJUDGED_FIGURE] = "no figure"};
 const char *const ambient_names[4] = {"night", "twilight", "day", "sun"};
 
 int verdict_rank(Verdict verdict)
 {
     static const int RANKS[4] = {[VERDICT_PASS] = 0, [VERDICT_TOO_CLOSE] = 1,
-                                 [VERDICT_NOT_VISIBLE] = 2, [VERDICT_FAIL] = 3};
+                                 [VERDICT_UNJUDGED] = 2, [VERDICT_FAIL] = 3};
     return RANKS[verdict];
 }
 
@@ -17,4 +21,35 @@ double luminance_contrast(double one, double other, double added)
 {
     double brighter = fmax(one, other) + added, darker = fmin(one, other) + added;
     return darker > 0 ? brighter / darker : brighter > 0 ? (double)INFINITY : 1;
+}
+
+CaseGlare review_glare_unknown(void)
+{
+    const double       none = (double)NAN;
+    const MeanInterval range = {none, none};
+    return (CaseGlare){.dgp = none, .ugr = none, .dgi = none, .dgp_range = range,
+                       .ugr_range = range, .dgi_range = range, .threshold_cd_m2 = none,
+                       .background_cd_m2 = none, .source_lx = none, .smallest_sr = none,
+                       .largest_sr = none};
+}
+
+ReviewCase review_case_unknown(void)
+{
+    ReviewCase c = {.limit_id = -1, .verdict = VERDICT_UNJUDGED, .unjudged = UNJUDGED_HIDDEN};
+    CaseLuminances *l = &c.luminance_cd_m2;
+    c.margin = c.contrast_ratio = c.contrast_low = c.contrast_high = c.contrast_with_veil =
+        c.height_arcmin = c.stroke_ratio = c.jnd = c.visibility = (double)NAN;
+    l->foreground = l->background = l->reflected = l->mirror = l->scattered = l->veil =
+        (double)NAN;
+    c.reflected_range = (MeanInterval){(double)NAN, (double)NAN};
+    c.eye_failed_share = c.precision_asked = c.precision_reached = (double)NAN;
+    c.paths_to_decide = c.minutes_to_decide = (double)NAN;
+    c.glare = review_glare_unknown();
+    return c;
+}
+
+bool review_case_counts(const ReviewCase *c)
+{
+    if (c->verdict != VERDICT_UNJUDGED) return true;
+    return c->unjudged != UNJUDGED_LIMIT && !(c->is_optional && c->unjudged == UNJUDGED_HIDDEN);
 }

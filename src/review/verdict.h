@@ -2,7 +2,8 @@
 /* verdict.h -- the results of a glare review: for one symbol, seen by one eye under one
  * condition; for a sweep over many suns; for all of them.
  *
- * Units    cd m^-2, arc minutes, degrees. Azimuths from north over east.
+ * Units    cd m^-2, arc minutes, degrees. Azimuths from north over east. Points in the
+ *          coordinates of the case's scene.
  * Memory   its maker owns it; texts and lists live in the review's arena.
  * Threads  plain data.
  */
@@ -13,13 +14,32 @@
 #include "base/confidence.h"
 #include "base/vec.h"
 
+/* The four outcomes. Pass: the whole 95 % interval of each figure that is asked for keeps its
+ * limit; fail: that of one breaks it; too close: a limit lies within; unjudged: something that
+ * is asked for is not known, and Unjudged says why. */
 typedef enum Verdict {
-    VERDICT_PASS, VERDICT_FAIL, VERDICT_TOO_CLOSE, VERDICT_NOT_VISIBLE
+    VERDICT_PASS, VERDICT_FAIL, VERDICT_TOO_CLOSE, VERDICT_UNJUDGED
 } Verdict;
-extern const char *const verdict_names[4]; /* "pass", "fail", "too close", "not visible" */
+extern const char *const verdict_names[4]; /* "pass", "fail", "too close", "cannot be judged" */
 
-/* How bad it is: pass 0, too close 1, not visible 2, fail 3. */
+/* How bad it is: pass 0, too close 1, cannot be judged 2, fail 3. */
 int verdict_rank(Verdict verdict);
+
+/* Why a case cannot be judged. */
+typedef enum Unjudged {
+    UNJUDGED_NOT,     /* it can */
+    UNJUDGED_HIDDEN,  /* nothing of it is seen */
+    UNJUDGED_PANEL,   /* its panel says of itself that it is not usable */
+    UNJUDGED_DATA,    /* more than UNJUDGED_DATA_SHARE of the light by things without data */
+    UNJUDGED_LIMIT,   /* no limit that counts applies to it */
+    UNJUDGED_FIGURE,  /* a figure that a limit is about could not be found out */
+    UNJUDGED_COUNT
+} Unjudged;
+extern const char *const unjudged_names[UNJUDGED_COUNT]; /* NULL, "hidden", "panel", ... */
+
+/* Share of the reflected light above which materials without data decide the contrast: a limit
+ * of 2 : 1 is then missed or met by what nobody measured. */
+#define UNJUDGED_DATA_SHARE 0.1
 
 typedef enum Ambient { AMBIENT_NIGHT, AMBIENT_TWILIGHT, AMBIENT_DAY, AMBIENT_SUN } Ambient;
 extern const char *const ambient_names[4]; /* "night", "twilight", "day", "sun" */
@@ -31,7 +51,15 @@ extern const char *const ambient_names[4]; /* "night", "twilight", "day", "sun" 
  * zeros. */
 double luminance_contrast(double one, double other, double added);
 
-/* A limit of the profile, held against what was found. */
+/* The judged quantity: a limit of the profile, held against what was found. `value`, `found`,
+ * `low` and `high` are of the limit's own kind, in its unit; whatever is printed beside each
+ * other comes from one of these (review_words.h).
+ *
+ * Margin: how far the figure is beyond its limit, on a scale on which full wash-out, nothing
+ * that stands out, is -1 (-100 %) for every limit and 0 lies on the limit. With the progress
+ * p = ln(ratio) of all kinds of contrast, each turned into the contrast ratio that it stands
+ * for (judge.h), and p = figure of heights and strokes: p(found) / p(value) - 1, of an upper
+ * limit p(value) / p(found) - 1. */
 typedef struct LimitVerdict {
     const char *name, *kind, *unit, *source;
     double      value;        /* the limit */
@@ -40,11 +68,21 @@ typedef struct LimitVerdict {
     bool        is_advice;    /* preferred, not asked: shown, and not counted */
     double      found;        /* NaN: nothing to hold against it */
     double      low, high;    /* 95 % interval of `found`; equal where it is exact */
-    double      margin;       /* found / value - 1; of an upper limit value / found - 1 */
+    double      margin;       /* above; NaN where `found` is */
     Verdict     verdict;
 } LimitVerdict;
 
-/* A ray of a cause, m, world: from the eye over what it meets to where the light began. */
+/* What a display's panel says of itself (panel/query/panel_stated.h). */
+typedef struct CasePanel {
+    const char *verdict;         /* "good", "usable with care", "not usable"; NULL: nothing */
+    const char *reason;          /* the worst of its reasons; NULL: none */
+    bool        is_coarse;       /* a reason begins with "coarse" */
+    bool        is_unusable;     /* its verdict is "not usable" */
+    double      emission_error, reflection_error; /* relative, rms over all that was measured;
+                                                     0: not stated */
+} CasePanel;
+
+/* A ray of a cause, m: from the eye over what it meets to where the light began. */
 typedef struct CaseRay {
     const Vec3 *points;
     int         count;
@@ -70,7 +108,7 @@ typedef struct CaseShare {
     double      share, cd_m2; /* 0..1 */
 } CaseShare;
 
-/* A thing that hides a share, 0..1, of a symbol's rectangle from an eye. */
+/* A thing that hides a share, 0..1, of the box about a symbol's foreground from an eye. */
 typedef struct CaseHider {
     const char *what; /* a node and its material, or that it shows its back */
     double      share;
@@ -94,7 +132,7 @@ typedef enum CauseGroup {
  * perspective view, at x / z of half_width and y / z of half_height from its middle; else at x
  * and y. */
 typedef struct CaseView {
-    Vec3   eye, right, up, forward; /* m, world; unit */
+    Vec3   eye, right, up, forward; /* m; unit */
     bool   is_perspective;
     double half_width, half_height;
     int    width, height;           /* pixels */
@@ -104,6 +142,8 @@ typedef struct CaseView {
 typedef struct CaseRemedy {
     const char *what;
     double contrast_ratio, level;
+    LimitVerdict then;           /* the limit that it is to mend, judged again with it */
+    Verdict verdict;             /* the case's with it */
 } CaseRemedy;
 
 /* How much the view disturbs (vision/discomfort.h): secondary figures. */
@@ -122,10 +162,25 @@ typedef struct CaseGlare {
 
 typedef struct CaseLuminances {
     double foreground, background; /* emitted to the eye */
-    double reflected;              /* mean over what is visible; all that is reflected */
+    double reflected;              /* by the part that is judged; all that is reflected */
     double mirror, scattered;      /* its two parts */
     double veil;                   /* that stray light lays over the gaze point, in the eye */
 } CaseLuminances;
+
+/* A rectangle of a display's content, uv. */
+typedef struct CaseBox {
+    double left, top, right, bottom;
+} CaseBox;
+
+/* A symbol as a whole, beside the part of it that is judged. */
+typedef struct CaseWhole {
+    CaseBox part;                 /* which that is */
+    double  reflected;            /* mean over all that is visible of the box about its
+                                     foreground, cd m^-2; NaN: not known */
+    MeanInterval reflected_range; /* 95 % */
+    double  contrast_ratio;       /* by that mean; NaN likewise */
+    double  lit_share;            /* of it, 0..1, in the direct sun; NaN: there is none */
+} CaseWhole;
 
 #define CASE_BATCHES 32
 
@@ -137,13 +192,17 @@ typedef struct ReviewCase {
     bool    has_sun;             /* above the horizon */
     double  sun_azimuth_deg, sun_elevation_deg; /* of a sweep's worst: of the vehicle */
     CaseLuminances luminance_cd_m2;
+    CaseWhole whole;
     MeanInterval reflected_range; /* of sampling alone; of a sweep's steps of the response
                                     too. The contrasts are made of these luminances
                                     (judge_contrasts) */
     double  contrast_ratio;      /* (brighter + reflected) / (darker + reflected) */
-    double  contrast_low, contrast_high; /* at the ends of the reflected light's interval */
+    double  contrast_low, contrast_high; /* 95 %: of sampling, and of the panel's stated
+                                            errors (judge_contrasts) */
     double  contrast_with_veil;
     double  height_arcmin;       /* the foreground's extent along the content's v */
+    double  stroke_ratio;        /* its strokes' width over a character's height; NaN: it has
+                                    no strokes (judge.h) */
     double  jnd;                 /* steps of DICOM's GSDF between the two, veil included */
     double  visibility;          /* Michelson contrast, veil included, by the least that an eye
                                     sees of strokes that wide (Barten) */
@@ -157,32 +216,46 @@ typedef struct ReviewCase {
     double  precision_reached;   /* its standard error, relative; NaN likewise */
     double  paths_to_decide;     /* of a case that is too close: about how many decide; NaN */
     double  minutes_to_decide;   /* as fast as its reading went, here; NaN: not known */
-    double  visible_share;       /* of the rectangle, 0..1 */
+    double  visible_share;       /* of the box about its foreground, 0..1 */
     const CaseHider *hiders;     /* of all else, greatest first: with it they add up to 1 */
     int     hider_count;
     double  eye_failed_share;    /* of an eye box's points: those that fail; NaN: one point */
-    Vec3    eye_m;               /* where the eye was; of a box its worst point */
+    double  eye_m[3];            /* where the eye was, world; of a box its worst point */
+    double  origin_m[3];         /* of the scene that it was (scene/scene.h): its rays, view and
+                                    rim are in its coordinates */
+    bool    is_optional;         /* the request says that this eye need not see it */
     double  level;               /* at which the display was set, 1: as measured */
+    CasePanel panel;             /* what the display's panel says of itself */
     double  display_lux;         /* illuminance of the display's face */
     const LimitVerdict *limits;  /* all that apply */
     int     limit_count;
     int     limit_id;            /* the contrast limit that was asked most of; -1: none */
-    double  margin;              /* contrast over its limit, less one; NaN: no limit */
+    double  margin;              /* of that limit; NaN: there is none */
     Verdict verdict;             /* the worst of its limits' that count */
+    Unjudged unjudged;           /* why it cannot be judged */
     const CaseCause  *causes;    /* greatest first */
     int     cause_count;
     CaseGroup groups[CAUSE_GROUPS];
-    double  without_data_share;  /* of the reflected light, by way of materials without data */
+    double  without_data_share;  /* of the reflected light, via materials without data */
     const CaseRemedy *remedies;
     int     remedy_count;
     const char *frame;           /* picture's name within the folder; NULL: none was rendered */
     const CaseView *view;        /* of the frame; NULL: not known */
-    const Vec3 *rim;             /* once around the symbol, m, world; of a case without a frame
+    const Vec3 *rim;             /* once around the symbol, m; of a case without a frame
                                     of its own none */
     int rim_count;
     const char *outlook;         /* picture of what the display sees from the symbol; or NULL */
     const char *outlook_words;   /* what is in it */
 } ReviewCase;
+
+CaseGlare review_glare_unknown(void); /* all NaN */
+
+/* A case of which no figure is known: all are NaN, and nothing is seen. */
+ReviewCase review_case_unknown(void);
+
+/* Does it count? Not where a symbol that need not be seen is hidden, nor where nothing is asked
+ * of it. */
+bool review_case_counts(const ReviewCase *c);
 
 /* The veil in the eye, by where its light begins: the parts add up to it. */
 typedef struct GazeVeil {
@@ -340,8 +413,9 @@ struct Review {
     int         without_data_count;
     const char *const *notes;     /* what a reader must know: approximations, gaps in data */
     int             note_count;
-    bool            pass;         /* nothing fails; strict: nor is too close, not visible or of
-                                     a material without data */
+    bool            pass;         /* nothing fails, and all that is asked could be judged;
+                                     strict: nor is anything too close, or of a material
+                                     without data */
     bool            is_strict;
     const char     *to_come;      /* of one that is not finished: what is missing; or NULL */
     bool            is_partial;   /* conditions are: nobody may take it for one that passes */

@@ -2,8 +2,13 @@
 /* scene.h -- what the user described, as plain arrays with ids.
  *
  * Filled by scene_load (load/scene_load.h), checked once, then const. Elements refer to each
- * other by id; NO_ID is "none". Everything is in world space (metres, +Y up): node trees are
- * flattened, skins, morph targets and animations as in SceneState, at rest without it.
+ * other by id; NO_ID is "none". Node trees are flattened, skins, morph targets and animations
+ * as in SceneState, at rest without it.
+ *
+ * Frame    scene coordinates: the world's (metres, +Y up) minus Scene.origin, with the world's
+ *          axes. All positions of the program are such ("world" in names of transforms means
+ *          these axes); those that come in or go out as the user's are the world's, via
+ *          scene_from_world and world_from_scene below, and nothing else converts.
  *
  * Memory   everything lives in the arena given to scene_load, and dies with it; the panels are
  *          closed by scene_close.
@@ -173,7 +178,7 @@ typedef enum LightKind {
 typedef struct PunctualLight {
     const char *name;
     LightKind kind;
-    Vec3  position;     /* m, world */
+    Vec3  position;     /* m */
     Vec3  direction;    /* unit: where the light goes to (the node's -Z) */
     float intensity[3]; /* linear Rec.709: cd (point, spot) or lx facing it (directional) */
     float cos_inner, cos_outer; /* spot */
@@ -248,7 +253,9 @@ typedef struct Environment {
 } Environment;
 
 typedef struct Scene {
-    Vec3     *positions; /* m, world; of all vertices. Shared with the ray tracer, which reads
+    double    origin[3]; /* m: where the scene's coordinates begin in the world: 0 unless the
+                            scene stands far off (load/scene_origin.h) */
+    Vec3     *positions; /* m; of all vertices. Shared with the ray tracer, which reads
                             past the last: there is room for one more */
     uint32_t  vertex_count;
     Triangle *triangles; /* opaque ones first: [0, opaque_count) need no asking */
@@ -338,6 +345,21 @@ typedef struct SceneOptions {
     int change_count;
     SceneState state;
 } SceneOptions;
+
+/* A position of the world's, m; origin_m: the scene's. */
+static inline Vec3 scene_from_world(const double origin_m[3], const double world_m[3])
+{
+    return vec3((float)(world_m[0] - origin_m[0]), (float)(world_m[1] - origin_m[1]),
+                (float)(world_m[2] - origin_m[2]));
+}
+
+/* Where it is in the world, m. */
+static inline void world_from_scene(const double origin_m[3], Vec3 p, double world_m[3])
+{
+    world_m[0] = origin_m[0] + (double)p.x;
+    world_m[1] = origin_m[1] + (double)p.y;
+    world_m[2] = origin_m[2] + (double)p.z;
+}
 
 /* Light on one side is seen from the other. */
 static inline bool material_sends_through(const Material *m)

@@ -265,8 +265,22 @@ static LuminousEfficacy perez_efficacy(const Daylight *out, const PerezInput *li
                                  in->diffuse_lux / in->diffuse_w_m2,
                                  (in->diffuse_lux + sine * in->direct_lux) /
                                      (in->diffuse_w_m2 + sine * in->direct_w_m2)};
-    if (!(in->direct_w_m2 > 0)) fit.direct = (double)NAN;
+    if (!(in->direct_w_m2 > 0) || in->sun_lux >= 0) fit.direct = (double)NAN;
     return fit;
+}
+
+/* Normal, of a whole disc: what is measured, unless the sun has an illuminance of its own. */
+static void set_perez_direct(Daylight *out, const Spectrl2 *ground, Curve *irradiance)
+{
+    const DaylightInput *in = &out->input;
+    DaylightMetrics     *f = &out->metrics;
+    curve_from_rows(ground->direct, irradiance);
+    double whole = curve_luminance(irradiance), w_m2 = in->direct_w_m2, lux = in->sun_lux;
+    if (lux >= 0) w_m2 = whole > 0 ? spectrl2_total(ground->direct) * lux / whole : 0;
+    else if (in->has_lux) lux = in->direct_lux;
+    else lux = w_m2 > 0 ? f->efficacy.direct * w_m2 : 0;
+    scale_curve(irradiance, whole > 0 ? lux / whole : 0);
+    f->direct_normal_w_m2 = w_m2 * sun_share(out);
 }
 
 static bool build_perez(Daylight *out, Error *err)
@@ -282,11 +296,7 @@ static bool build_perez(Daylight *out, Error *err)
     if (!sky_shape_perez(&input, &out->shape, &state, err)) return false;
     Spectrl2 ground = ground_spectra(out);
     f->efficacy = perez_efficacy(out, &input, &state);
-    curve_from_rows(ground.direct, &irradiance);
-    double direct_lux = in->has_lux ? in->direct_lux
-                        : in->direct_w_m2 > 0 ? f->efficacy.direct * in->direct_w_m2 : 0;
-    scale_curve(&irradiance, direct_lux / curve_luminance(&irradiance));
-    f->direct_normal_w_m2 = in->direct_w_m2 * sun_share(out);
+    set_perez_direct(out, &ground, &irradiance);
     f->diffuse_horizontal_lx = f->efficacy.diffuse * in->diffuse_w_m2;
     sky_spectrum(out, fmin(1, (state.clearness - 1) / 3.5), &ground);
     f->diffuse_horizontal_w_m2 = in->diffuse_w_m2;

@@ -43,7 +43,8 @@ typedef struct DaylightInput {
     SkyTime  when;
     SkyPlace where;
     double   sun_azimuth, sun_elevation; /* has_sun: apparent; overrides the time's */
-    double   sun_lux;            /* direct normal; negative: the model's own */
+    double   sun_lux;            /* direct normal; negative: the model's own, of Perez what is
+                                    measured, whose shape and diffuse light it leaves */
     int      cie_type;           /* 1..16 */
     double   diffuse_lux;        /* CIE, or Perez with has_lux: horizontal */
     double   direct_w_m2, diffuse_w_m2; /* Perez: normal, horizontal; they give the shape, */
@@ -70,7 +71,8 @@ typedef struct DaylightMetrics {
     double true_elevation_deg, refraction_deg, distance_au, horizon_deg;
     double direct_normal_lx, diffuse_horizontal_lx, global_horizontal_lx;
     double direct_normal_w_m2, diffuse_horizontal_w_m2; /* 300..4000 nm */
-    LuminousEfficacy efficacy; /* Perez, of the disc when it is up; NaN: no such light */
+    LuminousEfficacy efficacy; /* Perez, of the disc when it is up; NaN: no such light,
+                                  or sun_lux is given */
     double zenith_cd_m2, sun_xy[2], zenith_xy[2], floor_cd_m2;
     double air_mass;
     bool   is_sun_up; /* part of its disc at least */

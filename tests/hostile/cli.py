@@ -19,6 +19,7 @@ ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
 sys.path.insert(0, os.path.join(ROOT, "tests", "image"))
 from exr import Frame  # noqa: E402
+from gltf import Scene  # noqa: E402
 from report import Report  # noqa: E402
 
 COMMANDS = ("render", "develop", "check", "measure", "compare", "merge", "sky", "panel import",
@@ -433,6 +434,37 @@ def check_weather(report, program):
         claim_status(report, ask(hour, *options), 3, "day.epw", *words)
     claim_status(report, program.run("sky", *SKY, "--weather-lux", "file"), 2,
                  "--weather-lux: there is no weather file")
+    check_own_sun(report, program, path)
+
+
+def check_own_sun(report, program, path):
+    """A measured sky keeps its shape and diffuse light below a sun of another illuminance, or
+    without one; and a scene's own sun does not stand in for what is measured."""
+    scene = Scene()
+    scene.environment(type="constant", luminance=9, sun={
+        "azimuth_deg": 90, "elevation_deg": 30, "illuminance_lx": 777})
+    scene.write(program.file("own_sun.gltf"))
+    when = ("--when", "2026-06-21T09:30+01:00")
+    skies = {"weather": ("--weather", path, "--weather-offset=-0.5", *when),
+             "perez": ("--environment", "perez:600,150", *when, "--where", "48.14,11.58")}
+    for name, options in skies.items():
+        def ask(*sun):
+            return json.loads(program.run("sky", *options, *sun, "--json").stdout)
+        own, off, placed = ask(), ask("--sun", "off"), ask("--sun", "180,40")
+        lit = ask("--sun", "180,40,12345")
+        keys = "direct_normal_lx", "diffuse_horizontal_lx"
+        found = [[sky[key] for key in keys] for sky in (own, off, placed, lit)]
+        report.claim(own[keys[0]] > 50000 and off[keys[0]] == 0 and
+                     off[keys[1]] == own[keys[1]], f"{name} --sun off: {found}")
+        report.claim(placed[keys[0]] > 50000 and abs(lit[keys[0]] - 12345) < 1 and
+                     lit[keys[1]] == placed[keys[1]], f"{name} --sun AZ,EL,LUX: {found}")
+    sky = ("--environment", "perez:600,150", "--sun", "90,30", "--json")
+    wanted = json.loads(program.run("sky", *sky).stdout)["global_horizontal_lx"]
+    done = program.run("measure", program.file("own_sun.gltf"), "--illuminance", "0,0,0,0,1,0",
+                       "--samples", "1024", *sky)
+    lux = json.loads(done.stdout)["illuminance_lx"]
+    report.claim(abs(lux / wanted - 1) < 0.02,
+                 f"a measured sky about a scene with a sun: {lux} lx, {wanted} alone")
 
 
 def check_night(report, program):

@@ -359,8 +359,8 @@ def heading():
 
 
 def six_sides(u, v):
-    """Another value in each direction of the axes; the centre of the picture is +Z, +X is on
-    its left."""
+    """Another power of two in each direction of the axes, code 128 with another exponent; the
+    centre of the picture is +Z, +X is on its left."""
     if v < 0.25 or v > 0.75:
         return 64 if v < 0.25 else 2
     return (8, 16, 32, 4)[int(4 * u + 0.5) % 4]
@@ -375,7 +375,7 @@ def hdri_sides():
     for name, (direction, _) in sides.items():
         scene.view(name, [0, 0, 0], direction, 10)
     return Case("a picture of the surroundings lies the right way round", scene,
-                [Claim(name, 1790 * value) for name, (_, value) in sides.items()])
+                [Claim(name, 1790 * value * 128.5 / 128) for name, (_, value) in sides.items()])
 
 
 def hdri_illuminance():

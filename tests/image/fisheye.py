@@ -176,6 +176,42 @@ def check_error(report, program):
                  f"measure takes {answer['pixels']} pixels, {seen} are in the circle")
 
 
+def check_outside(report, program):
+    """Nothing but corners outside the circle: one line says so, and no figure is no number."""
+    words = ("lit.gltf", "--projection", "equisolid", "--size", "64x64", "--spp", "2")
+    done = program.run("render", *words, "--crop", "0,0,4,4", "-o", "corner.exr")
+    report.claim(done.returncode == 0 and "nan" not in done.stdout and
+                 "relative error unknown" in done.stdout and
+                 "all pixels rendered lie outside its circle" in done.stdout,
+                 f"a corner alone: {done.stdout}")
+    done = program.run("merge", "corner.exr", "-o", "merged.exr")
+    report.claim(done.returncode == 3 or "nan" not in done.stdout, f"merge: {done.stdout}")
+    program.render(*words[:1], "all.exr", *words[1:])
+    for frame, region in (("corner.exr", ()), ("all.exr", ("--region", "61,61,64,64"))):
+        done = program.run("measure", frame, *region)
+        report.claim(done.returncode == 3 and done.stderr.endswith(
+            "no pixel to measure: all lie outside the fisheye's circle\n"),
+            f"measure {frame} {region}: {done.stderr}")
+
+
+def check_no_frames(report, program):
+    """What is neither kind of frame is told both, by whatever name."""
+    for name in ("empty.hdr", "empty.exr"):
+        with open(program.file(name), "wb"):
+            pass
+    for name in ("text.hdr", "text.exr", "text"):
+        with open(program.file(name), "wb") as file:
+            file.write(b"light")
+    for name in ("empty.hdr", "empty.exr", "text.hdr", "text.exr", "text"):
+        found = "is empty" if "empty" in name else "is neither by its first bytes"
+        for command in (("measure", name), ("measure", name, "--glare"),
+                        ("develop", name, "-o", "x.png")):
+            done = program.run(*command)
+            report.claim(done.returncode == 3 and done.stderr == (
+                f"parhelion: {name}: {found}, wanted an OpenEXR file or a Radiance picture "
+                "(.hdr)\n"), f"{command}: {done.stderr}")
+
+
 # ---- Radiance pictures -----------------------------------------------------------------------
 
 def header_of(program, name):
@@ -323,6 +359,8 @@ def main():
         check_lux(report, program)
         check_bits(report, program)
         check_error(report, program)
+        check_outside(report, program)
+        check_no_frames(report, program)
         check_pictures(report, program)
         check_commands(report, program)
         check_glare(report, program)

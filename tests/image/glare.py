@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """glare.py [--all] PARHELION -- UGR, DGP and DGI of a review's gazes and cases are those of the
 closed form: round sources of 0.1 to 5 degrees in an even field, by day and by night. --all: all
-sizes at 24 places each, with a table; else a few.
+sizes at 24 places each, with a table; else a few. And how often their intervals hold the closed
+form, and those of `measure --glare`: over forty seeds with --all.
 """
 import csv
 import json
@@ -130,6 +131,12 @@ class Reviewer:
         self.program, self.folder = os.path.abspath(program), folder
         shutil.copy(PANEL, os.path.join(folder, "ips.panel"))
 
+    def run(self, *words):
+        done = subprocess.run([self.program, *words], cwd=self.folder, capture_output=True,
+                              text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        return done.stdout
+
     def review(self, scene, document, *options):
         scene.write(os.path.join(self.folder, "room.gltf"))
         with open(os.path.join(self.folder, "r.json"), "w", encoding="utf-8") as file:
@@ -162,14 +169,14 @@ def gazes_of_sphere(reviewer, width, luminance, looks, fields):
     return found
 
 
-def cases_of_sphere(reviewer, width, luminance, looks, fields):
+def cases_of_sphere(reviewer, width, luminance, looks, fields, **members):
     """The same of cases: eyes about a small display look at it."""
     scene, far = Scene(), 100
     screen(scene)
     radius = far * math.sin(math.radians(width / 2))
     scene.sphere(scene.emitter(luminance), [0, 0, -far], radius, rings=64)
     eyes = {f"e{i:02}": [-x for x in turned(*look)] for i, look in enumerate(looks)}
-    document = request(fields, gaze=[{"at": "symbols"}],
+    document = request(fields, gaze=[{"at": "symbols"}], **members,
                        eyes={name: {"position_m": at} for name, at in eyes.items()})
     found = []
     for case in reviewer.review(scene, document)["cases"]:
@@ -254,13 +261,13 @@ def check_examples(report, reviewer):
                      f"case {row[0]}: {found['glare']['sources']} sources")
 
 
-def check_no_source(report, reviewer):
+def check_no_source(report, reviewer, whole):
     """A white room that a lamp behind the eye lights: noise is no source. Then an even field
     above the threshold, and one just below and above."""
     scene = Scene()
     scene.box_inside(scene.lambert(0.8), [-2, -1.5, -3], [2, 1.5, 3])
     scene.light("point", 150, [0.5, 0.5, 1.5])
-    looks = [turned(yaw, 0) for yaw in (0, 25, -25)]
+    looks = [turned(yaw, 0) for yaw in ((0, 25, -25) if whole else (25,))]
     black = {"dark": 0.01}
     for found in gazes(reviewer, scene, looks, black):
         report.claim(found["ugr"] is None and found["dgi"] is None
@@ -326,47 +333,107 @@ def claim_figures(report, found, wanted, what):
                  f"{wanted['dgp']:.4f}")
 
 
-def check_windows(report, reviewer):
-    """Sky in a round hole of walls of 50 cd/m2 all around."""
-    looks = [turned(-12, -8), turned(20, -15), turned(2, 35)]
-    for width, luminance in ((1, 30000), (3, 8000), (20, 8000), (3, 200000)):
-        scene = Scene()
-        walls = scene.lambert(0, 50, double_sided=True)
-        shell(scene, walls, width)
-        for found in gazes(reviewer, scene, looks, {"sky": luminance}):
-            gaze = looks[int(found["gaze"][1:])]
-            disc = Disc(in_head([0, 0, -1], gaze), width, luminance)
-            claim_figures(report, found, figures(50, [disc]), f"a hole of {width} degrees")
+LOOKS = [turned(-12, -8), turned(20, -15), turned(2, 35)]
 
 
-def check_sunlit(report, reviewer):
-    """A white disc that the sun lights from behind the eye, in an even field."""
-    looks, lux, reflectance = [turned(-12, -8), turned(20, -15), turned(2, 35)], 50000, 0.8
-    for width in (1, 3, 10):
-        scene, far, steps = Scene(), 20, 120
-        radius = far * math.tan(math.radians(width / 2))
-        points = [[0, 0, -0.5 - far]] + [
-            [radius * math.cos(2 * math.pi * k / steps),
-             radius * math.sin(2 * math.pi * k / steps), -0.5 - far] for k in range(steps)]
-        scene.mesh(scene.lambert(reflectance), points,
-                   [[0, 1 + k, 1 + (k + 1) % steps] for k in range(steps)])
-        sun = {"azimuth_deg": 180, "elevation_deg": 40, "illuminance_lx": lux}
-        luminance = reflectance * (lux * math.cos(math.radians(40)) / math.pi + 50)
-        conditions = [{"name": "sun", "level": "off", "environment": {
-            "type": "constant", "luminance": 50, "sun": sun}}]
-        for found in gazes(reviewer, scene, looks, {}, conditions=conditions):
-            gaze = looks[int(found["gaze"][1:])]
-            disc = Disc(in_head([0, 0, -1], gaze), width, luminance)
-            claim_figures(report, found, figures(50, [disc]), f"a sunlit disc of {width}")
+def window(reviewer, width, luminance, looks, **members):
+    """Gazes at sky in a round hole of walls of 50 cd/m2 all around, with closed forms."""
+    scene = Scene()
+    shell(scene, scene.lambert(0, 50, double_sided=True), width)
+    return [(found, figures(50, [Disc(in_head([0, 0, -1], looks[int(found["gaze"][1:])]),
+                                      width, luminance)]))
+            for found in gazes(reviewer, scene, looks, {"sky": luminance}, **members)]
+
+
+def sunlit(reviewer, width, looks, lux=50000, reflectance=0.8, **members):
+    """Gazes at a white disc that the sun lights from behind the eye, in an even field."""
+    scene, far, steps = Scene(), 20, 120
+    radius = far * math.tan(math.radians(width / 2))
+    points = [[0, 0, -0.5 - far]] + [
+        [radius * math.cos(2 * math.pi * k / steps),
+         radius * math.sin(2 * math.pi * k / steps), -0.5 - far] for k in range(steps)]
+    scene.mesh(scene.lambert(reflectance), points,
+               [[0, 1 + k, 1 + (k + 1) % steps] for k in range(steps)])
+    sun = {"azimuth_deg": 180, "elevation_deg": 40, "illuminance_lx": lux}
+    luminance = reflectance * (lux * math.cos(math.radians(40)) / math.pi + 50)
+    conditions = [{"name": "sun", "level": "off", "environment": {
+        "type": "constant", "luminance": 50, "sun": sun}}]
+    return [(found, figures(50, [Disc(in_head([0, 0, -1], looks[int(found["gaze"][1:])]),
+                                      width, luminance)]))
+            for found in gazes(reviewer, scene, looks, {}, conditions=conditions, **members)]
+
+
+def check_surfaces(report, reviewer, whole):
+    """Windows and sunlit surfaces, which have no light samples."""
+    windows = ((1, 30000), (3, 8000), (20, 8000), (3, 200000))
+    for i, (width, luminance) in enumerate(windows if whole else windows[::2]):
+        for found in window(reviewer, width, luminance, LOOKS if whole else LOOKS[i:i + 1]):
+            claim_figures(report, *found, f"a hole of {width} degrees")
+    for i, width in enumerate((1, 3, 10) if whole else (1, 10)):
+        for found in sunlit(reviewer, width, LOOKS if whole else LOOKS[2 - i:3 - i]):
+            claim_figures(report, *found, f"a sunlit disc of {width}")
+
+
+# ---- intervals ------------------------------------------------------------------------------
+
+def framed(reviewer, seed, width, size=256, luminance=8000):
+    """The hole in a fisheye frame."""
+    scene, look = Scene(), LOOKS[0]
+    shell(scene, scene.lambert(0, 50, double_sided=True), width)
+    scene.environment(type="constant", luminance=luminance)
+    scene.view("eye", [0, 0, -0.5], look, 50)
+    scene.write(os.path.join(reviewer.folder, "hole.gltf"))
+    reviewer.run("render", "hole.gltf", "-o", "hole.exr", "--projection", "fisheye", "--size",
+                 f"{size}x{size}", "--spp", "4", "--seed", str(seed), "--layers",
+                 "halves,variance", "--max-bounces", "0", "--no-guiding", "--quiet")
+    found = json.loads(reviewer.run("measure", "hole.exr", "--glare", "--json"))
+    disc = Disc(in_head([0, 0, -1], look), width, luminance)
+    wanted = figures(50, [disc])
+    return found, {**wanted, "background_cd_m2": 50 * (1 - disc.cosines / math.pi)}
+
+
+def spread_of(values):
+    mean = sum(values) / len(values)
+    return math.sqrt(sum((x - mean) ** 2 for x in values) / max(len(values) - 1, 1))
+
+
+def check_coverage(report, reviewer, seeds):
+    """Over seeds, 95 % intervals hold the closed form, and are no wider than they must be: at
+    most ten standard deviations to each side. Frames have their samples well spread in each
+    pixel, which its own variance does not tell."""
+    rooms = {
+        "gazes at a window": (window, (10, 8000, LOOKS), 10),
+        "gazes at a sunlit disc": (sunlit, (3, LOOKS), 10),
+        "cases beside a lamp": (cases_of_sphere, (1, 1e5, [(-12, -8), (20, -15)],
+                                                  {"day": 300}), 10),
+        "a frame of a window": (framed, None, 30)}
+    for room, (read, words, most) in rooms.items():
+        told = []
+        for seed in range(1, seeds + 1):
+            precision = {"contrast": 0.2, "seed": seed}
+            told += [framed(reviewer, seed, 10)] if words is None else read(
+                reviewer, *words, precision=precision)
+        keys = ("ugr", "dgp", "dgi") + (("background_cd_m2",) if words is None else ())
+        for key in keys:
+            ranges = [item[key.replace("_cd_m2", "") + "_interval"] for item, _ in told]
+            held = sum(low <= wanted[key] <= high
+                       for (low, high), (_, wanted) in zip(ranges, told))
+            spread = spread_of([item[key] - wanted[key] for item, wanted in told])
+            half = sum(high - low for low, high in ranges) / 2 / len(told)
+            print(f"{room}, {seeds} seeds: {key} {held} of {len(told)} intervals hold it; half "
+                  f"a width {half:.3g}, standard deviation {spread:.3g}", flush=True)
+            report.claim(held >= 0.9 * len(told) and (seeds < 8 or half < most * spread),
+                         f"{room}: {held} of {len(told)} intervals hold {key}; {half} wide, "
+                         f"spread {spread}")
 
 
 def check_threads(report, reviewer):
     """Nothing depends on how many threads read it."""
     texts = []
-    for threads in ("1", "2", "5"):
+    for threads in ("1", "5"):
         scene = Scene()
         ball(scene, 12, 5, 0.3, 5e5)
-        scene.box_inside(scene.lambert(0.7), [-2, -1.5, -3], [2, 1.5, 3])
+        scene.box_inside(scene.lambert(0.3), [-2, -1.5, -3], [2, 1.5, 3])
         screen(scene)
         document = request({"grey": 3000}, eyes={"eye": {"position_m": [0, 0, -0.5]}},
                            gaze=[{"at": "symbols"}, {"name": "g", "direction": [0, 0, -1]}])
@@ -380,12 +447,13 @@ def main(program, whole):
     with tempfile.TemporaryDirectory() as folder:
         reviewer = Reviewer(program, folder)
         check_examples(report, reviewer)
-        check_no_source(report, reviewer)
+        check_no_source(report, reviewer, whole)
         check_settings(report, reviewer)
-        check_windows(report, reviewer)
-        check_sunlit(report, reviewer)
+        check_surfaces(report, reviewer, whole)
         check_threads(report, reviewer)
-        check_sizes(report, reviewer, LUMINANCES if whole else (0.1, 5), 24 if whole else 2)
+        check_sizes(report, reviewer, LUMINANCES if whole else (0.1, 5), 24 if whole else 1)
+        if whole:
+            check_coverage(report, reviewer, 40)
     report.finish()
 
 

@@ -25,20 +25,23 @@ SWAPPED = "0.30 0.60 0.64 0.33 0.15 0.06 0.3127 0.3290"      # red is green
 EQUAL_ENERGY = "0.640 0.330 0.290 0.600 0.150 0.060 0.3333333 0.3333333"
 RED = (1, 0, 0)
 
-# header lines behind FORMAT=, the stored value (RGBE holds it exactly), cd/m2
+# header lines behind FORMAT=, the stored value (but for half a step, which a code stands for
+# more: (m + 1/2) 2^(e - 136)), cd/m2 of a red, green and blue of 1
+WHITE = tuple(179 * part for part in (0.2126, 0.7152, 0.0722))
 RADIANCE = (
-    ("", (1, 1, 1), 179),
-    ("EXPOSURE=2\n", (1, 1, 1), 179 / 2),
-    ("EXPOSURE= 2.0\nEXPOSURE=0.25\n", (1, 1, 1), 179 / 0.5),
-    ("\tEXPOSURE=8\n", (1, 1, 1), 179),                      # of a picture it was made from
-    ("SOFTWARE=x\r\nEXPOSURE=4\r\n", (1, 1, 1), 179 / 4),
-    ("COLORCORR=1 2 4\n", (1, 2, 4), 179),
+    ("", (1, 1, 1), WHITE),
+    ("", (1.9921875, 1.9921875, 1.9921875), WHITE),          # code 255
+    ("EXPOSURE=2\n", (1, 1, 1), tuple(w / 2 for w in WHITE)),
+    ("EXPOSURE= 2.0\nEXPOSURE=0.25\n", (1, 1, 1), tuple(w / 0.5 for w in WHITE)),
+    ("\tEXPOSURE=8\n", (1, 1, 1), WHITE),                    # of a picture it was made from
+    ("SOFTWARE=x\r\nEXPOSURE=4\r\n", (1, 1, 1), tuple(w / 4 for w in WHITE)),
+    ("COLORCORR=1 2 4\n", (1, 2, 4), tuple(w / c for w, c in zip(WHITE, (1, 2, 4)))),
     ("COLORCORR=2 2 2\nCOLORCORR=1 2 1\nEXPOSURE=4\n", (1, 1, 1),
-     179 / 8 * (0.2126 + 0.7152 / 2 + 0.0722)),
-    ("", RED, 179 * 0.2126),
-    (f"PRIMARIES={REC709}\n", RED, 179 * 0.2126),
-    (f"PRIMARIES={SWAPPED}\n", RED, 179 * 0.7152),
-    (f"PRIMARIES= {EQUAL_ENERGY}\n", (1, 1, 1), 179),
+     tuple(w / c for w, c in zip(WHITE, (8, 16, 8)))),
+    ("", RED, WHITE),
+    (f"PRIMARIES={REC709}\n", RED, WHITE),
+    (f"PRIMARIES={SWAPPED}\n", RED, (WHITE[1], WHITE[0], WHITE[2])),
+    (f"PRIMARIES= {EQUAL_ENERGY}\n", (1, 1, 1), WHITE),
 )
 # header, what the message says, its line
 REFUSED = (
@@ -61,10 +64,19 @@ SHARED_PICTURES = (("blender/city.exr", "sun"), ("luxcore/infinitelight_latlong.
                    ("radiance/flower.hdr", "unit"))
 
 
+def shift_of(rgb):
+    return 3 if max(rgb) >= 2 else 1
+
+
+def middle(rgb):
+    """What the codes stand for."""
+    return [v + 2 ** shift_of(rgb) / 512 for v in rgb]
+
+
 def radiance(header, rgb):
     """A uniform .hdr; rgb in whole multiples of 2^-7."""
     assert all(v * 128 == int(v * 128) and v < 2 for v in rgb) or max(rgb) < 8
-    shift = 3 if max(rgb) >= 2 else 1
+    shift = shift_of(rgb)
     pixel = bytes([*(int(v * 256 / 2 ** shift) for v in rgb), 128 + shift])
     text = f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n{header}\n-Y {HEIGHT} +X {WIDTH}\n"
     return text.encode() + pixel * (WIDTH * HEIGHT)
@@ -101,7 +113,8 @@ class Pictures:
 
 
 def check_radiance(report, pictures):
-    for header, rgb, luminance in RADIANCE:
+    for header, rgb, parts in RADIANCE:
+        luminance = sum(v * w for v, w in zip(middle(rgb), parts))
         pictures.put("a.hdr", radiance(header, rgb))
         pictures.claim_lux(report, f"{header!r} {rgb}", math.pi * luminance, "--environment",
                            "hdri:a.hdr")
@@ -126,7 +139,8 @@ def check_scene(report, pictures):
     done = pictures.run("measure", "lit.gltf", "--illuminance", "0,0,0,0,1,0", "--samples",
                         "1024", "--json")
     lux = json.loads(done.stdout)["illuminance_lx"]
-    report.claim(abs(lux / (math.pi * 179 * 1.5) - 1) < 5e-3, f"in a scene: {lux} lx")
+    report.claim(abs(lux / (math.pi * 179 * 1.5 * 128.5 / 128) - 1) < 2e-3,
+                 f"in a scene: {lux} lx")
     pictures.put("a.hdr", radiance("EXPOSURE=x\n", (1, 1, 1)))
     done = pictures.run("check", "lit.gltf")
     report.claim(done.returncode == 3 and "a.hdr: line 3: 'EXPOSURE=x'" in done.stdout,

@@ -5,8 +5,9 @@ A display lies on the ground, faces up in the open, and reflects as a white wall
 illuminance is the sky's global one, what it reflects that times its albedo over pi, and its
 contrast follows. Two years: under clear skies, whose steps are held to moments, frames, the
 luxmeter and `sky` at twelve dates, since all have one sun; and under a weather file, recounted
-row by row with Perez's efficacies and a sun of the Astronomical Almanac's. --all: the shared
-data's weather of Amsterdam, every hour, by either rule; and every date as a frame.
+row by row with Perez's efficacies and a sun of the Astronomical Almanac's. --all: by the file's
+own lux, too, and the shared data's weather of Amsterdam, every hour, by either rule; and every
+date, else two.
 """
 import csv
 import datetime
@@ -29,7 +30,7 @@ AMSTERDAM = os.path.join(ROOT, "..", "shared", "data", "solar",
 YEAR, ALBEDO, WHITE_CD_M2, LIMIT = 2026, 0.15, 400.0, 1.5
 PLACE = (48.14, 11.58, 520)
 DATES = [f"{YEAR}-{month:02}-{day:02}" for month, day in
-         ((1, 4), (2, 9), (3, 20), (4, 15), (5, 21), (6, 21), (7, 4), (8, 11), (9, 23),
+         ((1, 3), (2, 9), (3, 20), (4, 15), (5, 21), (6, 21), (7, 2), (8, 11), (9, 23),
           (10, 18), (11, 13), (12, 21))]
 
 # Perez, Ineichen, Seals, Michalsky, Stewart 1990: direct and diffuse luminous efficacy
@@ -194,7 +195,8 @@ def by_frame(year, light):
     return meter["illuminance_lx"], frame["luminance_cd_m2"]
 
 
-def check_date(report, year, date, step, case, is_framed):
+def check_date(report, year, date, step, case):
+    """Light that is reflected is known less well than lux: the panel's fit has an error."""
     light = ("--environment", "sky:clear", "--when", date + "T12:00:00Z", "--where",
              ",".join(map(str, PLACE)))
     sky = json.loads(year.run("sky", *light, "--json"))
@@ -202,15 +204,15 @@ def check_date(report, year, date, step, case, is_framed):
     reflected = ALBEDO / math.pi * truth
     told = {"a step's lux": float(step["display_lx"]) / truth,
             "a step's light": float(step["reflected_cd_m2"]) / reflected}
-    if case:
-        told["a moment's lux"] = case["display_lux"] / truth
-        told["a moment's light"] = case["luminance_cd_m2"]["reflected"] / reflected
-    if is_framed:
-        lux, luminance = by_frame(year, light)
-        told["a luxmeter's lux"] = lux / truth
-        told["a frame's light"] = luminance / reflected
+    told["a moment's lux"] = case["display_lux"] / truth
+    told["a moment's light"] = case["luminance_cd_m2"]["reflected"] / reflected
+    lux, luminance = by_frame(year, light)
+    told["a luxmeter's lux"] = lux / truth
+    told["a frame's light"] = luminance / reflected
+    print(f"{date}: the sky's {truth:.0f} lx; " +
+          ", ".join(f"{what} {100 * ratio - 100:+.2f} %" for what, ratio in told.items()))
     for what, ratio in told.items():
-        report.claim(abs(ratio - 1) < 0.012,
+        report.claim(abs(ratio - 1) < (0.003 if what.endswith("lux") else 0.006),
                      f"{date}: {what} is {ratio:.4f} of the sky's {truth:.0f} lx")
     own = sun_of(datetime.datetime.fromisoformat(date + "T12:00:00"), *PLACE[:2])
     report.claim(abs(sky["sun"]["distance_au"] - own[1]) < 1e-4 and
@@ -218,13 +220,13 @@ def check_date(report, year, date, step, case, is_framed):
                  f"{date}: sun {sky['sun']}, by the Almanac {own}")
 
 
-def check_one_sun(report, year, found, framed):
-    """Noon of twelve dates: steps of a clear year beside `sky`, moments, the luxmeter and
+def check_one_sun(report, year, found, dates):
+    """Noon of some dates: steps of a clear year beside `sky`, moments, the luxmeter and
     frames. The earth is 1.7 % nearer or farther at the ends of the year, 3.4 % in its light."""
     steps = {moment_of(row).date().isoformat(): row for row in found["sweeps"][0]["rows"]}
     cases = {case["condition"]: case for case in found["cases"]}
-    for date in DATES:
-        check_date(report, year, date, steps[date], cases.get(date), date in framed)
+    for date in dates:
+        check_date(report, year, date, steps[date], cases[date])
 
 
 # ---- a year by its weather ---------------------------------------------------------------
@@ -315,11 +317,12 @@ def main(program, whole):
     with tempfile.TemporaryDirectory() as folder:
         year = Year(program, folder)
         year.write("noons.epw", weather_text())
-        years = [by_weather(rule, "noons.epw", 1440, rule) for rule in ("perez", "file")]
+        rules = ("perez", "file") if whole else ("perez",)
+        years = [by_weather(rule, "noons.epw", 1440, rule) for rule in rules]
         if whole and os.path.exists(AMSTERDAM):
             shutil.copy(AMSTERDAM, year.path("amsterdam.epw"))
             years += [by_weather(f"Amsterdam, {rule}", "amsterdam.epw", 60, rule)
-                      for rule in ("perez", "file")]
+                      for rule in rules]
         elif whole:
             report.skip("a year of Amsterdam: the shared data is not beside the checkout")
         chosen = DATES if whole else DATES[::6]

@@ -322,10 +322,11 @@ ARENA_TEST(reads_radiance_pictures)
     assert_done(image_read_memory(HDR, sizeof HDR - 1, "a.hdr", &arena, &image, &err));
     const float *p = image.pixels;
     assert_int_equal(image.format, IMAGE_RGBA32F);
-    assert_close(p[0], 1, 0.01); /* mantissa 0x80 / 256 * 2^(0x81 - 128) */
-    assert_close(p[1], 0.5, 0.02);
-    assert_close(p[2], 0.25, 0.02);
-    assert_close(p[4], 1024, 0.01);
+    /* (0x80 + 1/2) / 256 * 2^(0x81 - 128): the middle of a code's step */
+    assert_close(p[0], 128.5 / 128, 1e-6);
+    assert_close(p[1], 64.5 / 128, 1e-6);
+    assert_close(p[2], 32.5 / 128, 1e-6);
+    assert_close(p[4], 1028, 1e-6);
     assert_true(p[3] == 1 && p[7] == 1);
 }
 

@@ -4,7 +4,7 @@
 #include "review/output/review_csv.h"
 #include "review_page_fixture.h"
 
-enum { CSV_COLUMNS = 52 };
+enum { CSV_COLUMNS = 58 };
 
 /* One record of RFC 4180 into cells; what follows it. */
 static const char *read_record(const char *at, const char *cell[CSV_COLUMNS], int *count)
@@ -48,7 +48,7 @@ static void assert_csv_says(const Review *review)
     assert_string_equal(header[25], "eye_failed_share");
     assert_string_equal(header[31], "margin");
     assert_string_equal(header[43], "dgi");
-    assert_string_equal(header[CSV_COLUMNS - 1], "smallest_source_sr");
+    assert_string_equal(header[51], "smallest_source_sr");
     for (int i = 0; i < review->case_count; i++) {
         const ReviewCase *c = &review->cases[i];
         at = read_record(at, cell, &count);
@@ -59,7 +59,8 @@ static void assert_csv_says(const Review *review)
         assert_same(c->contrast_ratio, number_of(cell[13]));
         assert_same(c->glare.ugr, number_of(cell[24]));
         assert_same(c->eye_failed_share, number_of(cell[25]));
-        assert_same(c->margin, number_of(cell[31]));
+        const LimitVerdict *limit = case_worst_limit(c);
+        assert_same(limit ? limit->margin : (double)NAN, number_of(cell[31]));
         assert_string_equal(cell[34], verdict_names[c->verdict]);
         assert_string_equal(cell[37], c->hider_count ? c->hiders[0].what : "");
         assert_same(c->hider_count ? c->hiders[0].share : (double)NAN, number_of(cell[38]));
@@ -68,6 +69,10 @@ static void assert_csv_says(const Review *review)
         assert_same(c->glare.dgi, number_of(cell[43]));
         assert_same((double)c->glare.source_count, number_of(cell[48]));
         assert_string_equal(cell[50], c->glare.none ? c->glare.none : "");
+        assert_same(limit ? limit->found : (double)NAN, number_of(cell[52]));
+        assert_same(limit ? limit->high : (double)NAN, number_of(cell[54]));
+        assert_same(c->stroke_ratio, number_of(cell[56]));
+        assert_string_equal(cell[57], c->unjudged ? unjudged_names[c->unjudged] : "");
     }
     assert_int_equal(*at, 0);
 }

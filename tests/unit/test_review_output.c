@@ -271,12 +271,14 @@ static bool is_optional(const char *key, const json_t *object)
     static const char *const ADDED[] = {"reflected_interval", "precision_asked",
                                         "precision_reached", "paths_to_decide", "cause_groups",
                                         "without_data_share", "without_data", "hidden_by",
-                                        "eye_places", "dgi", "dgp_interval",
+                                        "eye_places", "then", "judged", "reason",
+                                        "optional", "panel", "panels", "stroke_ratio", "dgi", "dgp_interval",
                                         "ugr_interval", "dgi_interval", "glare"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)
         if (!strcmp(key, ADDED[i])) return true;
     return !strcmp(key, "verdict") &&
-           (json_object_get(object, "cases") || json_object_get(object, "worst"));
+           (json_object_get(object, "cases") || json_object_get(object, "worst") ||
+            json_object_get(object, "then"));
 }
 
 /* Takes each key of the object away, one at a time: the error names it. */
@@ -336,7 +338,7 @@ static int nodes_at(xmlXPathContextPtr context, const char *path)
     return count;
 }
 
-static void assert_junit(const Review *review, int failures, int skipped)
+static void assert_junit(const Review *review, int failures, int errors, int skipped)
 {
     const char *path = fresh_name(".json");
     assert_done(review_junit_write(review, path, &err));
@@ -348,11 +350,13 @@ static void assert_junit(const Review *review, int failures, int skipped)
     assert_int_equal(nodes_at(context, "/testsuites/testsuite/testcase[@name and @classname]"),
                      review->case_count + review->sweep_count);
     assert_int_equal(nodes_at(context, "//testcase/failure[@message]"), failures);
+    assert_int_equal(nodes_at(context, "//testcase/error[@message]"), errors);
     assert_int_equal(nodes_at(context, "//testcase/skipped[@message]"), skipped);
     assert_int_equal(nodes_at(context, arena_format(&arena, "//testsuite[@tests=%d and "
-                                                    "@failures=%d and @skipped=%d]",
+                                                    "@failures=%d and @errors=%d and "
+                                                    "@skipped=%d]",
                                                     review->case_count + review->sweep_count,
-                                                    failures, skipped)), 1);
+                                                    failures, errors, skipped)), 1);
     xmlXPathFreeContext(context);
     xmlFreeDoc(document);
 }
@@ -361,13 +365,15 @@ TEST(junit_has_a_case_for_each)
 {
     Review       odd = fixture_odd_review(&arena), plain = fixture_review(&arena), none = {0};
     ReviewCounts counts = review_count(&plain);
-    int doubtful = counts.of[VERDICT_TOO_CLOSE] + counts.of[VERDICT_NOT_VISIBLE];
-    assert_true(doubtful > 0);
-    assert_junit(&plain, counts.of[VERDICT_FAIL], doubtful);
+    int close = counts.of[VERDICT_TOO_CLOSE], unjudged = counts.of[VERDICT_UNJUDGED];
+    assert_true(unjudged > 0);
+    assert_junit(&plain, counts.of[VERDICT_FAIL], unjudged, close);
     plain.is_strict = true;
-    assert_junit(&plain, counts.of[VERDICT_FAIL] + doubtful, 0);
-    assert_junit(&odd, 2, 0); /* strict: the doubtful case and the sweep */
-    assert_junit(&none, 0, 0);
+    assert_junit(&plain, counts.of[VERDICT_FAIL] + close, unjudged, 0);
+    plain.cases[20].is_optional = true; /* the hidden one */
+    assert_junit(&plain, counts.of[VERDICT_FAIL] + close, unjudged - 1, 1);
+    assert_junit(&odd, 2, 0, 0); /* strict: the doubtful case and the sweep */
+    assert_junit(&none, 0, 0, 0);
 }
 
 /* ---- the answer ------------------------------------------------------------------------- */
@@ -379,7 +385,7 @@ static ReviewCase case_with(Verdict verdict, double margin)
 
 TEST(a_review_passes_when_nothing_fails)
 {
-    static const bool PASSES[2][4] = {{true, false, true, true}, {true, false, false, false}};
+    static const bool PASSES[2][4] = {{true, false, true, false}, {true, false, false, false}};
     for (int strict = 0; strict < 2; strict++)
         for (int verdict = 0; verdict < 4; verdict++) {
             ReviewCase  list[2] = {case_with(VERDICT_PASS, 1),
@@ -394,7 +400,9 @@ TEST(a_review_passes_when_nothing_fails)
             assert_int_equal(review_decide(&sweeps), PASSES[strict][verdict]);
         }
     Review none = {0};
+    assert_int_equal(review_verdict(&none), VERDICT_FAIL);
     assert_true(review_decide(&none));
+    assert_int_equal(review_verdict(&none), VERDICT_PASS);
     assert_null(review_worst(&none, arena));
 }
 
@@ -402,7 +410,7 @@ TEST(the_worst_comes_first)
 {
     ReviewCase list[] = {
         case_with(VERDICT_PASS, NAN),  case_with(VERDICT_PASS, 0.1),
-        case_with(VERDICT_TOO_CLOSE, 0.0), case_with(VERDICT_NOT_VISIBLE, NAN),
+        case_with(VERDICT_TOO_CLOSE, 0.0), case_with(VERDICT_UNJUDGED, NAN),
         case_with(VERDICT_FAIL, -0.2), case_with(VERDICT_FAIL, -0.7),
         case_with(VERDICT_FAIL, -0.2)};
     static const int  ORDER[] = {5, 4, 6, 3, 2, 1, 0};
@@ -417,6 +425,36 @@ TEST(the_worst_comes_first)
     assert_ptr_equal(review_rank(&review, &arena)[4], &sweep.worst);
 }
 
+/* What does not count changes nothing; of nothing else it is no verdict, but for symbols that
+ * need not be seen. */
+TEST(what_does_not_count_leaves_the_verdict)
+{
+    ReviewCase list[] = {case_with(VERDICT_PASS, 1), case_with(VERDICT_UNJUDGED, NAN)};
+    Review     review = {.cases = list, .case_count = 2}, alone = {.cases = &list[1],
+                                                                  .case_count = 1};
+    static const struct {
+        Unjudged why;
+        bool     is_optional;
+        Verdict  beside, alone;
+    } ROWS[] = {{UNJUDGED_HIDDEN, false, VERDICT_UNJUDGED, VERDICT_UNJUDGED},
+                {UNJUDGED_HIDDEN, true, VERDICT_PASS, VERDICT_PASS},
+                {UNJUDGED_LIMIT, false, VERDICT_PASS, VERDICT_UNJUDGED},
+                {UNJUDGED_PANEL, true, VERDICT_UNJUDGED, VERDICT_UNJUDGED},
+                {UNJUDGED_DATA, false, VERDICT_UNJUDGED, VERDICT_UNJUDGED}};
+    for (int i = 0; i < COUNT_OF(ROWS); i++)
+        for (int strict = 0; strict < 2; strict++) {
+            list[1].unjudged = ROWS[i].why;
+            list[1].is_optional = ROWS[i].is_optional;
+            review.is_strict = alone.is_strict = strict;
+            assert_int_equal(review_decide(&review), ROWS[i].beside == VERDICT_PASS);
+            assert_int_equal(review_verdict(&review), ROWS[i].beside);
+            assert_int_equal(review_decide(&alone), ROWS[i].alone == VERDICT_PASS);
+            assert_int_equal(review_verdict(&alone), ROWS[i].alone);
+            bool counts = ROWS[i].beside != VERDICT_PASS;
+            assert_ptr_equal(review_worst(&review, arena), &list[counts]);
+        }
+}
+
 /* Advice and what is not measured may say worse than the case, and are not its reason. */
 TEST(the_reason_is_a_limit_that_counts)
 {
@@ -426,7 +464,10 @@ TEST(the_reason_is_a_limit_that_counts)
         {.name = "c", .verdict = VERDICT_TOO_CLOSE, .margin = NAN},
         {.name = "d", .verdict = VERDICT_PASS, .margin = 0.05}};
     ReviewCase c = {.limits = limits, .limit_count = 4, .limit_id = 0, .verdict = VERDICT_PASS};
+    assert_string_equal(case_worst_limit(&c)->name, "a");
+    c.limit_id = -1;
     assert_string_equal(case_worst_limit(&c)->name, "d");
+    c.limit_id = 0;
     c.verdict = VERDICT_TOO_CLOSE;
     assert_string_equal(case_worst_limit(&c)->name, "c");
     c.verdict = VERDICT_FAIL;
@@ -469,7 +510,7 @@ TEST(differences_are_named_and_come_first)
     static const DiffKind KINDS[] = {DIFF_BROKEN, DIFF_MENDED, DIFF_WORSE, DIFF_BETTER,
                                      DIFF_GONE, DIFF_NEW};
     before.cases[4].verdict = VERDICT_PASS; /* to what it is, or was */
-    after.cases[4].verdict = VERDICT_NOT_VISIBLE;
+    after.cases[4].verdict = VERDICT_UNJUDGED;
     before.cases[3].verdict = VERDICT_FAIL;
     after.cases[3].verdict = VERDICT_TOO_CLOSE;
     after.cases[2].contrast_high = before.cases[2].contrast_low * 0.999;

@@ -283,8 +283,12 @@ TEST(the_worst_gaze_comes_first)
 TEST(what_changed_is_on_the_page)
 {
     Review     before = fixture_review(&arena), after = fixture_review(&arena);
+    LimitVerdict limits[3];
+    for (int i = 0; i < 3; i++) limits[i] = after.cases[3].limits[i];
     after.cases[3].contrast_ratio = 77.5;
     after.cases[3].contrast_low = after.cases[3].contrast_high = 77.5;
+    limits[0].found = limits[0].low = limits[0].high = 77.5;
+    after.cases[3].limits = limits;
     after.gazes[0].mirrored = 123;
     after.gazes[0].contrast_range = (MeanInterval){0, 0.1};
     ReviewDiff  diff = review_diff(&before, &after, "old", "new", &arena);
@@ -331,28 +335,36 @@ TEST(the_bright_bar_reaches_the_mark_when_contrast_does)
 
 TEST(the_mark_follows_the_kind_of_the_limit)
 {
-    static const struct { double found, value, ratio; } FORMS[] = {
-        {3, 2, 2}, {2, 1.5, 2.5}, {0.5, 0.6, 4}, {2.5, 2, 2}}; /* the last with the veil */
+    static const struct { const char *kind, *words; double found, value, ratio; } FORMS[] = {
+        {"contrast_ratio", "2 : 1", 3, 2, 2},
+        {"luminance_contrast", "luminance contrast 1.5", 2, 1.5, 2.5},
+        {"modulation", "modulation 0.6", 0.5, 0.6, 4},
+        {"contrast_ratio", "2 : 1", 2.5, 2, 2}}; /* the last with the veil */
     for (int i = 0; i < 4; i++) {
-        LimitVerdict limit = {.value = FORMS[i].value, .found = FORMS[i].found};
+        LimitVerdict limit = {.kind = FORMS[i].kind, .value = FORMS[i].value,
+                              .found = FORMS[i].found};
         ReviewCase   c = {.luminance_cd_m2 = {300, 0, 100, 60, 40, 100.0 / 3},
                           .contrast_ratio = i < 3 ? 3 : 4, .contrast_with_veil = 2.5,
                           .limits = &limit, .limit_count = 1, .limit_id = 0};
         Text         html = {.arena = &arena};
         c.luminance_cd_m2.foreground = i < 3 ? 200 : 300;
         review_bar_add_luminances(&html, &c, &arena);
-        assert_non_null(strstr(html.data, arena_format(&arena, ">%s : 1 needs",
-                                                       words_number(FORMS[i].ratio, &arena))));
+        assert_non_null(strstr(html.data, arena_format(&arena, ">%s needs", FORMS[i].words)));
+        double dark = 100 + (i == 3 ? 100.0 / 3 : 0), most = dark + c.luminance_cd_m2.foreground;
+        most = fmax(most + (i == 3 ? 0 : 100.0 / 3), 1.02 * FORMS[i].ratio * dark);
+        double mark = attribute_of(html.data, "mark", "x") / 100;
+        assert_near(mark, FORMS[i].ratio * dark / most, 2e-3);
     }
 }
 
-TEST(margins_grow_by_octaves)
+/* From full wash-out at the left end, by the logarithm of the contrast. */
+TEST(margins_have_one_scale)
 {
-    static const double MARGINS[] = {1, 0.4142135623730951, 0, -0.2928932188134524, -0.5, -0.9};
-    static const double PLACES[] = {88, 66, 44, 22, 0, 0};
+    static const double MARGINS[] = {1.5, 1, 0.5, 0, -0.5, -1};
+    static const double PLACES[] = {88, 88, 66, 44, 22, 0};
     for (int i = 0; i < 6; i++) {
-        double       found = 2 * (1 + MARGINS[i]);
-        LimitVerdict limit = {.value = 2, .found = found, .low = found, .high = found,
+        double       found = pow(2, 1 + MARGINS[i]);
+        LimitVerdict limit = {.kind = "contrast_ratio", .value = 2, .found = found, .low = found, .high = found,
                               .margin = MARGINS[i],
                               .verdict = MARGINS[i] < 0 ? VERDICT_FAIL : VERDICT_PASS};
         const char  *class = MARGINS[i] < 0 ? "bad" : "good";

@@ -220,8 +220,8 @@ TEST_WITH(a_scene_without_environment_is_dark, maker_reset, NULL)
     assert_near(e->forward.z, -1, 0);
 }
 
-/* Two pixels of a Radiance picture: 1 and 2 in all channels (mantissa 128, exponent + 128), of
- * 179 lm/W. */
+/* Two pixels of a Radiance picture: 1 and 2 in all channels (mantissa 128 1/2, exponent + 128),
+ * of 179 lm/W. */
 TEST_WITH(a_picture_of_the_sky_is_read_beside_the_scene, maker_reset, NULL)
 {
     static const char PIXELS[] =
@@ -234,7 +234,7 @@ TEST_WITH(a_picture_of_the_sky_is_read_beside_the_scene, maker_reset, NULL)
     assert_int_equal(e->kind, ENVIRONMENT_HDRI);
     assert_string_equal(e->hdri_path, picture);
     assert_int_equal(e->hdri.width, 2);
-    assert_close(((const float *)e->hdri.pixels)[4], 2 * 179, 0.02);
+    assert_close(((const float *)e->hdri.pixels)[4], 2 * 179 * 128.5 / 128, 1e-5);
     assert_close(e->hdri_rotation, PI / 4, 1e-6);
     assert_near(e->horizontal_illuminance_lx, 20000, 0);
 }

@@ -67,7 +67,7 @@ static inline const LimitVerdict *fixture_limits(Arena *arena, const ReviewCase 
         .name = NAMES[c->ambient], .kind = "contrast_ratio", .unit = "1",
         .source = "clause 4.3.2 as it is commonly quoted", .value = wanted,
         .found = c->contrast_ratio, .low = c->contrast_low, .high = c->contrast_high,
-        .margin = c->contrast_ratio / wanted - 1,
+        .margin = log(c->contrast_ratio) / log(wanted) - 1,
         .verdict = fixture_verdict(c->contrast_low, c->contrast_high, wanted)};
     limits[1] = (LimitVerdict){
         .name = "height of characters", .kind = "character_height", .unit = "arcmin",
@@ -110,10 +110,16 @@ static inline const CaseRemedy *fixture_remedies(Arena *arena, const ReviewCase 
 {
     CaseRemedy *remedies = ARENA_NEW(arena, CaseRemedy, 2);
     double      scale = c->limits[0].value / c->contrast_ratio * 1.4;
-    remedies[0] = (CaseRemedy){"make the display brighter", c->limits[0].value,
-                               scale * c->level};
-    remedies[1] = (CaseRemedy){"coat the cover glass: half of the mirror's reflection",
-                               1.3 * c->contrast_ratio, NAN};
+    LimitVerdict then = c->limits[0];
+    then.found = then.low = then.high = then.value;
+    remedies[0] = (CaseRemedy){.what = "make the display brighter",
+                               .contrast_ratio = then.found, .level = scale * c->level,
+                               .then = then, .verdict = VERDICT_PASS};
+    then.found = then.low = then.high = 1.3 * c->contrast_ratio;
+    then.verdict = fixture_verdict(then.low, then.high, then.value);
+    remedies[1] = (CaseRemedy){.what = "coat the cover glass: half of the mirror's reflection",
+                               .contrast_ratio = then.found, .level = NAN, .then = then,
+                               .verdict = then.verdict};
     return remedies;
 }
 
@@ -130,7 +136,7 @@ static inline ReviewCase fixture_case(Arena *arena, const FixtureLight *light, c
         .luminance_cd_m2 = {bright, dark, reflected, light->mirror, light->scattered,
                             light->veil},
         .contrast_ratio = (bright + reflected) / (dark + reflected),
-        .paths = 4096, .height_arcmin = 11 + white_cd_m2 / 100, .jnd = 212, .visibility = 41.5,
+        .paths = 4096, .height_arcmin = 11 + white_cd_m2 / 100, .stroke_ratio = 0.14, .jnd = 212, .visibility = 41.5,
         .glare = fixture_glare(0.21, 17.25), .visible_share = 1, .eye_failed_share = 0.125,
         .level = light->level, .display_lux = light->lux, .limit_count = 3, .limit_id = 0,
         .cause_count = 3, .remedy_count = 2};
@@ -229,7 +235,8 @@ static inline Review fixture_review(Arena *arena)
     hidden->contrast_with_veil = hidden->margin = hidden->jnd = hidden->height_arcmin = NAN;
     hidden->limit_count = hidden->cause_count = hidden->remedy_count = 0;
     hidden->limit_id = -1;
-    hidden->verdict = VERDICT_NOT_VISIBLE;
+    hidden->verdict = VERDICT_UNJUDGED;
+    hidden->unjudged = UNJUDGED_HIDDEN;
     review.sweeps[0] = fixture_sweep(arena, "any sun", NAN);
     review.sweeps[1] = fixture_sweep(arena, "a year", 85);
     fixture_gazes(arena, &review);
@@ -249,7 +256,12 @@ static inline Review fixture_odd_review(Arena *arena)
          1e8 - 1, VERDICT_PASS}};
     static const CaseCause  CAUSES[] = {{CHAIN, 3, NAN, NAN, NAN, NAN, NAN, NULL, 0, 0},
                                        {CHAIN, 0, 1, 0, 0, 0, 1, NULL, 0, 3}};
-    static const CaseRemedy REMEDIES[] = {{WILD_NAME, NAN, NAN}, {"", 3, 4}};
+    static const CaseRemedy REMEDIES[] = {
+        {.what = WILD_NAME, .contrast_ratio = NAN, .level = NAN,
+         .then = {WILD_NAME, "glare", WILD_NAME, WILD_NAME, 2, false, false, false, NAN, NAN,
+                  NAN, NAN, VERDICT_UNJUDGED},
+         .verdict = VERDICT_UNJUDGED},
+        {.what = "", .contrast_ratio = 3, .level = 4}};
     static ReviewResponse   responses[] = {{WILD_NAME, WILD_NAME, 0, 0, NAN}};
     static ReviewFalseSun   false_suns[] = {
         {WILD_NAME, WILD_NAME, WILD_NAME, NAN, NAN, NAN, NULL, 0, -1, 1e9, WILD_NAME, 0.1,
@@ -259,7 +271,7 @@ static inline Review fixture_odd_review(Arena *arena)
                        .sun_azimuth_deg = -1e-7, .sun_elevation_deg = NAN,
                        .luminance_cd_m2 = {NAN, 0, 1e-12, NAN, NAN, 1e9},
                        .contrast_ratio = NAN, .contrast_low = NAN, .contrast_high = NAN,
-                       .contrast_with_veil = NAN, .height_arcmin = NAN, .jnd = NAN,
+                       .contrast_with_veil = NAN, .height_arcmin = NAN, .stroke_ratio = NAN, .jnd = NAN,
                        .visibility = NAN, .glare = fixture_glare(NAN, -INFINITY),
                        .eye_failed_share = NAN, .when = WILD_NAME,
                        .visible_share = NAN, .level = NAN, .display_lux = NAN,

@@ -4,7 +4,7 @@
 (function(){
 var view=equipView,data=view.data,base=equipBase,state=base.state,pictures=base.pictures;
 var $=base.$,make=base.make,say=base.say,round=base.round,list=base.list,vector=base.vector,
-  freeName=base.freeName,numberField=base.numberField,choice=base.choice,card=base.card;
+  inWorld=base.inWorld,fromWorld=base.fromWorld,freeName=base.freeName,numberField=base.numberField,choice=base.choice,card=base.card;
 var frameOf=equipDisplay.frame;
 var proposals=[],OWN='figures of its own',MODES=['display','draw','eye','hide'];
 
@@ -51,8 +51,8 @@ function lookThrough(eye){
 function eyeCard(eye){
   var box=card(eye,eye.name,eye.why),fields=make('div',{'class':'fields'});
   ['X','Y','Z'].forEach(function(axis,a){
-    fields.append(numberField(axis+', m',function(){return round(eye.position[a]);},
-      function(v){eye.position[a]=v;eye.why='set by hand';},0.01));
+    fields.append(numberField(axis+', m',function(){return inWorld(eye.position)[a];},
+      function(v){eye.position[a]=v-data.origin[a];eye.why='set by hand';},0.01));
   });
   fields.append(choice('Looks at',state.displays.map(function(d,i){return [String(i),d.name];})
     .concat([['','straight ahead']]),String(Math.max(-1,state.displays.indexOf(eye.looks)))
@@ -165,9 +165,9 @@ view.onlook=function(camera){
 
 /* ---- the file ---- */
 function eyeOf(e){
-  var out={name:e.name,position_m:list(e.position)};
+  var out={name:e.name,position_m:inWorld(e.position)};
   if(e.looks)out.looks_at=e.looks.name;
-  else out.target_m=list(targetOf(e));
+  else out.target_m=inWorld(targetOf(e));
   out.proposed_from=e.why;
   return out;
 }
@@ -229,7 +229,7 @@ function take(saved){
   state.displays=(saved.displays||[]).map(equipDisplay.taken);
   state.eyes=saved.eyes.map(function(e){
     var gaze=e.target_m?vector(e.target_m).sub(vector(e.position_m)).normalize():null;
-    return {name:e.name,position:e.position_m,why:e.proposed_from||'as it was saved',
+    return {name:e.name,position:fromWorld(e.position_m),why:e.proposed_from||'as it was saved',
       gaze:gaze&&[gaze.x,gaze.y,gaze.z],
       looks:state.displays.find(function(d){return d.name===e.looks_at;})||null};
   });

@@ -23,6 +23,9 @@ function say(text,isBad){
 function round(v){return Math.round(v*1e6)/1e6+0;}
 function list(v){return v.isVector3?[round(v.x),round(v.y),round(v.z)]:v.map(round);}
 function vector(p){return new THREE.Vector3(p[0],p[1],p[2]);}
+/* The page is in the scene's coordinates, its file in the world's. Of one or several places. */
+function inWorld(p){return list(p).map(function(x,i){return round(x+data.origin[i%3]);});}
+function fromWorld(p){return p.map(function(x,i){return x-data.origin[i%3];});}
 
 /* ---- names: each means one thing ---- */
 function isTaken(name,but){
@@ -106,6 +109,6 @@ function card(item,title,from){
   return box;
 }
 return Object.assign(base,{$:$,make:make,say:say,round:round,list:list,vector:vector,
-  isTaken:isTaken,freeName:freeName,numberField:numberField,choice:choice,
+  inWorld:inWorld,fromWorld:fromWorld,  isTaken:isTaken,freeName:freeName,numberField:numberField,choice:choice,
   fileChoice:fileChoice,card:card});
 })();

@@ -358,14 +358,14 @@ view.ondrop=function(){
 
 /* ---- the file ---- */
 function saved(d){
-  var f=frame(d),out={name:d.name,on:d.on,centre_m:list(f.centre),right:list(f.right),
+  var f=frame(d),out={name:d.name,on:d.on,centre_m:base.inWorld(f.centre),right:list(f.right),
     up:list(f.up),width_m:round(d.width),height_m:round(d.height),before_mm:round(d.before_mm),
     panel:d.panel};
   if(d.content)out.content=d.content;
   out.level=round(d.level);
   if(d.max_level>1)out.max_level=d.max_level;
   if(d.any_size)out.any_size=true;
-  if(d.mesh)out.mesh={positions_m:list(d.mesh.positions),uv:list(d.mesh.uv),
+  if(d.mesh)out.mesh={positions_m:base.inWorld(d.mesh.positions),uv:list(d.mesh.uv),
     triangles:d.mesh.triangles};
   if(d.texts&&d.texts.length)out.symbols=d.texts.filter(function(t){return t.on;})
     .map(function(t){
@@ -377,11 +377,11 @@ function isSame(a,b){
   return a.every(function(v,i){return Math.abs(v-b[i])<1e-6;});
 }
 function taken(d){
-  var out={name:d.name,on:d.on||'the model',centre:base.vector(d.centre_m),
+  var out={name:d.name,on:d.on||'the model',centre:base.vector(base.fromWorld(d.centre_m)),
     right:base.vector(d.right),up:base.vector(d.up),width:d.width_m,height:d.height_m,dx:0,dy:0,
     out:0,turn_deg:0,tilt_deg:0,swivel_deg:0,before_mm:d.before_mm||0.5,
     level:'level' in d?d.level:1,max_level:d.max_level,any_size:d.any_size,panel:d.panel,
-    content:d.content||'',mesh:d.mesh?{positions:d.mesh.positions_m,uv:d.mesh.uv,
+    content:d.content||'',mesh:d.mesh?{positions:base.fromWorld(d.mesh.positions_m),uv:d.mesh.uv,
       triangles:d.mesh.triangles,width:d.width_m,height:d.height_m}:null};
   takeTexts(out);
   if(!d.symbols)return out;

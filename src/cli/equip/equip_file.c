@@ -10,7 +10,7 @@
 #include "review/request/request_fields.h"
 #include "scene/load/display_frame.h"
 
-#define METRES_MAX 1e4
+#define METRES_MAX 1e6
 #define LEAST_M 0.001   /* a display's side of any size */
 #define MOST_M 100.0
 #define LEVEL_MAX 100.0

@@ -169,6 +169,7 @@ static json_t *data_json(const Scene *scene, const char *model, const char *comm
         json_text(command), "vertices", (json_int_t)scene->vertex_count, "triangles",
         (json_int_t)scene->triangle_count, "index_bytes", index_bytes(scene), "low",
         cli_json_vector(scene->bounds_min), "high", cli_json_vector(scene->bounds_max));
+    json_object_set_new(data, "origin", cli_json_point(scene->origin));
     json_object_set_new(data, "parts", parts_json(scene));
     json_object_set_new(data, "materials", materials_json(scene, *arena));
     json_object_set_new(data, "textures", textures_json(scene, *arena));

@@ -236,15 +236,18 @@ static void add_bounds(json_t *document, int accessor, const float *positions, i
     json_object_set_new(object, "max", numbers(high, 3));
 }
 
-/* Its primitive without a material: the face as the file has it. */
-static json_t *add_face(json_t *document, const EquipMesh *mesh, Arena scratch)
+/* Its primitive without a material: the face as the file has it, from the display's centre on,
+ * where floats are fine however far off the model stands. */
+static json_t *add_face(json_t *document, const EquipDisplay *display, Arena scratch)
 {
+    const EquipMesh *mesh = &display->mesh;
     int       count = mesh->vertex_count, corners = 3 * mesh->triangle_count;
     float    *positions = ARENA_NEW(&scratch, float, 3 * (size_t)count);
     float    *normals = ARENA_NEW(&scratch, float, 3 * (size_t)count);
     float    *uv = ARENA_NEW(&scratch, float, 2 * (size_t)count);
     uint32_t *index = ARENA_NEW(&scratch, uint32_t, corners);
-    for (int i = 0; i < 3 * count; i++) positions[i] = (float)mesh->positions_m[i];
+    for (int i = 0; i < 3 * count; i++)
+        positions[i] = (float)(mesh->positions_m[i] - display->centre_m[i % 3]);
     for (int i = 0; i < 2 * count; i++) uv[i] = (float)mesh->uv[i];
     for (int i = 0; i < corners; i++) index[i] = (uint32_t)mesh->triangles[i];
     add_normals(mesh, normals);
@@ -260,13 +263,14 @@ static json_t *add_face(json_t *document, const EquipMesh *mesh, Arena scratch)
 static void add_face_display(json_t *document, const EquipDisplay *display,
                              const EquipNames *names, Arena scratch)
 {
-    json_t *primitive = add_face(document, &display->mesh, scratch);
+    json_t *primitive = add_face(document, display, scratch);
     json_object_set_new(primitive, "material",
                         json_integer(add_screen(document, display, names)));
     int mesh = add_to(document, "meshes", json_pack("{s:o, s:[o]}", "name",
                                                     json_text(display->name), "primitives",
                                                     primitive));
-    add_node(document, json_pack("{s:o, s:i}", "name", json_text(display->name), "mesh", mesh));
+    add_node(document, json_pack("{s:o, s:i, s:o}", "name", json_text(display->name), "mesh",
+                                 mesh, "translation", numbers(display->centre_m, 3)));
 }
 
 static void add_display(json_t *document, const EquipDisplay *display, const EquipNames *names,

@@ -153,8 +153,7 @@ static void print_where(const ReviewCase *c)
         printf("symbol     %s on %s, seen by %s, %s\n", c->symbol, c->display, c->eye,
                c->condition);
     else if (c->display) printf("display    %s\n", c->display);
-    printf("eye        %.3f, %.3f, %.3f m\n", (double)c->eye_m.x, (double)c->eye_m.y,
-           (double)c->eye_m.z);
+    printf("eye        %.3f, %.3f, %.3f m\n", c->eye_m[0], c->eye_m[1], c->eye_m[2]);
 }
 
 static void print_light(const Explained *explained, Arena scratch)
@@ -241,13 +240,16 @@ static void print_text(const Explained *explained, Arena *arena)
 
 /* ---- as JSON ----------------------------------------------------------------------------- */
 
-static json_t *json_rays(const CaseCause *cause)
+static json_t *json_rays(const ReviewCase *c, const CaseCause *cause)
 {
     json_t *out = json_array();
     for (int i = 0; i < cause->ray_count; i++) {
         json_t *ray = json_array();
-        for (int k = 0; k < cause->rays[i].count; k++)
-            json_array_append_new(ray, cli_json_vector(cause->rays[i].points[k]));
+        for (int k = 0; k < cause->rays[i].count; k++) {
+            double at[3];
+            world_from_scene(c->origin_m, cause->rays[i].points[k], at);
+            json_array_append_new(ray, cli_json_point(at));
+        }
         json_array_append_new(out, ray);
     }
     return out;
@@ -264,7 +266,7 @@ static json_t *json_chains(const ReviewCase *c)
             json_texts(cause->chain, cause->links), "share", json_figure(cause->share), "cd_m2",
             json_figure(cause->cd_m2), "interval", json_figure(cause->low),
             json_figure(cause->high), "contrast_without", json_figure(cause->contrast_without),
-            "contrast_lost", json_figure(lost), "rays", json_rays(cause)));
+            "contrast_lost", json_figure(lost), "rays", json_rays(c, cause)));
     }
     return out;
 }
@@ -315,7 +317,7 @@ static bool print_json(const Explained *explained, Error *err)
         "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:[o,o], s:I}", "condition",
         json_text_or_null(c->condition), "eye", json_text_or_null(c->eye), "symbol",
         json_text_or_null(c->symbol), "display", json_text_or_null(c->display), "eye_m",
-        cli_json_vector(c->eye_m), "luminance_cd_m2", json_light(explained), "contrast_ratio",
+        cli_json_point(c->eye_m), "luminance_cd_m2", json_light(explained), "contrast_ratio",
         json_figure(c->contrast_ratio), "contrast_interval", json_figure(c->contrast_low),
         json_figure(c->contrast_high), "paths", (json_int_t)explained->paths);
     json_object_set_new(out, "visible_share", json_figure(c->visible_share));

@@ -2,6 +2,7 @@
 /* parhelion probe: what one pixel sees, bounce by bounce, and its spectrum. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/count.h"
 #include "cli/explain/cmd_explain.h"
@@ -118,9 +119,11 @@ static ProbeWay way_of(const Probed *probed, const Chain *chain)
 
 /* ---- as text ----------------------------------------------------------------------------- */
 
-static void print_place(Vec3 at)
+static void print_place(const Scene *scene, Vec3 p)
 {
-    printf("  at %.3f, %.3f, %.3f m", (double)at.x, (double)at.y, (double)at.z);
+    double at[3];
+    world_from_scene(scene->origin, p, at);
+    printf("  at %.3f, %.3f, %.3f m", at[0], at[1], at[2]);
 }
 
 static void print_way(const Probed *probed, const Chain *chain, Arena scratch)
@@ -133,13 +136,13 @@ static void print_way(const Probed *probed, const Chain *chain, Arena scratch)
         const ProbeBounce *bounce = &way.bounce[i];
         printf("%34d %-8s %s", i + 1, bounce->what,
                chain_part_words(probed->chains.scene, bounce->part_id, &scratch));
-        if (bounce->has_place) print_place(bounce->at);
+        if (bounce->has_place) print_place(probed->chains.scene, bounce->at);
         printf("\n");
     }
     if (chain->key.is_longer) printf("%34s further surfaces\n", "");
     if (!way.has_from) return;
     printf("%34s begins ", "");
-    print_place(way.from);
+    print_place(probed->chains.scene, way.from);
     printf("\n");
 }
 
@@ -196,9 +199,11 @@ static void print_text(const Probed *probed, Arena scratch)
 
 /* ---- as JSON ----------------------------------------------------------------------------- */
 
-static json_t *json_point(bool is_there, Vec3 p)
+static json_t *json_point(const Scene *scene, Vec3 p)
 {
-    return is_there ? cli_json_vector(p) : json_null();
+    double at[3];
+    world_from_scene(scene->origin, p, at);
+    return cli_json_point(at);
 }
 
 static json_t *json_bounces(const Probed *probed, const ProbeWay *way)
@@ -211,18 +216,19 @@ static json_t *json_bounces(const Probed *probed, const ProbeWay *way)
         json_array_append_new(out, json_pack(
             "{s:s, s:o, s:o, s:o}", "what", bounce->what, "material",
             json_text(scene->materials[part->material_id].name), "node", json_text(part->name),
-            "at_m", json_point(bounce->has_place, bounce->at)));
+            "at_m",
+            bounce->has_place ? json_point(scene, bounce->at) : json_null()));
     }
     return out;
 }
 
-static json_t *json_rays(const Chain *chain)
+static json_t *json_rays(const Scene *scene, const Chain *chain)
 {
     json_t *out = json_array();
     for (int i = 0; i < chain->ray_count; i++) {
         json_t *ray = json_array();
         for (int k = 0; k < chain->rays[i].count; k++)
-            json_array_append_new(ray, cli_json_vector(chain->rays[i].point[k]));
+            json_array_append_new(ray, json_point(scene, chain->rays[i].point[k]));
         json_array_append_new(out, ray);
     }
     return out;
@@ -231,14 +237,15 @@ static json_t *json_rays(const Chain *chain)
 static json_t *json_way(const Probed *probed, const Chain *chain)
 {
     static const char *const kinds[] = {"sun", "sky", "surface", "lamp"};
-    ProbeWay way = way_of(probed, chain);
+    const Scene *scene = probed->chains.scene;
+    ProbeWay     way = way_of(probed, chain);
     return json_pack("{s:o, s:s, s:o, s:f, s:f, s:f, s:o, s:b, s:o}", "light",
                      json_text(way.light), "kind", kinds[chain->key.source], "from_m",
-                     json_point(way.has_from, way.from), "cd_m2", chain->figure.cd_m2,
-                     "standard_error_cd_m2", chain->figure.sigma, "share",
+                     way.has_from ? json_point(scene, way.from) : json_null(), "cd_m2",
+                     chain->figure.cd_m2, "standard_error_cd_m2", chain->figure.sigma, "share",
                      chain->figure.cd_m2 / probed->chains.all.cd_m2, "bounces",
                      json_bounces(probed, &way), "has_further_surfaces",
-                     chain->key.is_longer, "rays", json_rays(chain));
+                     chain->key.is_longer, "rays", json_rays(scene, chain));
 }
 
 static json_t *json_spectrum(const PixelLight *light)
@@ -265,9 +272,10 @@ static bool print_json(const Probed *probed, Error *err)
                   "s:o}",
                   "pixel", probed->pixel[0], probed->pixel[1], "size", probed->size[0],
                   probed->size[1], "paths", (json_int_t)chains->paths, "eye_m",
-                  cli_json_vector(probed->eye), "XYZ", xyz[0].mean, xyz[1].mean, xyz[2].mean,
-                  "luminance_cd_m2", xyz[1].mean, "standard_error_cd_m2", xyz[1].sigma, "ways",
-                  ways, "other_ways", "count", chains->others, "cd_m2", chains->rest.cd_m2,
+                  json_point(chains->scene, probed->eye), "XYZ", xyz[0].mean,
+                  xyz[1].mean, xyz[2].mean, "luminance_cd_m2", xyz[1].mean,
+                  "standard_error_cd_m2", xyz[1].sigma, "ways", ways, "other_ways",
+                  "count", chains->others, "cd_m2", chains->rest.cd_m2,
                   "standard_error_cd_m2", chains->rest.sigma, "spectrum",
                   json_spectrum(&probed->light)),
         err);
@@ -304,7 +312,8 @@ static bool probe_write_rays(const Probed *probed, const char *path, Arena *aren
                                 .light = 1 + group_of(probed, &chain->key)};
         causes[i].chain = chain_words(chains->scene, &chain->key, &causes[i].links, &scratch);
     }
-    const ReviewCase all = {.causes = causes, .cause_count = chains->count};
+    ReviewCase all = {.causes = causes, .cause_count = chains->count};
+    memcpy(all.origin_m, chains->scene->origin, sizeof all.origin_m);
     return ray_file_write(&all, path, err);
 }
 

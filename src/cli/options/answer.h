@@ -8,6 +8,7 @@
 #pragma once
 #include <jansson.h>
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "base/error.h"
 #include "base/problems.h"
@@ -28,5 +29,10 @@ void cli_print_warnings(const Problems *problems);
 /* The same warnings as a JSON list of {"file","path","severity","message"}. */
 json_t *cli_json_problems(const Problems *problems, Severity severity);
 
-/* A point or a direction as a list of three numbers. */
+/* A direction, or a point of the world, as a list of three numbers. */
 json_t *cli_json_vector(Vec3 v);
+json_t *cli_json_point(const double world_m[3]);
+
+/* A frame's relative error, "1.23%"; of a frame without samples, whose error is NaN, "unknown".
+ * Returns out, which has size bytes. */
+const char *cli_relative_error(double error, char *out, size_t size);

@@ -94,6 +94,14 @@ static void become(Change *change, EnvironmentKind kind, DaylightKind daylight)
     environment->kind = kind;
 }
 
+/* What is measured is the sun's light, too: an illuminance that the scene gave its sun goes. */
+static void become_measured(Change *change)
+{
+    become(change, ENVIRONMENT_PEREZ, DAYLIGHT_PEREZ);
+    change->environment->sun_illuminance_lx = -1;
+    change->environment->daylight.sun_lux = -1;
+}
+
 static bool set_cie(Change *change, const char *text, Error *err)
 {
     double number[2] = {0, -1};
@@ -132,7 +140,7 @@ static bool set_perez(Change *change, const char *text, Error *err)
                          "--environment perez:%s: wanted perez:DIRECT,DIFFUSE, "
                          "normal and horizontal irradiance in W/m2, up to %g",
                          text, SCENE_MOST_W_M2);
-    become(change, ENVIRONMENT_PEREZ, DAYLIGHT_PEREZ);
+    become_measured(change);
     change->environment->daylight.direct_w_m2 = w_m2[0];
     change->environment->daylight.diffuse_w_m2 = w_m2[1];
     change->environment->daylight.has_lux = false;
@@ -345,7 +353,7 @@ static bool set_weather(Change *change, Error *err)
     if (change->environment->kind != ENVIRONMENT_PEREZ && change->asked->environment)
         return error_set(err, ERROR_USAGE, "--weather makes a Perez sky: it excludes "
                          "--environment %s", change->asked->environment);
-    become(change, ENVIRONMENT_PEREZ, DAYLIGHT_PEREZ);
+    become_measured(change);
     if (!change->asked->when && !daylight->has_time)
         return error_set(err, ERROR_USAGE, "--weather: there is no time yet — add --when TIME");
     SkyTime when = daylight->when;

@@ -95,6 +95,7 @@ bool scene_options_load(const SceneAsked *asked, Arena *arena, Problems *problem
     hdri_warn(&scene->environment, problems);
     data_warn(scene, SEVERITY_WARNING, problems);
     forward_doubt(scene, problems);
+    panels_warn(scene, SEVERITY_WARNING, problems);
     *out = scene;
     return true;
 }

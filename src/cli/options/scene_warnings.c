@@ -3,6 +3,7 @@
 
 #include "base/units.h"
 #include "light/sky_picture_doubt.h"
+#include "panel/query/panel_stated.h"
 #include "scene/load/material_data.h"
 
 #define WAY_OUT                                                                                \
@@ -54,5 +55,29 @@ void data_warn(const Scene *scene, Severity severity, Problems *problems)
                  "%.900s — give each a base colour, a texture or a measured spectrum",
                  count, scene->material_count, count == 1 ? "ies" : "y",
                  count == 1 ? "is" : "are", names);
+    arena_release(&own);
+}
+
+/* Displays of one file share its panel: the first of them is named. */
+static bool is_first_of_panel(const Scene *scene, int display_id)
+{
+    for (int i = 0; i < display_id; i++)
+        if (scene->displays[i].panel == scene->displays[display_id].panel) return false;
+    return true;
+}
+
+void panels_warn(const Scene *scene, Severity severity, Problems *problems)
+{
+    Arena own = arena_reserve((size_t)1 << 24); /* problems grow in theirs */
+    for (int i = 0; i < scene->display_count; i++) {
+        const Display *display = &scene->displays[i];
+        if (!display->panel || !is_first_of_panel(scene, i)) continue;
+        PanelStated stated = panel_stated(display->panel, &own);
+        if (stated.is_unusable)
+            problems_add(problems, severity, display->panel_path, "",
+                         "the panel of display '%.100s' says of itself that it is not usable: "
+                         "%.700s", display->name,
+                         stated.reason ? stated.reason : "its file gives no reason");
+    }
     arena_release(&own);
 }

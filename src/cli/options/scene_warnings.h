@@ -12,3 +12,7 @@ void hdri_warn(const Environment *environment, Problems *problems);
 /* Of materials without optical data (scene/load/material_data.h): one line; an error where that
  * is to be. */
 void data_warn(const Scene *scene, Severity severity, Problems *problems);
+
+/* Of panels that say of themselves that they are not usable (panel/query/panel_stated.h): one
+ * line each; an error where that is to be. */
+void panels_warn(const Scene *scene, Severity severity, Problems *problems);

@@ -21,8 +21,16 @@
 
 /* ---- the frame --------------------------------------------------------------------------- */
 
+/* How far along the axis the scene's coordinates begin. */
+static double origin_along(const Scene *scene, Vec3 axis)
+{
+    const double *o = scene->origin;
+    return o[0] * (double)axis.x + o[1] * (double)axis.y + o[2] * (double)axis.z;
+}
+
 /* For row vectors, as OpenEXR has it: p_camera = p_world * M. Zeros are all positive. */
-static void set_world_to_camera(FrameImage *frame, const Transform *t, Arena *arena)
+static void set_world_to_camera(FrameImage *frame, const Scene *scene, const Transform *t,
+                                Arena *arena)
 {
     const Vec3 axes[3] = {t->x, t->y, t->z};
     double     matrix[16] = {[15] = 1};
@@ -30,14 +38,16 @@ static void set_world_to_camera(FrameImage *frame, const Transform *t, Arena *ar
         matrix[i] = 0.0 + (double)axes[i].x;
         matrix[4 + i] = 0.0 + (double)axes[i].y;
         matrix[8 + i] = 0.0 + (double)axes[i].z;
-        matrix[12 + i] = 0.0 - (double)vec3_dot(t->origin, axes[i]);
+        matrix[12 + i] =
+            0.0 - (double)vec3_dot(t->origin, axes[i]) - origin_along(scene, axes[i]);
     }
     frame_set_values(frame, "worldToCamera", EXR_MATRIX44, matrix, arena);
 }
 
-static void set_camera(FrameImage *frame, const SceneCamera *camera, Arena *arena)
+static void set_camera(FrameImage *frame, const Scene *scene, const SceneCamera *camera,
+                       Arena *arena)
 {
-    set_world_to_camera(frame, &camera->world_from_camera, arena);
+    set_world_to_camera(frame, scene, &camera->world_from_camera, arena);
     frame_set_string(frame, "parhelion:camera",
                      camera->node_name[0] ? camera->node_name : camera->camera_name, arena);
     if (camera->fisheye)
@@ -151,7 +161,7 @@ FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
     const char *weather = weather_option_text(&scene->environment, arena);
     if (weather) frame_set_string(&frame, "parhelion:weather", weather, arena);
     set_sampling(&frame, request, result, arena);
-    set_camera(&frame, camera, arena);
+    set_camera(&frame, scene, camera, arena);
     set_names(&frame, scene, request->render.layers, arena);
     set_lights(&frame, request->render.lights, arena);
     if (request->is_part) attach_sums(&frame, &request->render, result, arena);
@@ -279,23 +289,33 @@ static const char *favour_words(const RenderRequest *request, const RenderResult
     return out;
 }
 
+static void print_fisheye(const RenderRequest *request, const RenderResult *result)
+{
+    if (!request->camera.projection) return;
+    if (result->statistics.samples)
+        printf("%s: a fisheye of 180 degrees: pixels outside its circle are black and have no "
+               "samples\n", request->output);
+    else
+        printf("%s: a fisheye of 180 degrees: all pixels rendered lie outside its circle, they "
+               "are black and have no samples\n", request->output);
+}
+
 static void print_line(const RenderRequest *request, const RenderResult *result)
 {
     const PathStatistics *counts = &result->statistics;
-    char samples[32], rays[32], favour[64];
+    char samples[32], rays[32], favour[64], error[32];
     rate_text(per_second((double)counts->samples, result->seconds), samples,
               (int)sizeof samples);
     rate_text(per_second(ray_count(counts), result->seconds), rays, (int)sizeof rays);
     printf("%s: %dx%d, %u samples a pixel%s%s, %.1f s, %ssamples/s, %srays/s, "
-           "relative error %.2f%%, peak memory %.0f MB (%.0f while building)\n",
+           "relative error %s, peak memory %.0f MB (%.0f while building)\n",
            request->output, request->render.width, request->render.height,
            result->samples, favour_words(request, result, favour, sizeof favour),
            result->complete ? "" : " (incomplete)",
-           result->seconds, samples, rays, 100 * result->error.frame,
+           result->seconds, samples, rays,
+           cli_relative_error(result->error.frame, error, sizeof error),
            machine_peak_bytes() / 1e6, result->build_peak_bytes / 1e6);
-    if (request->camera.projection)
-        printf("%s: a fisheye of 180 degrees: pixels outside its circle are black and have no "
-               "samples\n", request->output);
+    print_fisheye(request, result);
     if (render_output_is_radiance(request))
         printf("%s: W/m2/sr in Radiance's primaries: luminance is 179 (0.265 R + 0.670 G + "
                "0.065 B); its codes are right within 0.4 %%, layers are only in .exr\n",

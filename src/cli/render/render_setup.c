@@ -71,14 +71,10 @@ bool render_check_size(const CameraChoice *choice, bool given, int size[2], Erro
 
 #define DEFAULT_FOV_DEG 40
 
-static Vec3 vec3_from(const double v[3])
+static bool look(const Scene *scene, const CameraChoice *choice, SceneCamera *out, Error *err)
 {
-    return vec3((float)v[0], (float)v[1], (float)v[2]);
-}
-
-static bool look(const CameraChoice *choice, SceneCamera *out, Error *err)
-{
-    Vec3 eye = vec3_from(choice->eye), target = vec3_from(choice->look_at);
+    Vec3 eye = scene_from_world(scene->origin, choice->eye);
+    Vec3 target = scene_from_world(scene->origin, choice->look_at);
     double fov_deg = choice->has_fov ? choice->fov_deg : DEFAULT_FOV_DEG;
     if (choice->name)
         return error_set(err, ERROR_USAGE, "--camera and --eye exclude each other");
@@ -101,15 +97,16 @@ static bool look(const CameraChoice *choice, SceneCamera *out, Error *err)
 /* A frame that is not where anybody put it is said to be so. */
 static void warn_of_framing(const Scene *scene, const SceneCamera *camera, Problems *problems)
 {
-    const Vec3 eye = camera->world_from_camera.origin;
+    double      eye[3];
     const char *file = scene->input_count ? scene->inputs[0] : "";
     bool shows_displays = !strcmp(camera->camera_name, "displays");
+    world_from_scene(scene->origin, camera->world_from_camera.origin, eye);
     if (scene->triangle_count)
         problems_add(problems, SEVERITY_WARNING, file, NULL,
                      "the scene has no camera: %s seen from the front, from %.4g,%.4g,%.4g — "
                      "another place with --eye and --look-at",
-                     shows_displays ? "its displays are" : "it is framed whole,", (double)eye.x,
-                     (double)eye.y, (double)eye.z);
+                     shows_displays ? "its displays are" : "it is framed whole,", eye[0],
+                     eye[1], eye[2]);
     else
         problems_add(problems, SEVERITY_WARNING, file, NULL,
                      "the scene has neither a camera nor triangles: the view is from its "
@@ -121,7 +118,7 @@ static bool choose(const Scene *scene, const CameraChoice *choice, Problems *pro
 {
     const char *wanted = choice->name;
     if (choice->has_eye || choice->has_look_at || choice->has_fov)
-        return look(choice, out, err);
+        return look(scene, choice, out, err);
     if (wanted || scene->camera_count) {
         int index = wanted ? find_camera(scene, wanted) : 0;
         if (index == NO_ID) return no_such_camera(scene, wanted, err);

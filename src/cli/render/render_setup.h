@@ -11,7 +11,7 @@
 /* The command line's choice; NULL and false: the scene's. */
 typedef struct CameraChoice {
     const char *name;              /* a node's, a camera's, or an index */
-    double eye[3], look_at[3];     /* m, scene */
+    double eye[3], look_at[3];     /* m, world */
     double fov_deg;                /* full vertical angle */
     int  projection;               /* a PROJECTIONS name's place */
     bool has_eye, has_look_at, has_fov;

@@ -53,8 +53,8 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
          &out->dry_run},
         {"--profile", OPTION_TEXT, "NAME|FILE.json", "limits instead of the request's",
          &out->profile},
-        {"--strict", OPTION_FLAG, NULL, "too close to call, not visible and materials without "
-         "optical data fail, too",
+        {"--strict", OPTION_FLAG, NULL, "too close to call and any material without optical "
+         "data fail, too",
          &out->is_strict},
         {"--decide", OPTION_FLAG, NULL,
          "goes on with what is too close to call: up to 64 times the paths", &out->decides},

@@ -11,16 +11,28 @@
 #include "review/output/review_words.h"
 #include "text/interval_text.h"
 
+/* A row has one quantity: that of the limit which decides it. */
+static void print_judged(const ReviewCase *c, Arena *scratch)
+{
+    const LimitVerdict *limit = case_worst_limit(c);
+    if (c->unjudged && c->unjudged != UNJUDGED_PANEL && c->unjudged != UNJUDGED_DATA) {
+        printf(": %s", words_unjudged(c, scratch));
+        return;
+    }
+    if (!limit) return;
+    printf(": %s %s", words_kind(limit), words_measured(limit, scratch));
+    printf(", required %s", words_required(limit, scratch));
+    if (c->unjudged) printf("; %s", words_unjudged(c, scratch));
+}
+
 static void print_case(const ReviewCase *c, Arena scratch)
 {
-    printf("%-11s %s, %s, %s", verdict_names[c->verdict], c->condition, c->eye, c->symbol);
+    printf("%-16s %s, %s, %s", verdict_names[c->verdict], c->condition, c->eye, c->symbol);
+    print_judged(c, &scratch);
     if (c->visible_share > 0)
-        printf(": contrast %s : 1, reflected %s cd/m2",
-               interval_text(c->contrast_ratio, c->contrast_low, c->contrast_high, &scratch),
+        printf(", reflected %s cd/m2",
                interval_text(c->luminance_cd_m2.reflected, c->reflected_range.low,
                              c->reflected_range.high, &scratch));
-    else if (c->hider_count) printf(": %s", words_hiders(c, &scratch));
-    if (c->limit_id >= 0) printf(", wanted %.3g : 1", c->limits[c->limit_id].value);
     fputs(words_precision(c, &scratch), stdout);
     if (c->minutes_to_decide > 0 && isfinite(c->minutes_to_decide))
         printf("; about %.2g minutes more would decide it", fmax(c->minutes_to_decide, 0.1));
@@ -30,7 +42,7 @@ static void print_case(const ReviewCase *c, Arena scratch)
 static void print_sweep(const ReviewSweep *s, Arena scratch)
 {
     bool is_sure = sweep_verdict(s) == VERDICT_FAIL || !(s->failed_share > 0);
-    printf("%-11s %s, %s, %s: %.3g %% of %ld suns fail%s", verdict_names[sweep_verdict(s)],
+    printf("%-16s %s, %s, %s: %.3g %% of %ld suns fail%s", verdict_names[sweep_verdict(s)],
            s->condition, s->eye, s->symbol, 100 * s->failed_share, s->cases,
            is_sure ? "" : " by their steps alone, none that was read again");
     if (s->longest_failure_minutes > 0)
@@ -38,11 +50,7 @@ static void print_sweep(const ReviewSweep *s, Arena scratch)
     if (s->worst.has_sun)
         printf("; worst at azimuth %.1f, elevation %.1f", s->worst.sun_azimuth_deg,
                s->worst.sun_elevation_deg);
-    if (s->worst.visible_share > 0)
-        printf(": contrast %s : 1",
-               interval_text(s->worst.contrast_ratio, s->worst.contrast_low,
-                             s->worst.contrast_high, &scratch));
-    else if (s->worst.hider_count) printf(": %s", words_hiders(&s->worst, &scratch));
+    print_judged(&s->worst, &scratch);
     fputs(words_precision(&s->worst, &scratch), stdout);
     putchar('\n');
 }
@@ -51,7 +59,7 @@ static void print_sweep(const ReviewSweep *s, Arena scratch)
 static void print_gaze(const GazeFinding *g, Arena scratch)
 {
     if (!(g->contrast_left < GAZE_POOR)) return;
-    printf("%-11s %s, %s, looking at %s: %.3g %% of a distant object's contrast left; seen "
+    printf("%-16s %s, %s, looking at %s: %.3g %% of a distant object's contrast left; seen "
            "%.4g cd/m2, mirrored by glass %s, veil in the eye %s\n", "veiled", g->condition,
            g->eye, g->gaze, 100 * g->contrast_left, g->through,
            review_gaze_mirrored(g, &scratch), review_gaze_veil(g, &scratch));
@@ -61,7 +69,7 @@ static void print_gaze(const GazeFinding *g, Arena scratch)
 static void print_variant(const ReviewVariantFound *v)
 {
     const ReviewDifference *d = &v->worst;
-    printf("%-11s variant %s", verdict_names[review_verdict(v->review)], v->name);
+    printf("%-16s variant %s", verdict_names[review_verdict(v->review)], v->name);
     if (d->after && d->before)
         printf(": least margin %+.3g %%, %+.2g %% (%+.2g to %+.2g) from the review's: %s, %s, "
                "%s", 100 * d->after->margin, 100 * d->margin, 100 * d->margin_range.low,
@@ -72,7 +80,7 @@ static void print_variant(const ReviewVariantFound *v)
 
 static void print_mend(const ReviewMend *m, Arena *scratch)
 {
-    printf("%-11s %s\n", m->is_found ? "mended" : "not mended", words_mend(m, scratch));
+    printf("%-16s %s\n", m->is_found ? "mended" : "not mended", words_mend(m, scratch));
 }
 
 static void print_review(const Review *review, Arena scratch)
@@ -82,13 +90,15 @@ static void print_review(const Review *review, Arena scratch)
     for (int i = 0; i < review->gaze_count; i++) print_gaze(&review->gazes[i], scratch);
     const ReviewCase *worst = review_worst(review, scratch);
     if (review->without_data_count)
-        printf("%-11s %d material%s taken as perfectly white: %s; of the light on the worst "
-               "case %.3g %% came by way of them\n", "no data", review->without_data_count,
+        printf("%-16s %d material%s taken as perfectly white: %s; of the light on the worst "
+               "case %.3g %% came via them\n", "no data", review->without_data_count,
                review->without_data_count == 1 ? "" : "s", review->without_data,
                worst ? 100 * worst->without_data_share : 0);
     for (int i = 0; i < review->variant_count; i++) print_variant(&review->variants[i]);
     for (int i = 0; i < review->mend_count; i++) print_mend(&review->mends[i], &scratch);
-    static const char *const LAST[4] = {"pass", "FAIL", "too close to call", "not visible"};
+    const char *rests_on = words_rests_on(review, &scratch);
+    if (rests_on[0]) printf("%-16s %s\n", "rests on", rests_on);
+    static const char *const LAST[4] = {"pass", "FAIL", "too close to call", "cannot be judged"};
     printf("%s\n", LAST[review_verdict(review)]);
 }
 

@@ -120,7 +120,7 @@ bool radiance_picture_read(const void *bytes, size_t size, const char *name, Are
 {
     LightPicture picture;
     Arena        scratch = *arena;
-    if (!light_picture_read_middles(bytes, size, name, &scratch, &picture, err)) return false;
+    if (!light_picture_read(bytes, size, name, &scratch, &picture, err)) return false;
     const float *rgba = picture.image.pixels;
     size_t       count = (size_t)picture.image.width * (size_t)picture.image.height;
     int          width = picture.image.width, height = picture.image.height;

@@ -8,8 +8,8 @@
  *          luminance is right within 0.4 %, and in the mean. Light out of the primaries' gamut
  *          moves towards white of its luminance; what is not finite or below 0 is black. The
  *          view is VIEW= (frame_view.h); of a frame's layers R, G, B alone are there.
- * Read     as light_picture.h takes light, with codes in the middles of their steps; VIEW= is
- *          kept as the attribute "VIEW". Source: G. Ward, "Radiance File Formats".
+ * Read     as light_picture.h takes light; VIEW= is kept as the attribute "VIEW".
+ *          Source: G. Ward, "Radiance File Formats".
  * Fails    as frame.h: with the file's name; a write that fails leaves nothing.
  */
 #pragma once

@@ -15,7 +15,7 @@ typedef struct PathStep {
     int       part_id; /* scene part */
     PathEvent event;   /* reflects: as a mirror does */
     int       pane_id; /* part of the last pane on the way there; NO_ID: none */
-    Vec3      position; /* m, world */
+    Vec3      position; /* m, scene */
 } PathStep;
 
 #define PATH_STEPS_MAX 6
@@ -31,7 +31,7 @@ typedef struct PathHistory {
     int      pane_id;               /* part of the last pane that the light passed on its way to
                                        the last step; NO_ID: none */
     int      reached_by;            /* as pane_id, to where the path is now */
-    Vec3     from;                  /* where it began, m, world; is_distant: the unit direction
+    Vec3     from;                  /* where it began, m, scene; is_distant: the unit direction
                                        towards it */
     bool     is_distant;
     float    sr;                    /* of the field of view, that a light sample stands for; 0:

@@ -12,7 +12,7 @@
  * as a reading's do (reading.h); of a pixel, whose paths are its samples, the batches are parts
  * of these, and errors what they would be if the parts were independent.
  *
- * Units    cd m^-2; metres, world.
+ * Units    cd m^-2; metres, scene.
  * Memory   what is kept lives in the arena.
  * Threads  starts its own; the same figures and rays for any count.
  */

@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "render/identity.h"
 #include "review/light/question.h"
+#include "review/light/sun_parts.h"
 
 /* ---- skies ------------------------------------------------------------------------------- */
 
@@ -419,18 +420,21 @@ static const float *ask_suns(const DistantProbe *probe, const ReadingTools *with
                              const ResponseOptions *options, const ProbeSuns *suns,
                              Arena *arena)
 {
-    if (!with->journal) return response_suns(&probe->aim, options, suns, arena);
-    double   numbers[] = {options->paths, (double)suns->radius, suns->by_mirror};
+    const LightParts *parts = probe->parts;
+    const ProbeAim   *aim = parts ? &parts->aim : &probe->aim;
+    if (!with->journal) return sun_parts_worst(aim, parts, options, suns, arena);
+    double   numbers[] = {options->paths, (double)suns->radius, suns->by_mirror,
+                          parts ? light_parts_count(parts) : 0, parts ? parts->wide : 0};
     Question question = {.base = with->base, .kind = "suns", .numbers = numbers,
                          .number_count = COUNT_OF(numbers), .towards = suns->towards,
                          .towards_count = suns->count};
-    JournalKey key = question_key(&question, &probe->aim, *arena);
+    JournalKey key = question_key(&question, aim, *arena);
     Arena    before = *arena;
     size_t   bytes = (size_t)suns->count * RESPONSE_BANDS * sizeof(float);
     float   *kept = ARENA_NEW(arena, float, (size_t)suns->count * RESPONSE_BANDS);
     if (journal_find(with->journal, key, kept, bytes)) return kept;
     *arena = before;
-    const float *found = response_suns(&probe->aim, options, suns, arena);
+    const float *found = sun_parts_worst(aim, parts, options, suns, arena);
     journal_add(with->journal, key, found, bytes);
     return found;
 }

@@ -16,6 +16,7 @@
 #pragma once
 #include "review/light/hour_sky.h"
 #include "review/light/inherited.h"
+#include "review/light/light_parts.h"
 #include "review/light/setup.h"
 
 /* ---- skies ------------------------------------------------------------------------------- */
@@ -53,6 +54,8 @@ void sky_table_sun(const SkyTable *table, double elevation_deg, double light,
 typedef struct DistantProbe {
     ProbeAim     aim;
     Response     response;
+    const LightParts *parts; /* of what is looked at: the sun itself counts by the part that
+                                gets most of it; NULL: by all of it, or by a luxmeter */
     const float *scattered, *mirror; /* the first vertex's: [sun][band], by lx */
     double      *sky;  /* [elevation of the table][SKY_AZIMUTHS]; by hours [sun] */
     float       *sky_without; /* the same without each of the response's groups:
@@ -91,7 +94,8 @@ void distant_probe_ask_suns(DistantProbe *probe, const DistantTools *tools, Aren
 
 typedef struct DistantReading {
     double sky, sun_first, sun_rest; /* they add up */
-    double mirror;                   /* part of sun_first */
+    double mirror;                   /* part of sun_first: the worst part by scattering has it
+                                        added, whichever part that lies in */
     MeanInterval interval;           /* 95 %, of their sum */
 } DistantReading;
 

@@ -26,7 +26,7 @@
 /* Where an eye looks from, and how surely it is to be known: rounds of 4096 paths, which differ
  * in nothing but chance. */
 typedef struct EyeLook {
-    Vec3 eye;     /* m, world */
+    Vec3 eye;     /* m, scene */
     Vec3 towards; /* any length but 0 */
     int  rounds;  /* 1 .. EYE_ROUNDS_MOST */
     const FalseSuns *images; /* from there; NULL: nobody looked */

@@ -92,5 +92,5 @@ typedef struct SunSearches {
 SunSearches sun_searches_start(void);
 void        sun_searches_end(SunSearches *searches);
 
-/* The setup's scene, lit or dark, as the eye (m, world) sees it: found before, or now. */
+/* The setup's scene, lit or dark, as the eye (m, scene) sees it: found before, or now. */
 const FalseSunRays *sun_searches_ask(SunSearches *searches, const Setup *setup, Vec3 eye);

@@ -17,7 +17,7 @@
 #define GAZE_CONE_DEG EYE_NEAR_DEG /* half its width */
 
 typedef struct GazeGoal {
-    Vec3   eye;       /* m, world */
+    Vec3   eye;       /* m, scene */
     Vec3   towards;   /* any length but 0 */
     double precision; /* relative standard error of both figures, above 0, */
     int    most;      /* unless it takes more paths than that */

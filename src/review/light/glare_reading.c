@@ -33,11 +33,20 @@ typedef struct GlareWork {
     Arena          *arena;
 } GlareWork;
 
-/* Rounds are groups where there are as many; else samples are dealt out by chance. */
-static int group_of(const GlareAsk *ask, int i)
+/* Blocks of samples are each as well spread as all of them (base/sampler.h): dealt out by
+ * chance, intervals would be 20 times too wide. */
+static int sample_group(const GlareAsk *ask, int i)
 {
-    if (ask->rounds == GLARE_GROUPS) return i / (ask->rest.count / ask->rounds);
-    return (int)(hash_u32((uint32_t)i) % GLARE_GROUPS);
+    return i / (ask->rest.count / GLARE_GROUPS);
+}
+
+/* Rounds are groups where there are enough. Those of one round are Hammersley's points: the
+ * first bits of the index stand for the angle, its last ones for the direction about the gaze,
+ * so that those in the middle leave each group a raster of its own over both. */
+static int path_group(const GlareAsk *ask, int i)
+{
+    if (ask->rounds % GLARE_GROUPS == 0) return sample_group(ask, i);
+    return i / GLARE_GROUPS % GLARE_GROUPS;
 }
 
 static double forward_of(const GlareWork *work, Vec3 d)
@@ -63,7 +72,7 @@ static void add_samples(GlareWork *work, LightSet set, int *sources, double leas
         double forward = forward_of(work, s->towards);
         if (!(s->lx > 0) || !(s->sr > 0) || !(forward > 0)) continue;
         double luminance = (double)s->lx / ((double)s->sr * forward);
-        int    group = group_of(ask, i), *source = &sources[s->source_id];
+        int    group = sample_group(ask, i), *source = &sources[s->source_id];
         if (luminance <= least) {
             if (set != LIGHTS_SKY) work->samples_lx[group] += (double)s->lx * share;
             continue;
@@ -153,7 +162,7 @@ static void add_lamps(GlareWork *work, Arena scratch)
     for (int i = 0; i < ask->rest.count; i++) {
         const GlareSample *s = &ask->samples[LIGHTS_PUNCTUAL][i];
         if (s->lx > 0 && forward_of(work, s->towards) > 0)
-            add_to_lamp(work, s, group_of(ask, i), &lamps[s->source_id]);
+            add_to_lamp(work, s, sample_group(ask, i), &lamps[s->source_id]);
     }
     for (int id = 0; id < count; id++) add_lamp(work, id, &lamps[id]);
 }
@@ -213,7 +222,7 @@ static void add_background(GlareWork *work)
     for (int i = 0; i < ask->rest.count; i++) {
         double lx = ask->rest.cd_m2[i] * ask->rest.sr[i] *
                     forward_of(work, ask->rest.towards[i]);
-        rest[group_of(ask, i)] += lx;
+        rest[path_group(ask, i)] += lx;
         total += lx;
     }
     for (int g = 0; g < GLARE_GROUPS; g++) {
@@ -233,7 +242,8 @@ GlareReading glare_read(const GlareAsk *ask, Arena scratch)
     GlareFieldAsk field = {.setup = ask->setup, .rest = &rest, .found = ask->told,
                            .threshold_cd_m2 = work.threshold,
                            .peak_cd_m2 = fmax(settings->peak_cd_m2, work.threshold),
-                           .pixels = ask->rounds > 1 ? PIXELS : PIXELS_ONCE, .seed = SEED};
+                           .pixels = ask->rounds > 1 ? PIXELS : PIXELS_ONCE,
+                           .seed = review_seed(ask->setup->request, SEED)};
     add_surfaces(&work, scratch);
     add_lamps(&work, scratch);
     add_images(&work);

@@ -10,7 +10,7 @@
 #include "base/progress.h"
 #include "base/sampler.h"
 #include "review/light/question.h"
-#include "review/light/response.h"
+#include "review/light/response_suns.h"
 
 #define BATCHES READING_BATCHES
 #define PIECE 64 /* paths that are looked at together */
@@ -41,6 +41,7 @@ typedef struct Stream {
     int           threads;
     int           first, end; /* paths of every batch */
     Batch        *batches;
+    TargetLight  *targets;    /* of each batch; NULL: they are not kept apart */
 } Stream;
 
 static double power(double x, int exponent)
@@ -74,6 +75,17 @@ static void add_looks(Batch *to, const ProbeLook *looks, int count, bool with_ow
     }
 }
 
+static void add_targets(TargetLight *to, const ProbeLook *looks, int count)
+{
+    for (int i = 0; i < count; i++) {
+        if (!looks[i].is_found) continue;
+        TargetLight *target = &to[looks[i].target];
+        target->paths++;
+        target->sum += looks[i].reflected[1];
+        target->squares += looks[i].reflected[1] * looks[i].reflected[1];
+    }
+}
+
 static void read_batch(void *user, int item, int worker)
 {
     (void)worker;
@@ -87,6 +99,9 @@ static void read_batch(void *user, int item, int worker)
         int end = first + PIECE < stream->end ? first + PIECE : stream->end;
         stream->kernel->look(&aim, first, end, looks, &statistics);
         add_looks(&stream->batches[item], looks, end - first, aim.by_display);
+        if (stream->targets)
+            add_targets(stream->targets + (size_t)item * (size_t)aim.target_count, looks,
+                        end - first);
     }
 }
 
@@ -206,7 +221,7 @@ static void scale_batches(Batch *batches, const double *scale, int displays)
 static Stream stream_start(const ProbeAim *aim, const ReadingTools *tools, Arena *arena)
 {
     return (Stream){*aim, tools->kernel, tools->threads, 0, 0,
-                    ARENA_NEW(arena, Batch, BATCHES)};
+                    ARENA_NEW(arena, Batch, BATCHES), NULL};
 }
 
 /* All of its paths, up to so many. */
@@ -450,4 +465,71 @@ bool reading_scaled(const ProbeAim *aim, const ReadingGoal *goal, const double *
     reading.seconds = parts->seconds;
     *out = reading;
     return true;
+}
+
+/* ---- target by target -------------------------------------------------------------------- */
+
+static size_t targets_bytes(const ProbeAim *aim)
+{
+    return (size_t)aim->target_count * sizeof(TargetLight);
+}
+
+static void trace_field(const ProbeAim *aim, const FieldAsk *ask, const ReadingTools *tools,
+                        Batch *batches, TargetLight *targets, Arena scratch)
+{
+    ReadingGoal goal = {.known = 0};
+    size_t      count = (size_t)aim->target_count;
+    Stream      stream = stream_start(aim, tools, &scratch);
+    stream.aim.by_display = ask->is_shared;
+    stream.targets = ARENA_NEW(&scratch, TargetLight, BATCHES * count);
+    stream_read(&stream, ask->paths, &goal);
+    for (size_t i = 0; i < BATCHES * count; i++) {
+        TargetLight *to = &targets[i % count];
+        to->paths += stream.targets[i].paths;
+        to->sum += stream.targets[i].sum;
+        to->squares += stream.targets[i].squares;
+    }
+    memcpy(batches, stream.batches, BATCHES * sizeof *batches);
+}
+
+static JournalKey field_key(const ProbeAim *aim, const FieldAsk *ask,
+                            const ReadingTools *tools, Arena scratch)
+{
+    double   numbers[] = {(double)ask->paths, ask->is_shared};
+    Question question = {.base = tools->base, .kind = "field", .numbers = numbers,
+                         .number_count = COUNT_OF(numbers)};
+    return question_key(&question, aim, scratch);
+}
+
+/* Kept: the targets, then the batches. */
+static void find_field(const ProbeAim *aim, const FieldAsk *ask, const ReadingTools *tools,
+                       Batch *batches, TargetLight *targets, Arena scratch)
+{
+    int            displays = ask->is_shared ? displays_of(aim) : 0;
+    size_t         bytes = targets_bytes(aim) + BATCHES * batch_bytes(displays);
+    unsigned char *kept = ARENA_NEW(&scratch, unsigned char, bytes);
+    unsigned char *to = kept + targets_bytes(aim);
+    const unsigned char *from = to;
+    JournalKey     key = field_key(aim, ask, tools, scratch);
+    if (journal_find(tools->journal, key, kept, bytes)) {
+        memcpy(targets, kept, targets_bytes(aim));
+        unpack_batches(&from, displays, batches);
+        return;
+    }
+    trace_field(aim, ask, tools, batches, targets, scratch);
+    memcpy(kept, targets, targets_bytes(aim));
+    pack_batches(batches, displays, &to);
+    journal_add(tools->journal, key, kept, bytes);
+}
+
+Reading reading_field(const ProbeAim *aim, const FieldAsk *asked, const ReadingTools *tools,
+                      TargetLight *targets, Arena scratch)
+{
+    FieldAsk ask = *asked;
+    Batch   *batches = ARENA_NEW(&scratch, Batch, BATCHES);
+    ask.is_shared = ask.is_shared && displays_of(aim) <= PROBE_DISPLAYS;
+    if (tools->journal) find_field(aim, &ask, tools, batches, targets, scratch);
+    else trace_field(aim, &ask, tools, batches, targets, scratch);
+    if (ask.scale) scale_batches(batches, ask.scale, displays_of(aim));
+    return reading_of(batches, (int)(ask.paths / BATCHES), ask.known);
 }

@@ -17,6 +17,7 @@
 #include "base/arena.h"
 #include "kernel/kernel.h"
 #include "review/keep/journal.h"
+#include "review/light/light_parts.h"
 #include "base/confidence.h"
 
 /* A decision that depends on a reading, such as a verdict. */
@@ -87,3 +88,16 @@ Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const Reading
  * known, or takes more paths. */
 bool reading_scaled(const ProbeAim *aim, const ReadingGoal *goal, const double *scale,
                     const ReadingTools *tools, Arena scratch, Reading *out);
+
+/* A reading that also tells which target sends how much: to find what is read then. */
+typedef struct FieldAsk {
+    long          paths;     /* as many, whatever they find: a multiple of READING_BATCHES */
+    double        known;     /* as a goal's */
+    bool          is_shared; /* displays may be scaled, as in reading_scaled */
+    const double *scale;     /* [display]; NULL: by the light that is there */
+} FieldAsk;
+
+/* targets: [aim->target_count] 0 before; what is known and scaled is not in them. Of a scene
+ * with more than PROBE_DISPLAYS displays nothing may be scaled. */
+Reading reading_field(const ProbeAim *aim, const FieldAsk *ask, const ReadingTools *tools,
+                      TargetLight *targets, Arena scratch);

@@ -4,7 +4,7 @@
  * The light that an eye sees by way of a surface is linear in what shines from outside. Paths
  * from the eye ask every triangle of a sphere (probe.h) once; a sky is then a sum over
  * triangles, a sun what its direction gets, and no path is traced again. The first vertex's
- * own answer to a sun is exact for any direction (response_suns); what comes by further
+ * own answer to a sun is exact for any direction (response_suns.h); what comes by further
  * vertices is a mean over the triangle and those about it, as wide as the triangles are.
  *
  * Approximate  glints by way of a further mirror are spread over that width.
@@ -78,14 +78,3 @@ double response_without(const Response *response, int group, double sum, double 
  * two groups take nothing is known: all numbers. */
 MeanInterval response_interval(const Response *response, double reading,
                                const double without[RESPONSE_GROUPS]);
-
-/* Paths that find what an aim's mirror sends of a sun of that radius (radians) within 1 %,
- * wherever in its patches the sun's image lies; of patches that fill more than 0.3 sr, and of a
- * convex display, less closely. A target without a patch is in the image or not. */
-#define RESPONSE_MIRROR_ERROR 0.01
-int response_mirror_paths(const ProbeAim *aim, float radius);
-
-/* Shares of the first vertex for suns, exact but for the mean over options' paths: [sun][band],
- * from the arena. */
-const float *response_suns(const ProbeAim *aim, const ResponseOptions *options,
-                           const ProbeSuns *suns, Arena *arena);

@@ -171,7 +171,7 @@ bool setup_relight(Setup *setup, Arena *arena, Error *err)
 
 static void read_sensor(Setup *setup, const ReviewLevel *level, Arena scratch)
 {
-    LitPoint    head = {vec3_from_doubles(level->position_m),
+    LitPoint    head = {scene_from_world(setup->scene->origin, level->position_m),
                         vec3_from_doubles(level->normal), false};
     ProbeAim    aim = {.context = &setup->context, .meter = &head,
                        .seed = review_seed(setup->request, SENSOR_SEED)};
@@ -338,6 +338,24 @@ Reading setup_ask(const Setup *setup, const ProbeAim *aim, const ReadingGoal *as
     lit.context.without_mirrored_sun = aim->context->without_mirrored_sun;
     own.context = &lit.context;
     reading = reading_take(&own, &goal, &setup->tools, scratch);
+    setup_unlight(setup);
+    return reading;
+}
+
+Reading setup_field(const Setup *setup, const ProbeAim *aim, long paths, double known,
+                    TargetLight *targets, Arena scratch)
+{
+    const SetupOther *other = setup->other;
+    bool     is_few = setup->scene->display_count <= PROBE_DISPLAYS;
+    FieldAsk ask = {paths, known, setup->is_shared || other, other ? other->scale : NULL};
+    if (!other || (other->scale && is_few))
+        return reading_field(aim, &ask, &setup->tools, targets, scratch);
+    ProbeAim own = *aim;
+    Setup    lit = setup_lit(setup);
+    lit.context.without_mirrored_sun = aim->context->without_mirrored_sun;
+    own.context = &lit.context;
+    ask.scale = NULL;
+    Reading reading = reading_field(&own, &ask, &setup->tools, targets, scratch);
     setup_unlight(setup);
     return reading;
 }

@@ -117,6 +117,11 @@ Setup setup_beside(const Setup *of, const ReviewRequest *request, Arena *arena, 
 Reading setup_ask(const Setup *setup, const ProbeAim *aim, const ReadingGoal *goal,
                   Arena scratch);
 
+/* reading_field of such an aim, by so many paths; targets are those of the setup that it
+ * stands beside, whose levels do not move the worst part. */
+Reading setup_field(const Setup *setup, const ProbeAim *aim, long paths, double known,
+                    TargetLight *targets, Arena scratch);
+
 /* Lights a setup beside another for its own levels, for who asks for more than readings; until
  * setup_unlight no other may be asked. */
 Setup setup_lit(const Setup *setup);

@@ -137,6 +137,15 @@ static void add_mesh(const RayDocument *to, const CaseCause *cause, const RayNum
         json_figure(cause->contrast_without)));
 }
 
+/* A scene far off has its origin there (scene/scene.h). */
+static void move_nodes(json_t *nodes, const double origin_m[3])
+{
+    if (origin_m[0] == 0 && origin_m[1] == 0 && origin_m[2] == 0) return;
+    for (size_t i = 0; i < json_array_size(nodes); i++)
+        json_object_set_new(json_array_get(nodes, i), "translation",
+                            json_pack("[f,f,f]", origin_m[0], origin_m[1], origin_m[2]));
+}
+
 /* uri NULL: the binary form's own chunk. */
 static json_t *document_of(const ReviewCase *c, RayNumbers *numbers, Arena *arena)
 {
@@ -149,6 +158,7 @@ static json_t *document_of(const ReviewCase *c, RayNumbers *numbers, Arena *aren
         json_array_append_new(scene_nodes,
                               json_integer((json_int_t)json_array_size(to.nodes) - 1));
     }
+    move_nodes(to.nodes, c->origin_m);
     json_int_t points = (json_int_t)(12 * numbers->point_count);
     json_int_t ends = (json_int_t)(4 * numbers->end_count);
     return json_pack(

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* ray_file.h -- the rays of a case's causes as glTF 2.0: lines that any viewer shows beside the
- * scene, in its metres.
+ * scene, in its metres: numbers are the scene's coordinates, nodes stand at its origin.
  *
  * Each cause is a mesh of its own (mode LINES), with its own colour, or its light's, and its
  * chain as the node's name; `extras` of the node hold its share, its cd/m^2 and the contrast

@@ -6,7 +6,7 @@
    map the upper two bits are the verdict, the others 1 + 16382 ln(contrast) / ln(10000), 0 for
    none; of a calendar 1 + 10000 times the share, 0 for none. */
 (function(){
-var VERDICTS=['passes','fails','too close to call','not visible'];
+var VERDICTS=['passes','fails','too close to call','cannot be judged'];
 function cells(text){
   var bytes=atob(text),out=[];
   for(var i=0;i<bytes.length;i+=2)out.push(bytes.charCodeAt(i)+256*bytes.charCodeAt(i+1));

@@ -36,6 +36,7 @@ const char *review_summary_name(const char *symbol, Arena *arena)
 /* Words before the worst case; "": none. */
 static const char *answer_words(const Review *review, const ReviewCase *worst)
 {
+    if (!review_case_counts(worst)) return "nothing that must be read was asked; ";
     if (!review->pass) return worst->verdict == VERDICT_PASS ? "the worst is " : "";
     return worst->verdict == VERDICT_PASS ? "closest to its limit is "
                                           : "nothing fails; the worst is ";
@@ -55,6 +56,8 @@ static void add_line(Text *html, const Review *review, const ReviewCase *worst, 
     text_add(html, ": ");
     escape_markup(html, words_reason(worst, arena));
     text_add(html, ".</h1></div>\n");
+    page_element(html, "p class=\"sub rests\"",
+                 arena_format(arena, "Rests on: %s.", words_rests_on(review, arena)));
 }
 
 /* ---- every symbol and eye --------------------------------------------------------------- */
@@ -86,23 +89,11 @@ static const ReviewCase *worst_of(const Grid *grid, const char *symbol, const ch
     return NULL;
 }
 
-/* A case that fails by its height or stroke names that, not its contrast. */
-static const char *found_words(const ReviewCase *c, Arena *arena)
-{
-    const LimitVerdict *limit = case_worst_limit(c);
-    if (c->verdict == VERDICT_NOT_VISIBLE) return "not visible";
-    if (!limit || words_same(limit->kind, "contrast_ratio")) return words_contrast(c, arena);
-    const char *found = words_found(limit, arena);
-    if (words_same(limit->kind, "character_height"))
-        return arena_format(arena, "%s high", found);
-    return arena_format(arena, "%s %s", limit->name ? limit->name : "", found);
-}
-
 static const char *below_words(const ReviewCase *c, Arena *arena)
 {
     const LimitVerdict *limit = case_worst_limit(c);
     const char *condition = c->condition ? c->condition : "?";
-    if (!limit || c->verdict == VERDICT_NOT_VISIBLE) return condition;
+    if (!limit || isnan(limit->margin)) return condition;
     return arena_format(arena, "%s · %s", words_margin(limit->margin, arena), condition);
 }
 
@@ -115,7 +106,7 @@ static void add_cell(Text *html, const Review *review, const ReviewCase *c, Aren
     review_card_begin_cell(html, review, c, arena);
     text_add(html, "<b>");
     escape_markup(html, arena_format(arena, "%s %s", words_mark(c->verdict),
-                                     found_words(c, arena)));
+                                     words_judged(c, arena)));
     text_add(html, "</b>");
     page_element(html, "small", below_words(c, arena));
     text_add(html, "</a></td>");
@@ -150,8 +141,8 @@ static void add_rows(Text *html, const Review *review, const Grid *grid, int row
 static const char *count_words(const Review *review, Arena *arena)
 {
     static const char *const NAMES[4] = {"pass", "fail", "too close to call",
-                                         "cannot be seen"};
-    static const Verdict ORDER[4] = {VERDICT_FAIL, VERDICT_NOT_VISIBLE, VERDICT_TOO_CLOSE,
+                                         "cannot be judged"};
+    static const Verdict ORDER[4] = {VERDICT_FAIL, VERDICT_UNJUDGED, VERDICT_TOO_CLOSE,
                                      VERDICT_PASS};
     ReviewCounts counts = review_count(review);
     Text         text = {.arena = arena};
@@ -162,6 +153,9 @@ static const char *count_words(const Review *review, Arena *arena)
         text_format(&text, "%s %d %s", before, counts.of[ORDER[i]], NAMES[ORDER[i]]);
         before = ",";
     }
+    if (counts.not_asked)
+        text_format(&text, "%s %d that do%s not count", before, counts.not_asked,
+                    counts.not_asked == 1 ? "es" : "");
     return text.data;
 }
 
@@ -229,20 +223,14 @@ static void add_why(Text *html, const ReviewAnswer *answer, const ReviewCase *c,
     if (without[0]) page_fact(html, "No data", without);
 }
 
-/* A remedy must raise the contrast above its interval. */
-static bool mends(const ReviewCase *c, const CaseRemedy *r)
-{
-    return r->contrast_ratio > c->contrast_high;
-}
-
-/* The one that gives most contrast first. */
+/* The one that leads farthest first. */
 static const CaseRemedy *next_mend(const ReviewCase *c, const bool *is_listed)
 {
     const CaseRemedy *best = NULL;
     for (int i = 0; i < c->remedy_count; i++) {
         const CaseRemedy *r = &c->remedies[i];
-        bool is_more = !best || !(best->contrast_ratio >= r->contrast_ratio);
-        if (!is_listed[i] && mends(c, r) && is_more) best = r;
+        bool is_more = !best || !(best->then.margin >= r->then.margin);
+        if (!is_listed[i] && is_more) best = r;
     }
     return best;
 }
@@ -277,7 +265,7 @@ static void add_mends(Text *html, const Review *review, const ReviewCase *c, Are
         if (!r) return;
         is_listed[r - c->remedies] = true;
         add_mend(html, &listed,
-                 arena_format(arena, "%s: %s", r->what, words_ratio(r->contrast_ratio, arena)));
+                 arena_format(arena, "%s: %s", r->what, words_remedy(r, arena)));
     }
 }
 
@@ -308,7 +296,7 @@ static bool add_worst(Text *html, const ReviewAnswer *answer, const ReviewCase *
     const ReviewPicture *frame = frame_of(answer, c);
     text_add(html, "<section class=\"worst\" aria-label=\"The worst case\">\n");
     if (frame && !add_frame(html, frame, *arena, err)) return false;
-    if (!frame && c->verdict != VERDICT_NOT_VISIBLE) review_bar_add_luminances(html, c, arena);
+    if (!frame && c->verdict != VERDICT_UNJUDGED) review_bar_add_luminances(html, c, arena);
     text_add(html, "<dl class=\"facts\">\n");
     add_when(html, answer, c, arena);
     add_why(html, answer, c, arena);

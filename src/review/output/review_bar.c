@@ -5,30 +5,30 @@
 
 #include "base/mathd.h"
 #include "review/output/review_words.h"
+#include "review/quantity.h"
 #include "text/text.h"
 
 /* ---- margins and shares ----------------------------------------------------------------- */
 
-#define HALF_WIDTH 44.0 /* pixels from the limit to half of it, and to twice */
+#define HALF_WIDTH 44.0 /* pixels from the limit to a margin of -1, and to 1 */
 
-/* From the left end; ratio: to the limit. */
-static double margin_place(double ratio)
+/* From the left end. */
+static double margin_place(double margin)
 {
-    double octaves = ratio > 0 ? log2_d(ratio) : -1;
-    return HALF_WIDTH * (1 + fmax(-1, fmin(1, octaves)));
+    return HALF_WIDTH * (1 + fmax(-1, fmin(1, margin)));
 }
 
-static double to_limit(const LimitVerdict *limit, double found)
+static double margin_at(const LimitVerdict *limit, double found)
 {
-    return limit->is_upper ? limit->value / found : found / limit->value;
+    return quantity_margin(limit_kind_named(limit->kind), limit->is_upper, found, limit->value);
 }
 
 void review_bar_add_margin(Text *html, const LimitVerdict *limit)
 {
     if (!isfinite(limit->margin)) return;
-    double x = margin_place(1 + limit->margin);
-    double low = margin_place(to_limit(limit, limit->low));
-    double high = margin_place(to_limit(limit, limit->high));
+    double x = margin_place(limit->margin);
+    double low = margin_place(margin_at(limit, limit->low));
+    double high = margin_place(margin_at(limit, limit->high));
     text_format(html, "<svg class=\"margin\" width=\"%.0f\" height=\"12\" aria-hidden=\"true\">"
                 "<rect class=\"%s\" x=\"%.1f\" y=\"2\" width=\"%.1f\" height=\"8\"/>",
                 2 * HALF_WIDTH, words_class(limit->verdict),
@@ -59,6 +59,7 @@ typedef struct Bars {
     double  dark_sum;  /* that contrast is taken of */
     double  most;      /* the end of the scale */
     double  wanted;    /* contrast ratio; NaN: none that can be drawn */
+    const char *words; /* the limit that it stands for */
 } Bars;
 
 static double or_zero(double value)
@@ -71,16 +72,10 @@ static bool is_close(double a, double b)
     return fabs(a - b) <= 1e-4 * fabs(b);
 }
 
-/* The contrast ratio that a limit stands for, by how its figure follows from the case's: the
- * ratio R itself, Weber's R - 1 or Michelson's (R - 1) / (R + 1). NaN: by none of these. */
-static double ratio_of_limit(const LimitVerdict *limit, double contrast)
+/* Is the limit's figure made of this contrast ratio? */
+static bool is_of(const LimitVerdict *limit, double ratio)
 {
-    double weber = contrast - 1, michelson = (contrast - 1) / (contrast + 1);
-    if (is_close(limit->found, contrast)) return limit->value;
-    if (is_close(limit->found, weber)) return limit->value + 1;
-    if (is_close(limit->found, michelson) && limit->value < 1)
-        return (1 + limit->value) / (1 - limit->value);
-    return NAN;
+    return is_close(limit->found, contrast_from_ratio(limit_kind_named(limit->kind), ratio));
 }
 
 static double sum_of(const BarPart *parts, int count)
@@ -104,7 +99,7 @@ static void stack(const ReviewCase *c, double emitted, bool has_veil, BarPart ou
     for (int i = 0; i < PARTS - 1; i++) out[has_veil + i] = parts[i];
 }
 
-static Bars make_bars(const ReviewCase *c)
+static Bars make_bars(const ReviewCase *c, Arena *arena)
 {
     const CaseLuminances *l = &c->luminance_cd_m2;
     double bright = fmax(or_zero(l->foreground), or_zero(l->background));
@@ -113,11 +108,14 @@ static Bars make_bars(const ReviewCase *c)
     Bars   bars = {.wanted = NAN};
     if (c->limit_id >= 0 && c->limit_id < c->limit_count) {
         const LimitVerdict *limit = &c->limits[c->limit_id];
-        bars.wanted = ratio_of_limit(limit, c->contrast_ratio);
-        if (isnan(bars.wanted)) {
-            bars.wanted = ratio_of_limit(limit, c->contrast_with_veil);
-            has_veil = isfinite(bars.wanted);
-        }
+        LimitKind           kind = limit_kind_named(limit->kind);
+        has_veil = !is_of(limit, c->contrast_ratio) && is_of(limit, c->contrast_with_veil);
+        if (kind < LIMIT_KIND_COUNT && limit_kinds[kind].is_contrast)
+            bars.wanted = ratio_from_contrast(kind, limit->value);
+        bars.words = kind == LIMIT_CONTRAST_RATIO
+                         ? words_limit(limit, arena)
+                         : arena_format(arena, "%s %s", words_kind(limit),
+                                        words_limit(limit, arena));
     }
     stack(c, bright, has_veil, bars.bright);
     stack(c, dark, has_veil, bars.dark);
@@ -139,14 +137,15 @@ static void add_bar(Text *html, const BarPart *parts, double most, int y)
     }
 }
 
-static void add_mark(Text *html, const Bars *bars, Arena *arena)
+static void add_mark(Text *html, const Bars *bars)
 {
     double x = 100 * bars->wanted * bars->dark_sum / bars->most;
     if (!isfinite(x)) return;
     text_format(html, "<rect class=\"mark\" x=\"%.4f%%\" y=\"0\" width=\"2\" height=\"38\"/>"
                 "<text x=\"%.2f%%\" y=\"11\" dx=\"%d\" text-anchor=\"%s\">", x, x,
                 x > 50 ? -5 : 7, x > 50 ? "end" : "start");
-    text_format(html, "%s : 1 needs this much</text>", words_number(bars->wanted, arena));
+    escape_markup(html, bars->words);
+    text_add(html, " needs this much</text>");
 }
 
 static void add_figure(Text *html, const char *kind, const char *name, double cd_m2,
@@ -171,14 +170,14 @@ static void add_figures(Text *html, const CaseLuminances *l, Arena *arena)
 
 void review_bar_add_luminances(Text *html, const ReviewCase *c, Arena *arena)
 {
-    Bars bars = make_bars(c);
+    Bars bars = make_bars(c, arena);
     text_add(html, "<h4>What reaches the eye, in cd/m²</h4>\n");
     if (bars.most > 0 && isfinite(bars.most)) {
         text_add(html, "<div class=\"bars\"><div>bright part</div><div>dark part</div>"
                  "<svg height=\"58\" aria-hidden=\"true\">");
         add_bar(html, bars.bright, bars.most, 18);
         add_bar(html, bars.dark, bars.most, 42);
-        add_mark(html, &bars, arena);
+        add_mark(html, &bars);
         text_add(html, "</svg></div>\n");
     }
     add_figures(html, &c->luminance_cd_m2, arena);

@@ -36,7 +36,7 @@ static void add_summary(Text *html, const ReviewCase *c, Arena *arena)
     escape_markup(html, arena_format(arena, "seen by %s, %s", c->eye ? c->eye : "?",
                                      c->condition ? c->condition : "?"));
     text_format(html, "</span> <span class=\"ratio\">%s</span></summary>\n",
-                words_contrast(c, arena));
+                words_judged(c, arena));
 }
 
 /* ---- figures ---------------------------------------------------------------------------- */
@@ -120,7 +120,7 @@ static void add_limit(Text *html, const LimitVerdict *l, Arena *arena)
     page_cell(html, "", l->name);
     page_cell(html, "n", words_found(l, arena));
     page_cell(html, "n", words_interval(l->low, l->high, arena));
-    page_cell(html, "n", words_wanted(l, arena));
+    page_cell(html, "n", words_required(l, arena));
     page_cell(html, kind, words_margin(l->margin, arena));
     text_add(html, "<td>");
     review_bar_add_margin(html, l);
@@ -135,7 +135,7 @@ static void add_limits(Text *html, const ReviewCase *c, Arena *arena)
 {
     static const PageColumn COLUMNS[] = {
         {"Limit", false, NULL}, {"found", true, NULL}, {"95 % interval", true, NULL},
-        {"wanted", true, NULL}, {"margin", true, NULL}, {"", false, NULL},
+        {"required", true, NULL}, {"margin", true, NULL}, {"", false, NULL},
         {"", false, NULL}};
     Text missing = {.arena = arena};
     int  found = 0;
@@ -164,10 +164,11 @@ static void add_chain(Text *html, const ReviewCard *card, int i, Arena *arena)
     if (has_rays) text_add(html, "</a>");
 }
 
-static const char *without_words(const CaseCause *cause, Arena *arena)
+static const char *without_words(const ReviewCase *c, const CaseCause *cause, Arena *arena)
 {
     if (isnan(cause->contrast_without)) return "";
-    return arena_format(arena, "; without it %s", words_ratio(cause->contrast_without, arena));
+    return arena_format(arena, "; without it %s",
+                        words_ratio_as(c, cause->contrast_without, arena));
 }
 
 static void add_cause(Text *html, const ReviewCard *card, int i, Arena *arena)
@@ -185,7 +186,7 @@ static void add_cause(Text *html, const ReviewCard *card, int i, Arena *arena)
                                                           arena),
                                              words_within(cause->high, cause->low, cause->high,
                                                           arena),
-                                             without_words(cause, arena)));
+                                             without_words(card->of, cause, arena)));
     text_add(html, "</li>\n");
 }
 
@@ -244,18 +245,16 @@ static void add_causes(Text *html, const ReviewCard *card, Arena *arena)
 /* The remedy's effect, behind its own words. */
 static const char *remedy_result(const CaseRemedy *r, Arena *arena)
 {
-    const char *ratio = arena_format(arena, "contrast %s",
-                                     words_ratio(r->contrast_ratio, arena));
-    const char *level = arena_format(arena, "brightness %s of what was measured",
-                                     words_share(r->level, arena));
-    if (isnan(r->level)) return isnan(r->contrast_ratio) ? "" : ratio;
-    return isnan(r->contrast_ratio) ? level : arena_format(arena, "%s, %s", ratio, level);
+    const char *then = words_remedy(r, arena);
+    if (isnan(r->level)) return then;
+    return arena_format(arena, "%s; brightness %s of what was measured", then,
+                        words_share(r->level, arena));
 }
 
 static void add_remedies(Text *html, const ReviewCase *c, Arena *arena)
 {
     if (c->remedy_count == 0) return;
-    text_add(html, "<div><h4>What would mend it</h4>\n<ul class=\"remedies\">\n");
+    text_add(html, "<div><h4>What would change it</h4>\n<ul class=\"remedies\">\n");
     for (int i = 0; i < c->remedy_count; i++) {
         text_add(html, "<li>");
         escape_markup(html, c->remedies[i].what);
@@ -417,7 +416,7 @@ bool review_card_add(Text *html, const ReviewCard *card, Arena *arena, Error *er
     page_element(html, "p class=\"reason\"", arena_format(arena, "%s.",
                                                            words_reason(c, arena)));
     text_add(html, "<div class=\"two\">\n");
-    if (c->verdict != VERDICT_NOT_VISIBLE) {
+    if (c->verdict != VERDICT_UNJUDGED) {
         text_add(html, "<div>");
         review_bar_add_luminances(html, c, arena);
         text_add(html, "</div>\n");

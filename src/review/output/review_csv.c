@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "review/output/review_decide.h"
 #include "text/text.h"
 
 /* ---- cells ------------------------------------------------------------------------------- */
@@ -52,7 +53,6 @@ static void add_glare(Text *csv, const CaseGlare *g)
                                 (double)g->source_count, g->source_lx}, 11);
     add_text(csv, g->none);
     if (isfinite(g->smallest_sr)) text_format(csv, "%.6g", g->smallest_sr);
-    text_add(csv, "\r\n");
 }
 
 static const char HEADER[] =
@@ -61,17 +61,29 @@ static const char HEADER[] =
     "contrast_low,contrast_high,contrast_with_veil,height_arcmin,jnd,visible_share,level,"
     "display_lx,visibility,dgp,ugr,eye_failed_share,limit_name,limit_kind,limit_unit,"
     "limit_source,limit_value,margin,first_cause,first_cause_share,verdict,"
-    "reflected_low_cd_m2,reflected_high_cd_m2,hidden_by,hidden_by_share," GLARE_COLUMNS "\r\n";
+    "reflected_low_cd_m2,reflected_high_cd_m2,hidden_by,hidden_by_share," GLARE_COLUMNS ",limit_found,limit_low,"
+    "limit_high,limit_bound,stroke_ratio,reason\r\n";
 
 static void add_limit(Text *csv, const ReviewCase *c)
 {
-    static const LimitVerdict NONE = {.value = NAN};
-    bool has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
-    const LimitVerdict *limit = has_limit ? &c->limits[c->limit_id] : &NONE;
+    static const LimitVerdict NONE = {.value = NAN, .margin = NAN};
+    const LimitVerdict *worst = case_worst_limit(c), *limit = worst ? worst : &NONE;
     add_texts(csv, (const char *const[]){limit->name, limit->kind, limit->unit, limit->source},
               4);
     add_number(csv, limit->value);
-    add_number(csv, c->margin);
+    add_number(csv, limit->margin);
+}
+
+/* What was found for that limit, and why there is no verdict. */
+static void add_found(Text *csv, const ReviewCase *c)
+{
+    static const LimitVerdict NONE = {.found = NAN, .low = NAN, .high = NAN};
+    const LimitVerdict *worst = case_worst_limit(c), *limit = worst ? worst : &NONE;
+    add_numbers(csv, (double[]){limit->found, limit->low, limit->high}, 3);
+    add_text(csv, !worst ? NULL : worst->is_upper ? "most" : "least");
+    add_number(csv, c->stroke_ratio);
+    text_add(csv, c->unjudged ? unjudged_names[c->unjudged] : "");
+    text_add(csv, "\r\n");
 }
 
 /* The chain's links, joined by " > ". */
@@ -107,6 +119,8 @@ static void add_case(Text *csv, const ReviewCase *c, Arena scratch)
     add_text(csv, c->hider_count ? c->hiders[0].what : NULL);
     add_number(csv, c->hider_count ? c->hiders[0].share : NAN);
     add_glare(csv, &c->glare);
+    text_add(csv, ",");
+    add_found(csv, c);
 }
 
 typedef void AddRows(Text *csv, const Review *review, Arena scratch);
@@ -185,6 +199,7 @@ static void add_gaze(Text *csv, const GazeFinding *g)
                                 g->contrast_range.high, g->glare.dgp, g->glare.ugr,
                                 g->contrast_left}, 6);
     add_glare(csv, &g->glare);
+    text_add(csv, "\r\n");
 }
 
 static void add_gazes(Text *csv, const Review *review, Arena scratch)

@@ -5,6 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/count.h"
+#include "review/quantity.h"
+
 Verdict sweep_verdict(const ReviewSweep *sweep)
 {
     return sweep->worst.verdict;
@@ -31,24 +34,46 @@ int review_case_count(const Review *review)
 ReviewCounts review_count(const Review *review)
 {
     ReviewCounts counts = {.total = review_case_count(review)};
-    for (int i = 0; i < counts.total; i++) counts.of[review_case_at(review, i)->verdict]++;
+    for (int i = 0; i < counts.total; i++) {
+        const ReviewCase *c = review_case_at(review, i);
+        if (review_case_counts(c)) counts.of[c->verdict]++;
+        else counts.not_asked++;
+    }
     return counts;
+}
+
+/* Of cases of which none counts: does each ask for something that need not be seen, or nothing?
+ * Where no limit applies nothing is known of it. */
+static bool has_optional(const Review *review)
+{
+    for (int i = 0; i < review_case_count(review); i++)
+        if (review_case_at(review, i)->unjudged == UNJUDGED_HIDDEN) return true;
+    return false;
+}
+
+/* The worst of all that count. */
+static Verdict found_verdict(const Review *review)
+{
+    static const Verdict ORDER[] = {VERDICT_FAIL, VERDICT_UNJUDGED, VERDICT_TOO_CLOSE};
+    ReviewCounts counts = review_count(review);
+    for (int i = 0; i < COUNT_OF(ORDER); i++)
+        if (counts.of[ORDER[i]]) return ORDER[i];
+    bool is_nothing = counts.total > 0 && counts.not_asked == counts.total;
+    return is_nothing && !has_optional(review) ? VERDICT_UNJUDGED : VERDICT_PASS;
 }
 
 Verdict review_verdict(const Review *review)
 {
-    if (!review->pass) return VERDICT_FAIL;
-    return review_count(review).of[VERDICT_TOO_CLOSE] ? VERDICT_TOO_CLOSE : VERDICT_PASS;
+    Verdict found = found_verdict(review);
+    return review->pass || found == VERDICT_UNJUDGED ? found : VERDICT_FAIL;
 }
 
 bool review_decide(Review *review)
 {
-    ReviewCounts counts = review_count(review);
-    int allowed = review->is_strict
-                      ? counts.of[VERDICT_PASS]
-                      : counts.total - counts.of[VERDICT_FAIL];
-    bool is_described = !review->is_strict || !review->without_data_count;
-    review->pass = allowed == counts.total && is_described;
+    Verdict found = found_verdict(review);
+    bool    is_clear = found == VERDICT_PASS && !review->without_data_count;
+    review->pass = review->is_strict ? is_clear
+                                     : found == VERDICT_PASS || found == VERDICT_TOO_CLOSE;
     return review->pass;
 }
 
@@ -60,17 +85,24 @@ static bool is_less(double a, double b)
     return a < b || (isnan(b) && !isnan(a));
 }
 
-/* Limits that are not counted (advice, what the program does not measure) may have a verdict
- * that is worse than the case's. */
+/* Advice, and what is not measured, or of a shape without strokes cannot be. */
+static bool is_listed_only(const LimitVerdict *limit)
+{
+    LimitKind kind = limit_kind_named(limit->kind);
+    bool may_be_missing = kind == LIMIT_STROKE_RATIO || kind == LIMIT_WIDTH_RATIO;
+    return limit->is_advice || (may_be_missing && isnan(limit->found));
+}
+
 const LimitVerdict *case_worst_limit(const ReviewCase *c)
 {
     const LimitVerdict *worst = NULL;
+    bool has_contrast = c->limit_id >= 0 && c->limit_id < c->limit_count;
+    if (c->verdict == VERDICT_PASS && has_contrast) return &c->limits[c->limit_id];
     for (int i = 0; i < c->limit_count; i++) {
         const LimitVerdict *limit = &c->limits[i];
-        if (limit->is_advice || limit->verdict != c->verdict) continue;
+        if (is_listed_only(limit) || limit->verdict != c->verdict) continue;
         if (!worst || is_less(limit->margin, worst->margin)) worst = limit;
     }
-    bool has_contrast = c->limit_id >= 0 && c->limit_id < c->limit_count;
     return worst || !has_contrast ? worst : &c->limits[c->limit_id];
 }
 
@@ -85,9 +117,14 @@ typedef struct Ranked {
     int               place; /* in the review */
 } Ranked;
 
+static int rank_of(const ReviewCase *c)
+{
+    return review_case_counts(c) ? verdict_rank(c->verdict) : -1;
+}
+
 static bool is_worse(const ReviewCase *a, const ReviewCase *b)
 {
-    int more = verdict_rank(a->verdict) - verdict_rank(b->verdict);
+    int more = rank_of(a) - rank_of(b);
     return more > 0 || (more == 0 && is_less(worst_margin(a), worst_margin(b)));
 }
 
@@ -144,6 +181,20 @@ const ReviewSweep *review_sweep_named(const Review *review, const char *conditio
             return s;
     }
     return NULL;
+}
+
+const ReviewCase **review_displays(const Review *review, int *count, Arena *arena)
+{
+    int all = review_case_count(review);
+    const ReviewCase **list = ARENA_NEW(arena, const ReviewCase *, all);
+    *count = 0;
+    for (int i = 0; i < all; i++) {
+        const ReviewCase *c = review_case_at(review, i);
+        int k = 0;
+        while (k < *count && !is_name(list[k]->display, c->display)) k++;
+        if (k == *count) list[(*count)++] = c;
+    }
+    return list;
 }
 
 const ReviewCase *review_case_like(const Review *review, const ReviewCase *like)

@@ -7,13 +7,15 @@
 #include "base/arena.h"
 #include "review/verdict.h"
 
-/* Sets review->pass, and returns it: nothing fails, neither a case nor a sweep; where the
- * review is strict nothing is too close or not visible either. */
+/* Sets review->pass, and returns it: of the cases and sweeps that count (review_case_counts)
+ * none fails, and each could be judged; where the review is strict none is too close either,
+ * and no material is without data. */
 bool review_decide(Review *review);
 
 /* Cases and sweeps by their verdict. */
 typedef struct ReviewCounts {
-    int of[4]; /* by Verdict */
+    int of[4];     /* by Verdict, those that count */
+    int not_asked; /* those that do not */
     int total;
 } ReviewCounts;
 
@@ -35,21 +37,29 @@ const ReviewSweep *review_sweep_named(const Review *review, const char *conditio
 /* Its worst's, which fresh paths decide: steps may fail where that does not. */
 Verdict sweep_verdict(const ReviewSweep *sweep);
 
-/* The whole review's: fail; too close, where nothing fails but something is; pass, also where
- * something is not visible. A strict review that does not pass fails. */
+/* The whole review's: the worst of those that count. One of cases of which none counts passes
+ * where some need not be seen; where no limit applies to any it cannot be judged. A strict
+ * review that does not pass fails, unless something cannot be judged and nothing fails. */
 Verdict review_verdict(const Review *review);
 
 /* The limit that made the case's verdict: of those with that verdict the one with the least
- * margin; else that of the contrast. NULL: no limit counts. */
+ * margin. Where it passes, or there is none, that of the contrast: a height or a stroke is the
+ * same under every light, and says nothing there. NULL: no limit counts. Whatever is printed of a case
+ * beside its verdict is this limit's: figure, interval, margin. */
 const LimitVerdict *case_worst_limit(const ReviewCase *c);
 
-/* All cases and the sweeps' worst, the worst first: by verdict (fail, not visible, too close; a
- * sweep by its own), then by the margin of the worst limit, else in the review's order.
+/* All cases and the sweeps' worst, the worst first: by verdict (fail, cannot be judged, too
+ * close, pass; last what does not count), then by the margin of the worst limit, else in the
+ * review's order.
  * review_case_count pointers. */
 const ReviewCase **review_rank(const Review *review, Arena *arena);
 
 /* The first of them. NULL: there are none. */
 const ReviewCase *review_worst(const Review *review, Arena scratch);
+
+/* A case of each display that has some, in the review's order: its panel is what they rest on.
+ * review_case_count pointers, *count of them set. */
+const ReviewCase **review_displays(const Review *review, int *count, Arena *arena);
 
 /* The case of the same condition, eye and symbol: a moment's or a sweep's worst; or NULL. */
 const ReviewCase *review_case_like(const Review *review, const ReviewCase *like);

@@ -21,7 +21,7 @@ const GazeFinding diff_no_gaze = {.contrast_left = NAN, .mirrored = NAN, .veil =
 static DiffKind verdict_change(Verdict before, Verdict after)
 {
     static const int BADNESS[4] = {[VERDICT_PASS] = 0, [VERDICT_TOO_CLOSE] = 1,
-                                   [VERDICT_FAIL] = 2, [VERDICT_NOT_VISIBLE] = 3};
+                                   [VERDICT_FAIL] = 2, [VERDICT_UNJUDGED] = 3};
     int more = BADNESS[after] - BADNESS[before];
     return more > 0 ? DIFF_BROKEN : more < 0 ? DIFF_MENDED : DIFF_SAME;
 }

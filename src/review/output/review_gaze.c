@@ -120,24 +120,27 @@ static void add_veils(Text *html, const GazeFinding *g, Arena *arena)
                    from[0] ? arena_format(arena, "mostly %s", from) : "");
 }
 
-static const char *range_words(double value, MeanInterval range, Arena *arena)
+/* A line of the cell: a figure with its interval. */
+static void add_figure(Text *html, const char *name, double value, MeanInterval range,
+                       Arena *arena)
 {
-    if (isnan(value) || isnan(range.low)) return words_figure(value, arena);
-    return arena_format(arena, "%s (%s to %s)",
-                        words_within(value, range.low, range.high, arena),
-                        words_within(range.low, range.low, range.high, arena),
-                        words_within(range.high, range.low, range.high, arena));
+    if (isnan(value)) return;
+    text_format(html, "<div>%s %s ", name, words_within(value, range.low, range.high, arena));
+    if (range.low < range.high)
+        page_element(html, "small", words_interval(range.low, range.high, arena));
+    text_add(html, "</div>");
 }
 
 static void add_glare(Text *html, const CaseGlare *g, Arena *arena)
 {
-    const char *three = arena_format(arena, "%s · %s · %s",
-                                     range_words(g->dgp, g->dgp_range, arena),
-                                     range_words(g->ugr, g->ugr_range, arena),
-                                     range_words(g->dgi, g->dgi_range, arena));
     const char *settings = g->threshold_cd_m2 > 0 ? words_glare_settings(g, arena) : "";
-    add_small_cell(html, "n", three,
-                   g->none ? arena_format(arena, "%s; %s", g->none, settings) : settings);
+    text_add(html, "<td class=\"glare\">");
+    add_figure(html, "DGP", g->dgp, g->dgp_range, arena);
+    add_figure(html, "UGR", g->ugr, g->ugr_range, arena);
+    add_figure(html, "DGI", g->dgi, g->dgi_range, arena);
+    page_element(html, "small",
+                 g->none ? arena_format(arena, "%s; %s", g->none, settings) : settings);
+    text_add(html, "</td>");
 }
 
 static void add_row(Text *html, const GazeFinding *g, Arena *arena)
@@ -165,7 +168,7 @@ void review_gaze_add(Text *html, const Review *review, Arena *arena)
         {"Eye's veil, cd/m²", true,
          "light from more than 1° away that the eye scatters over it, and glare from nearer"},
         {"At the eye, lx", true, "light on the plane of the pupil"},
-        {"DGP · UGR · DGI", true, "discomfort, made for rooms: secondary; 95 % intervals"}};
+        {"DGP, UGR, DGI", false, "discomfort, made for rooms: secondary; 95 % intervals"}};
     if (review->gaze_count == 0) return;
     const GazeFinding **list = ranked(review, arena);
     page_element(html, "h2", "Looking elsewhere");

@@ -45,9 +45,16 @@ static const Member GROUPS[] = {
 static const Member HIDER[] = {OWN(TEXT, CaseHider, what), OWN(FIGURE, CaseHider, share),
                                {0}};
 
-static const Member REMEDY[] = {OWN(TEXT, CaseRemedy, what),
-                                OWN(FIGURE, CaseRemedy, contrast_ratio),
-                                OWN(FIGURE, CaseRemedy, level), {0}};
+static const Member REMEDY[] = {
+    OWN(TEXT, CaseRemedy, what), OWN(FIGURE, CaseRemedy, contrast_ratio),
+    OWN(FIGURE, CaseRemedy, level),
+    {"then", MEMBER_OBJECT, offsetof(CaseRemedy, then), SINCE, LIMIT, 0, 0},
+    LATER("verdict", VERDICT, CaseRemedy, verdict), {0}};
+
+static const Member PANEL[] = {
+    OWN(TEXT, CasePanel, verdict), OWN(TEXT, CasePanel, reason),
+    AS("coarse", FLAG, CasePanel, is_coarse), AS("not_usable", FLAG, CasePanel, is_unusable),
+    OWN(FIGURE, CasePanel, emission_error), OWN(FIGURE, CasePanel, reflection_error), {0}};
 
 static const Member LUMINANCE[] = {
     OWN(FIGURE, CaseLuminances, foreground), OWN(FIGURE, CaseLuminances, background),
@@ -91,6 +98,7 @@ static const Member CASE[] = {
     {"precision_reached", MEMBER_FIGURE, offsetof(ReviewCase, precision_reached), .use = SINCE},
     {"paths_to_decide", MEMBER_FIGURE, offsetof(ReviewCase, paths_to_decide), .use = SINCE},
     OWN(FIGURE, ReviewCase, contrast_with_veil), OWN(FIGURE, ReviewCase, height_arcmin),
+    LATER("stroke_ratio", FIGURE, ReviewCase, stroke_ratio),
     OWN(FIGURE, ReviewCase, jnd), OWN(FIGURE, ReviewCase, visibility),
     GLARE_MEMBERS(ReviewCase),
     OWN(FIGURE, ReviewCase, eye_failed_share), OWN(FIGURE, ReviewCase, visible_share),
@@ -99,7 +107,11 @@ static const Member CASE[] = {
     OWN(FIGURE, ReviewCase, level), OWN(FIGURE, ReviewCase, display_lux),
     {"limit", MEMBER_LIMIT, .of = LIMIT},
     LIST("limits", ReviewCase, limits, limit_count, LIMIT, LimitVerdict),
+    {"judged", MEMBER_JUDGED, .use = WRITTEN, .of = LIMIT},
     OWN(FIGURE, ReviewCase, margin), OWN(VERDICT, ReviewCase, verdict),
+    LATER("reason", REASON, ReviewCase, unjudged),
+    LATER("optional", FLAG, ReviewCase, is_optional),
+    {"panel", MEMBER_OBJECT, offsetof(ReviewCase, panel), SINCE, PANEL, 0, 0},
     LIST("causes", ReviewCase, causes, cause_count, CAUSE, CaseCause),
     {"cause_groups", MEMBER_OBJECT, .use = WRITTEN, .of = GROUPS},
     {"without_data_share", MEMBER_FIGURE, offsetof(ReviewCase, without_data_share),
@@ -210,6 +222,12 @@ static json_t *limit_json(const ReviewCase *c)
     return has_limit ? object_json(LIMIT, &c->limits[c->limit_id]) : json_null();
 }
 
+static json_t *judged_json(const ReviewCase *c)
+{
+    const LimitVerdict *limit = case_worst_limit(c);
+    return limit ? object_json(LIMIT, limit) : json_null();
+}
+
 /* Pointers of any kind are copied as what they are to. */
 static json_t *member_json(const Member *member, const void *item)
 {
@@ -223,6 +241,8 @@ static json_t *member_json(const Member *member, const void *item)
     case MEMBER_RANGE: return pair(figure[0], figure[1]);
     case MEMBER_FLAG: return json_boolean(*(const bool *)at);
     case MEMBER_COUNT: return json_integer(*(const long *)at);
+    case MEMBER_JUDGED: return judged_json(item);
+    case MEMBER_REASON: return text(unjudged_names[*(const Unjudged *)at]);
     case MEMBER_VERDICT: return json_string(verdict_names[*(const Verdict *)at]);
     case MEMBER_AMBIENT: return json_string(ambient_names[*(const Ambient *)at]);
     case MEMBER_IF: return *(const bool *)count ? object_json(member->of, at) : json_null();
@@ -334,6 +354,22 @@ static json_t *sensitivities_json(const Review *review)
     return list;
 }
 
+/* What the displays' panels say of themselves. */
+static json_t *panels_json(const Review *review)
+{
+    Arena   scratch = arena_reserve(PLACES_BYTES);
+    int     count;
+    json_t *list = json_array();
+    const ReviewCase **displays = review_displays(review, &count, &scratch);
+    for (int i = 0; i < count; i++) {
+        json_t *panel = object_json(PANEL, &displays[i]->panel);
+        set(panel, "display", text(displays[i]->display));
+        json_array_append_new(list, panel);
+    }
+    arena_release(&scratch);
+    return list;
+}
+
 static json_t *places_json(const Review *review)
 {
     Arena         scratch = arena_reserve(PLACES_BYTES);
@@ -373,6 +409,7 @@ json_t *review_json(const Review *review)
     if (review->mend_count)
         set(out, "mends", LIST_OF(MEND, review->mends, review->mend_count));
     set(out, "eye_places", places_json(review));
+    set(out, "panels", panels_json(review));
     set(out, "responses", LIST_OF(RESPONSE, review->responses, review->response_count));
     set(out, "without_data", text(review->without_data));
     set(out, "notes", json_texts(review->notes, review->note_count));
@@ -422,6 +459,12 @@ static bool read_count(const JsonView *view, const char *key, long *out, Error *
     return true;
 }
 
+/* Reviews before there were four outcomes. */
+static const char *now_called(const char *word)
+{
+    return !strcmp(word, "not visible") ? verdict_names[VERDICT_UNJUDGED] : word;
+}
+
 /* One of four words; *out is its place. */
 static bool read_word(const JsonView *view, const char *key, const char *const words[4],
                       int *out, Error *err)
@@ -432,7 +475,7 @@ static bool read_word(const JsonView *view, const char *key, const char *const w
         !json_view_text(view, key, &word, err))
         return false;
     for (int i = 0; word && i < 4; i++) {
-        if (strcmp(word, words[i]) != 0) continue;
+        if (strcmp(now_called(word), words[i]) != 0) continue;
         *out = i;
         return true;
     }
@@ -505,6 +548,19 @@ static void clear_figures(const Member *table, void *item)
     }
 }
 
+/* NULL stands for what can be judged, and is not read. */
+static bool read_reason(const JsonView *view, const char *key, Unjudged *out, Error *err)
+{
+    const char *word = NULL;
+    if (!json_view_text(view, key, &word, err)) return false;
+    for (int i = UNJUDGED_NOT + 1; word && i < UNJUDGED_COUNT; i++) {
+        if (strcmp(word, unjudged_names[i]) != 0) continue;
+        *out = (Unjudged)i;
+        return true;
+    }
+    return wrong(view, key, "a reason why it cannot be judged", err);
+}
+
 /* A member that is there, but not null. */
 static bool read_value(const JsonView *view, const Member *member, void *item, Error *err)
 {
@@ -526,6 +582,7 @@ static bool read_value(const JsonView *view, const Member *member, void *item, E
         if (!read_word(view, key, verdict_names, &word, err)) return false;
         *(Verdict *)at = (Verdict)word;
         return true;
+    case MEMBER_REASON: return read_reason(view, key, at, err);
     case MEMBER_AMBIENT:
         if (!read_word(view, key, ambient_names, &word, err)) return false;
         *(Ambient *)at = (Ambient)word;
@@ -547,7 +604,8 @@ static bool read_value(const JsonView *view, const Member *member, void *item, E
 
 static bool may_be_null(MemberKind kind)
 {
-    return kind == MEMBER_FIGURE || kind == MEMBER_TEXT || kind == MEMBER_IF;
+    return kind == MEMBER_FIGURE || kind == MEMBER_TEXT || kind == MEMBER_IF ||
+           kind == MEMBER_REASON;
 }
 
 /* The item is all zeros. Keys of a later version are passed over. */

@@ -5,10 +5,11 @@
 #include "review/output/review_words.h"
 #include "text/text.h"
 
-/* Only a verdict that fails the review is a failure. */
+/* Only a verdict that fails the review is a failure; what cannot be judged is an error: the
+ * test could not be made. */
 static bool is_failure(const Review *review, Verdict verdict)
 {
-    return verdict == VERDICT_FAIL || (review->is_strict && verdict != VERDICT_PASS);
+    return verdict == VERDICT_FAIL || (review->is_strict && verdict == VERDICT_TOO_CLOSE);
 }
 
 static void add_attribute(Text *xml, const char *name, const char *value)
@@ -38,13 +39,14 @@ static void add_case(Text *xml, const Review *review, const ReviewCase *c, const
     text_add(xml, "  <testcase classname=\"parhelion.review\"");
     add_attribute(xml, "name", name);
     text_add(xml, " time=\"0\">\n");
-    if (is_failure(review, verdict)) {
-        text_add(xml, "    <failure");
+    bool is_error = verdict == VERDICT_UNJUDGED && review_case_counts(c);
+    if (is_failure(review, verdict) || is_error) {
+        text_format(xml, "    <%s", is_error ? "error" : "failure");
         add_attribute(xml, "type", verdict_names[verdict]);
         add_attribute(xml, "message", reason);
         text_add(xml, ">");
         add_causes(xml, c, &arena);
-        text_add(xml, "</failure>\n");
+        text_add(xml, is_error ? "</error>\n" : "</failure>\n");
     } else if (verdict != VERDICT_PASS) {
         text_add(xml, "    <skipped");
         add_attribute(xml, "message", reason);
@@ -71,10 +73,11 @@ static void add_sweep(Text *xml, const Review *review, const ReviewSweep *s)
 static void add_counts(Text *xml, const Review *review)
 {
     ReviewCounts counts = review_count(review);
-    int doubtful = counts.of[VERDICT_TOO_CLOSE] + counts.of[VERDICT_NOT_VISIBLE];
-    int failures = counts.of[VERDICT_FAIL] + (review->is_strict ? doubtful : 0);
-    text_format(xml, " tests=\"%d\" failures=\"%d\" errors=\"0\" skipped=\"%d\" time=\"0\"",
-                counts.total, failures, review->is_strict ? 0 : doubtful);
+    int close = counts.of[VERDICT_TOO_CLOSE];
+    int failures = counts.of[VERDICT_FAIL] + (review->is_strict ? close : 0);
+    text_format(xml, " tests=\"%d\" failures=\"%d\" errors=\"%d\" skipped=\"%d\" time=\"0\"",
+                counts.total, failures, counts.of[VERDICT_UNJUDGED],
+                counts.not_asked + (review->is_strict ? 0 : close));
 }
 
 bool review_junit_write(const Review *review, const char *path, Error *err)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* review_junit.h -- a review as JUnit XML, which every CI service shows: a test case for each
- * case and each sweep, failed with its reason; a verdict that fails only under --strict is
- * "skipped" otherwise.
+ * case and each sweep, failed with its reason; what cannot be judged is an
+ * error; a verdict that fails only under --strict, or what does not count, is "skipped".
  *
  * Well-formed for any names. Threads: pure.
  * Fails    when the file cannot be written.

@@ -42,19 +42,29 @@ function figure(v){
 /* ---- verdicts ---- */
 var PASS=0,FAIL=1,CLOSE=2,HIDDEN=3;
 var CHIPS=[['good','✓ passes'],['bad','✗ fails'],['close','≈ too close to call'],
-  ['hidden','∅ not visible']];
+  ['hidden','∅ cannot be judged']];
 /* Emitted light at level 1, its level, and what is reflected. */
 function contrast(foreground,background,level,reflected){
   var bright=Math.max(foreground,background)*level+reflected;
   var dark=Math.min(foreground,background)*level+reflected;
   return dark>0?bright/dark:bright>0?Infinity:1;
 }
-/* limit: [value, kind]; null: none is asked. */
+/* limit: [value, kind]; null: none is asked. The margin counts by the logarithm of the contrast
+   ratio, as review/quantity.c has it. */
 function marginOf(limit,ratio){
   if(!limit)return NaN;
-  var found=limit[1]==='luminance_contrast'?ratio-1:
-    limit[1]==='modulation'?(isFinite(ratio)?(ratio-1)/(ratio+1):1):ratio;
-  return found/limit[0]-1;
+  var asked=limit[1]==='luminance_contrast'?limit[0]+1:
+    limit[1]==='modulation'?(limit[0]<1?(1+limit[0])/(1-limit[0]):Infinity):limit[0];
+  if(ratio===asked)return 0;
+  return isFinite(asked)?Math.log(ratio)/Math.max(Math.log(asked),0)-1:-1;
+}
+/* A contrast ratio in the words of the limit. */
+function ratioWords(limit,ratio){
+  var kind=limit?limit[1]:'contrast_ratio';
+  if(kind==='luminance_contrast')return 'luminance contrast '+figure(ratio-1);
+  if(kind==='modulation')
+    return 'modulation '+figure(isFinite(ratio)?(ratio-1)/(ratio+1):1);
+  return figure(ratio)+' : 1';
 }
 /* A verdict at another brightness: by its figure alone. before: as it was judged, with its
    margin then; who fails for another reason than contrast goes on failing. */
@@ -66,7 +76,7 @@ function percent(v){
   return (v<0?'−':'+')+Math.abs(100*v).toFixed(Math.abs(v)<0.1?1:0)+' %';
 }
 function limitWords(limit){
-  return limit?'wanted '+(limit[1]==='contrast_ratio'?limit[0]+' : 1':
+  return limit?'required >= '+(limit[1]==='contrast_ratio'?limit[0]+' : 1':
     limit[1].replace('_',' ')+' '+limit[0]):'no limit asked';
 }
 
@@ -111,7 +121,7 @@ function answer(){
     var said=make('p','live-said');
     said.append(make('span','chip '+chip[0],chip[1]),' ');
     if(verdict!==HIDDEN){
-      said.append(make('b','',figure(ratio)+' : 1'),
+      said.append(make('b','',ratioWords(limit,ratio)),
         make('span','sub',limitWords(limit)+(isNaN(margin)?'':', '+percent(margin))));
       said.dataset.contrast=ratio;
       said.dataset.margin=margin;
@@ -216,11 +226,10 @@ function mix(a,b,share){
   return a.map(function(v,i){return v+part*(b[i]-v);});
 }
 function colourOf(verdict,margin){
-  var octaves=margin>-1?Math.log2(1+margin):-1;
   if(verdict===t.CLOSE)return TOO_CLOSE;
   if(verdict===t.HIDDEN)return NOT_SEEN;
-  if(verdict===t.FAIL)return mix(FAILING,WORST,isNaN(margin)?0.5:-octaves);
-  return mix(PASSING,BEST,isNaN(margin)?0.5:octaves);
+  if(verdict===t.FAIL)return mix(FAILING,WORST,isNaN(margin)?0.5:-margin);
+  return mix(PASSING,BEST,isNaN(margin)?0.5:margin);
 }
 /* The worst sun of each cell. */
 function worstOf(map,sweep,factor){

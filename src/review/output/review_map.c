@@ -32,14 +32,13 @@ static Colour mix(Colour a, Colour b, double t)
     return out;
 }
 
-/* From half the limit to twice. A case may fail for another reason than its contrast. */
+/* From margin -1, full wash-out, to 1. A case may fail for another reason than its contrast. */
 static Colour colour_of(Verdict verdict, double margin)
 {
-    double octaves = margin > -1 ? log2_d(1 + margin) : -1;
     if (verdict == VERDICT_TOO_CLOSE) return CLOSE;
-    if (verdict == VERDICT_NOT_VISIBLE) return HIDDEN;
-    if (verdict == VERDICT_FAIL) return mix(FAILING, WORST, isnan(margin) ? 0.5 : -octaves);
-    return mix(PASSING, BEST, isnan(margin) ? 0.5 : octaves);
+    if (verdict == VERDICT_UNJUDGED) return HIDDEN;
+    if (verdict == VERDICT_FAIL) return mix(FAILING, WORST, isnan(margin) ? 0.5 : -margin);
+    return mix(PASSING, BEST, isnan(margin) ? 0.5 : margin);
 }
 
 static void put(const Picture *picture, int x, int y, Colour colour)
@@ -251,12 +250,12 @@ static bool holds(const ReviewMap *map, int wanted)
 static void add_map_keys(Text *html, const ReviewMap *map)
 {
     text_add(html, "<div class=\"keys\">");
-    add_key(html, WORST, "half the limit or less");
+    add_key(html, WORST, "margin −100 %: nothing stands out");
     add_key(html, FAILING, "just below the limit");
     if (holds(map, VERDICT_TOO_CLOSE)) add_key(html, CLOSE, "too close to call");
     add_key(html, PASSING, "just above");
-    add_key(html, BEST, "twice the limit or more");
-    if (holds(map, VERDICT_NOT_VISIBLE)) add_key(html, HIDDEN, "not visible");
+    add_key(html, BEST, "margin +100 % or more");
+    if (holds(map, VERDICT_UNJUDGED)) add_key(html, HIDDEN, "cannot be judged");
     if (holds(map, GAP)) add_key(html, NONE, "no answer");
     text_add(html, "</div>\n");
 }

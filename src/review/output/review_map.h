@@ -34,7 +34,7 @@ typedef struct ReviewMap {
     bool                 is_of_vehicle; /* azimuth 0 is ahead, 90 right; else north and east */
     ReviewAxis           azimuth_deg, elevation_deg;
     const float         *contrast; /* NaN: not asked there */
-    const float         *margin;   /* contrast over its limit less one; NaN: no limit */
+    const float         *margin;   /* LimitVerdict's (verdict.h); NaN: no limit */
     const unsigned char *verdict;  /* a Verdict each */
     const SunPath       *paths;
     int                  path_count;

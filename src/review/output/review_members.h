@@ -19,7 +19,9 @@ typedef enum MemberKind {
     MEMBER_IF,      /* the same; null where the bool at `count` is false */
     MEMBER_TEXTS,   /* a pointer, and an int at `count` */
     MEMBER_LIST,    /* likewise */
-    MEMBER_LIMIT    /* of a case: the limit that limit_id means, or null */
+    MEMBER_LIMIT,   /* of a case: the limit that limit_id means, or null */
+    MEMBER_JUDGED,  /* of a case: the limit that made its verdict (case_worst_limit), or null */
+    MEMBER_REASON   /* Unjudged; null: it can be judged */
 } MemberKind;
 
 /* Older reviews may lack it; it is written and not read back. */

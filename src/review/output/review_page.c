@@ -52,7 +52,7 @@ static bool add_head(Text *html, const ReviewPage *page, Arena *arena, Error *er
     page_element(html, "p class=\"sub title\"",
                  arena_format(arena, "%s · limits: %s%s", title,
                               review->profile ? review->profile : "none",
-                              review->is_strict ? " · strict: too close or not visible fails"
+                              review->is_strict ? " · strict: what is too close fails, too"
                                                 : ""));
     ReviewAnswer answer = answer_of(page);
     return review_answer_add(html, &answer, arena, err);
@@ -68,8 +68,9 @@ static void add_verdicts(Text *html, const ReviewPage *page, Arena *arena)
     page_more_begin(html, arena_format(arena, "Every verdict: %d", rows));
     text_add(html, "<p class=\"sub\">Contrast is how many times brighter the bright part of "
              "a symbol is than its dark part, with all reflections on both; the margin is how "
-             "far it is above (+) or below (−) its limit. ✓ passes, ✗ fails, ≈ too close to "
-             "call, ∅ not visible; below it the 95 % interval and the limit.</p>\n");
+             "far the figure is above (+) or below (−) its limit: at −100 % nothing can be "
+             "read, whatever the limit is. ✓ passes, ✗ fails, ≈ too close to call, ∅ cannot "
+             "be judged; below it the 95 % interval and the limit.</p>\n");
     review_table_add_matrix(html, review, arena);
     review_table_add_list(html, review, 0, arena);
     page_more_end(html);
@@ -162,7 +163,7 @@ static void add_sweep_keys(Text *html, const ReviewSweep *s, Arena *arena)
     if (!isnan(s->longest_failure_minutes))
         page_key(html, words_minutes(s->longest_failure_minutes, arena),
                  "the longest failure at a stretch", s->longest_failure_minutes > 0);
-    page_key(html, words_contrast(&s->worst, arena), "contrast at its worst",
+    page_key(html, words_judged(&s->worst, arena), "at its worst",
              s->worst.verdict != VERDICT_PASS);
     page_key(html, arena_format(arena, "%ld", s->cases), "suns and hours judged", false);
     page_keys_end(html);
@@ -195,7 +196,7 @@ static void add_sweep_line(Text *html, const ReviewSweep *s, bool is_open, Arena
                  arena_format(arena, "seen by %s: %s", s->eye ? s->eye : "?",
                               s->condition ? s->condition : "?"));
     text_format(html, "<span class=\"ratio\">%s · worst %s</span></summary>\n",
-                words_how_often(s, arena), words_contrast(&s->worst, arena));
+                words_how_often(s, arena), words_judged(&s->worst, arena));
 }
 
 static bool add_sweep(Text *html, const ReviewPage *page, const ReviewSweep *s, bool is_open,
@@ -320,13 +321,19 @@ static void add_glossary(Text *html)
                "the sun up to 100 000."},
         {"contrast", "the bright part's light to the eye over the dark part's, both with what "
                      "the display reflects. 1 : 1 is nothing to see."},
-        {"limit, margin", "what a standard wants at least, and how far the contrast is above "
-                          "or below it in percent of the limit."},
+        {"limit, margin", "what a standard requires, and how far the figure is from it: 0 % "
+                          "lies on the limit, −100 % is full wash-out, where nothing stands "
+                          "out. Contrasts count by the logarithm of their ratio: at +100 % it "
+                          "is the square of what is required."},
         {"95 % interval", "the calculation is made of random samples: with 95 % certainty, or "
-                          "more, the interval holds what endless samples would give. What "
-                          "the panel was measured with is not in it."},
+                          "more, the interval holds what endless samples would give, of "
+                          "a panel that is as far from the truth as it says of itself."},
         {"too close to call", "the limit lies inside that interval."},
-        {"not visible", "something stands in the way, such as the rim of the wheel."},
+        {"cannot be judged", "something is not known: nothing of the symbol is seen, its "
+                             "panel says that it is not usable, more than a tenth of the "
+                             "light comes via materials without optical data, or no limit "
+                             "applies. What need not be seen, or has no limit, does not "
+                             "count."},
         {"reflected as in a mirror", "a picture of what stands opposite: sky, seat, shirt."},
         {"scattered", "light that the display's surface spreads: the sun need not stand in the "
                       "mirror's direction."},

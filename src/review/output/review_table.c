@@ -56,13 +56,6 @@ static void add_matrix(Text *html, const Matrix *m, Arena *arena)
     text_add(html, "</div>\n");
 }
 
-/* The limit that a case is shown with: that of the contrast, else the worst. */
-static const LimitVerdict *shown_limit(const ReviewCase *c)
-{
-    bool has_contrast = c->limit_id >= 0 && c->limit_id < c->limit_count;
-    return has_contrast ? &c->limits[c->limit_id] : case_worst_limit(c);
-}
-
 static void add_cell_limit(Text *html, const LimitVerdict *limit, Arena *arena)
 {
     review_bar_add_margin(html, limit);
@@ -81,11 +74,9 @@ static void add_case_cell(Text *html, const Matrix *m, const char *across, const
         page_cell(html, "none", "–");
         return;
     }
-    const LimitVerdict *limit = c->verdict == VERDICT_NOT_VISIBLE ? NULL : shown_limit(c);
+    const LimitVerdict *limit = c->verdict == VERDICT_UNJUDGED ? NULL : case_worst_limit(c);
     review_card_begin_cell(html, m->review, c, arena);
-    text_format(html, "<div><b>%s %s</b>", words_mark(c->verdict),
-                c->verdict == VERDICT_NOT_VISIBLE ? "not visible"
-                                                  : words_contrast(c, arena));
+    text_format(html, "<div><b>%s %s</b>", words_mark(c->verdict), words_judged(c, arena));
     if (limit) text_format(html, "<em>%s</em>", words_margin(limit->margin, arena));
     text_add(html, "</div>");
     if (limit) add_cell_limit(html, limit, arena);
@@ -131,12 +122,12 @@ static void add_sweep_cell(Text *html, const Matrix *m, const char *across, cons
         return;
     }
     Verdict             verdict = sweep_verdict(s);
-    const LimitVerdict *limit = shown_limit(&s->worst);
+    const LimitVerdict *limit = case_worst_limit(&s->worst);
     text_format(html, "<td class=\"%s\"><a href=\"%s\"><b>%s %s</b>", words_class(verdict),
                 review_card_link(m->review, &s->worst, arena), words_mark(verdict),
                 words_often(s, arena));
     page_element(html, "small",
-                 arena_format(arena, "%s%s%s", words_contrast(&s->worst, arena),
+                 arena_format(arena, "%s%s%s", words_judged(&s->worst, arena),
                               limit ? limit->is_upper ? " · ≤ " : " · ≥ " : "",
                               limit ? words_limit(limit, arena) : ""));
     text_add(html, "</a></td>");
@@ -170,16 +161,15 @@ void review_table_add_sweeps(Text *html, const Review *review, Arena *arena)
 
 /* ---- the list --------------------------------------------------------------------------- */
 
-static void add_limit_cells(Text *html, const ReviewCase *c, Arena *arena)
+static void add_limit_cells(Text *html, const LimitVerdict *l, Arena *arena)
 {
-    const LimitVerdict *l = shown_limit(c);
     if (!l) {
         page_cell(html, "n", "–");
         page_cell(html, "n", "–");
         page_cell(html, "", "");
         return;
     }
-    page_cell(html, "n", words_wanted(l, arena));
+    page_cell(html, "n", words_required(l, arena));
     page_cell(html, arena_format(arena, "n %s", words_class(l->verdict)),
               words_margin(l->margin, arena));
     text_add(html, "<td>");
@@ -195,16 +185,17 @@ static void add_list_row(Text *html, const Review *review, const ReviewCase *c, 
     review_card_add_chip(html, c->verdict);
     text_add(html, "</td><td>");
     add_link(html, review, c, c->symbol && c->symbol[0] ? c->symbol : "?", arena);
-    if (c->verdict == VERDICT_NOT_VISIBLE && c->hider_count)
-        page_element(html, "small", words_hiders(c, arena));
+    if (c->verdict == VERDICT_UNJUDGED)
+        page_element(html, "small", words_unjudged(c, arena));
     text_add(html, "</td>");
     page_cell(html, "", is_worst ? arena_format(arena, "%s (worst)",
                                                 c->condition ? c->condition : "?")
                                  : c->condition);
     page_cell(html, "", c->eye);
-    page_cell(html, "n", words_contrast(c, arena));
-    page_cell(html, "n", words_interval(c->contrast_low, c->contrast_high, arena));
-    add_limit_cells(html, c, arena);
+    const LimitVerdict *l = case_worst_limit(c);
+    page_cell(html, "n", words_judged(c, arena));
+    page_cell(html, "n", l ? words_interval(l->low, l->high, arena) : "–");
+    add_limit_cells(html, l, arena);
     page_row_end(html);
 }
 
@@ -213,12 +204,11 @@ void review_table_add_list(Text *html, const Review *review, int most, Arena *ar
     static const PageColumn COLUMNS[] = {
         {"Verdict", false, NULL}, {"Symbol", false, NULL}, {"Condition", false, NULL},
         {"Eye", false, NULL},
-        {"Contrast", true, "how many times brighter the bright part is than the dark part, "
-                           "reflections included"},
+        {"Figure", true, "what decides the verdict, in the quantity of its limit"},
         {"95 % interval", true, "holds what endless samples would give, with 95 % certainty"},
-        {"Wanted", true, "the limit of the profile"},
-        {"Margin", true, "how far above or below the limit"},
-        {"half ← limit → twice", false, NULL}};
+        {"Required", true, "the limit of the profile"},
+        {"Margin", true, "how far above or below the limit; −100 % is full wash-out"},
+        {"−100 % ← limit → +100 %", false, NULL}};
     const ReviewCase **ranked = review_rank(review, arena);
     int all = review_case_count(review);
     int listed = most && most < all ? most : all;
@@ -274,7 +264,7 @@ static void add_limit_row(Text *html, const LimitRow *row, Arena *arena)
 {
     LimitVerdict low = *row->limit;
     low.value = row->low;
-    const char *wanted = words_wanted(&low, arena);
+    const char *wanted = words_required(&low, arena);
     if (row->high > row->low)
         wanted = arena_format(arena, "%s … %s, by height", wanted,
                               words_number(row->high, arena));
@@ -289,7 +279,7 @@ static void add_limit_row(Text *html, const LimitRow *row, Arena *arena)
 
 void review_table_add_limits(Text *html, const Review *review, Arena *arena)
 {
-    static const PageColumn COLUMNS[] = {{"Limit", false, NULL}, {"Wanted", true, NULL},
+    static const PageColumn COLUMNS[] = {{"Limit", false, NULL}, {"Required", true, NULL},
                                          {"Read in the standard", false, NULL},
                                          {"Where the value comes from", false, NULL}};
     LimitRows rows = {NULL, 0, 0};
@@ -334,9 +324,15 @@ static const char *verdict_of(const ReviewCase *c)
     return c ? verdict_names[c->verdict] : "–";
 }
 
-static const char *ratio_of(const ReviewCase *c, Arena *arena)
+static const char *figure_of(const ReviewCase *c, Arena *arena)
 {
-    return c ? words_contrast(c, arena) : "–";
+    return c ? words_judged(c, arena) : "–";
+}
+
+static const char *margin_of(const ReviewCase *c, Arena *arena)
+{
+    const LimitVerdict *limit = c ? case_worst_limit(c) : NULL;
+    return limit ? words_margin(limit->margin, arena) : "–";
 }
 
 static void add_diff_row(Text *html, const CaseDiff *d, Arena *arena)
@@ -345,9 +341,8 @@ static void add_diff_row(Text *html, const CaseDiff *d, Arena *arena)
     begin_diff_row(html, d->kind, false,
                    (const char *const[3]){either->symbol, either->condition, either->eye});
     add_change(html, verdict_of(d->before), verdict_of(d->after), arena);
-    add_change(html, ratio_of(d->before, arena), ratio_of(d->after, arena), arena);
-    add_change(html, d->before ? words_margin(d->before->margin, arena) : "–",
-               d->after ? words_margin(d->after->margin, arena) : "–", arena);
+    add_change(html, figure_of(d->before, arena), figure_of(d->after, arena), arena);
+    add_change(html, margin_of(d->before, arena), margin_of(d->after, arena), arena);
     page_row_end(html);
 }
 
@@ -355,7 +350,7 @@ static void add_diff_cases(Text *html, const ReviewDiff *diff, Arena *arena)
 {
     static const PageColumn COLUMNS[] = {
         {"Change", false, NULL}, {"Symbol", false, NULL}, {"Condition", false, NULL},
-        {"Eye", false, NULL},    {"Verdict", true, NULL}, {"Contrast", true, NULL},
+        {"Eye", false, NULL},    {"Verdict", true, NULL}, {"Figure", true, NULL},
         {"Margin", true, NULL}};
     bool has_rows = diff->case_count > 0 && diff->cases[0].kind != DIFF_SAME;
     if (!has_rows) return;

@@ -90,7 +90,7 @@ static const char *changes_words(const ReviewVariantFound *v, Arena *arena)
 static const char *counts_words(const Review *review, Arena *arena)
 {
     ReviewCounts counts = review_count(review);
-    int open = counts.of[VERDICT_TOO_CLOSE] + counts.of[VERDICT_NOT_VISIBLE];
+    int open = counts.of[VERDICT_TOO_CLOSE] + counts.of[VERDICT_UNJUDGED];
     if (!open) return arena_format(arena, "%d of %d", counts.of[VERDICT_FAIL], counts.total);
     return arena_format(arena, "%d of %d, %d open", counts.of[VERDICT_FAIL], counts.total,
                         open);

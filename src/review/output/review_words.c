@@ -3,12 +3,15 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "plot/draw/ticks.h"
 #include "review/output/review_decide.h"
+#include "review/quantity.h"
 #include "text/interval_text.h"
 #include "text/text.h"
+#include "vision/discomfort.h"
 
 bool words_same(const char *a, const char *b)
 {
@@ -54,6 +57,15 @@ const char *words_within(double value, double low, double high, Arena *arena)
                         : words_figure(value, arena);
 }
 
+const char *words_ratio_as(const ReviewCase *c, double ratio, Arena *arena)
+{
+    bool has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
+    LimitVerdict as = {.kind = limit_kinds[LIMIT_CONTRAST_RATIO].name};
+    if (has_limit) as = c->limits[c->limit_id];
+    as.found = as.low = as.high = contrast_from_ratio(limit_kind_named(as.kind), ratio);
+    return words_quantity(&as, arena);
+}
+
 const char *words_contrast(const ReviewCase *c, Arena *arena)
 {
     if (isnan(c->contrast_ratio)) return "–";
@@ -71,10 +83,25 @@ const char *words_glare(double value, MeanInterval range, const char *none, Aren
                         words_within(range.high, range.low, range.high, arena));
 }
 
+/* Sources beyond the solid angles that UGR is made for. */
+static const char *words_beyond(const CaseGlare *glare, Arena *arena)
+{
+    if (!(glare->smallest_sr < UGR_SOLID_ANGLE_MIN_SR) &&
+        !(glare->largest_sr > UGR_SOLID_ANGLE_MAX_SR))
+        return "";
+    const char *least = words_figure(glare->smallest_sr, arena);
+    const char *most = words_figure(glare->largest_sr, arena);
+    return arena_format(arena, ", of %s%s%s sr (UGR is made for %g to %g)", least,
+                        glare->source_count > 1 ? " to " : "",
+                        glare->source_count > 1 ? most : "", UGR_SOLID_ANGLE_MIN_SR,
+                        UGR_SOLID_ANGLE_MAX_SR);
+}
+
 const char *words_glare_settings(const CaseGlare *glare, Arena *arena)
 {
-    return arena_format(arena, "sources above %s cd/m²: %ld; DGP %s its factor for low light%s",
-                        words_figure(glare->threshold_cd_m2, arena), glare->source_count,
+    return arena_format(arena, "sources above %s cd/m²: %ld%s; DGP %s its factor for low "
+                        "light%s", words_figure(glare->threshold_cd_m2, arena),
+                        glare->source_count, words_beyond(glare, arena),
                         glare->low_light ? "with" : "without",
                         glare->small_sources ? "; UGR by CIE 147's rule for small sources"
                                              : "");
@@ -107,7 +134,6 @@ const char *words_margin(double margin, Arena *arena)
 {
     if (isnan(margin)) return "–";
     if (isinf(margin)) return "∞";
-    if (margin >= 9) return arena_format(arena, "%s ×", words_figure(1 + margin, arena));
     double percent = 100 * margin, size = fabs(percent);
     const char *sign = margin < 0 ? "−" : margin > 0 ? "+" : "±";
     return arena_format(arena, "%s%.*f %%", sign, size < 10 ? 1 : 0, size);
@@ -125,10 +151,55 @@ static const char *with_unit(const LimitVerdict *limit, const char *figure, Aren
                                              : figure;
 }
 
+/* Rounded to the limit's other side, or onto it, a figure would belie its verdict. */
+static bool is_belied(const LimitVerdict *limit, const char *figure)
+{
+    double shown = strtod(figure, NULL);
+    double is = limit->found - limit->value, looks = shown - limit->value;
+    return isfinite(limit->found) && is != 0 && !(is * looks > 0);
+}
+
 const char *words_found(const LimitVerdict *limit, Arena *arena)
 {
     if (isnan(limit->found)) return "–";
-    return with_unit(limit, words_within(limit->found, limit->low, limit->high, arena), arena);
+    const char *figure = words_within(limit->found, limit->low, limit->high, arena);
+    for (int digits = 4; digits <= 9 && is_belied(limit, figure); digits++)
+        figure = arena_format(arena, "%.*g", digits, limit->found);
+    return with_unit(limit, figure, arena);
+}
+
+const char *words_kind(const LimitVerdict *limit)
+{
+    static const char *const WORDS[LIMIT_KIND_COUNT] = {
+        [LIMIT_CONTRAST_RATIO] = "contrast", [LIMIT_LUMINANCE_CONTRAST] = "luminance contrast",
+        [LIMIT_MODULATION] = "modulation", [LIMIT_CHARACTER_HEIGHT] = "height",
+        [LIMIT_STROKE_RATIO] = "stroke ratio", [LIMIT_WIDTH_RATIO] = "width ratio"};
+    LimitKind kind = limit_kind_named(limit->kind);
+    if (kind < LIMIT_KIND_COUNT) return WORDS[kind];
+    return limit->name ? limit->name : "";
+}
+
+const char *words_measured(const LimitVerdict *limit, Arena *arena)
+{
+    const char *figure = interval_text(limit->found, limit->low, limit->high, arena);
+    if (is_belied(limit, figure)) figure = arena_format(arena, "%.9g", limit->found);
+    return with_unit(limit, figure, arena);
+}
+
+const char *words_quantity(const LimitVerdict *limit, Arena *arena)
+{
+    const char *found = words_found(limit, arena);
+    LimitKind   kind = limit_kind_named(limit->kind);
+    if (kind == LIMIT_CONTRAST_RATIO) return found;
+    if (kind == LIMIT_CHARACTER_HEIGHT) return arena_format(arena, "%s high", found);
+    return arena_format(arena, "%s %s", words_kind(limit), found);
+}
+
+const char *words_judged(const ReviewCase *c, Arena *arena)
+{
+    const LimitVerdict *limit = case_worst_limit(c);
+    if (c->unjudged) return unjudged_names[c->unjudged];
+    return limit ? words_quantity(limit, arena) : words_contrast(c, arena);
 }
 
 const char *words_number(double value, Arena *arena)
@@ -150,22 +221,24 @@ const char *words_limit(const LimitVerdict *limit, Arena *arena)
     return with_unit(limit, words_number(limit->value, arena), arena);
 }
 
-const char *words_wanted(const LimitVerdict *limit, Arena *arena)
+const char *words_required(const LimitVerdict *limit, Arena *arena)
 {
-    return arena_format(arena, "%s %s%s", limit->is_upper ? "at most" : "at least",
+    return arena_format(arena, "%s %s%s", limit->is_upper ? "<=" : ">=",
                         words_limit(limit, arena),
                         limit->is_advice ? " (advice)" : "");
 }
 
 const char *words_verdict(Verdict verdict)
 {
-    static const char *const WORDS[4] = {"Passes", "Fails", "Too close to call", "Not visible"};
+    static const char *const WORDS[4] = {"Passes", "Fails", "Too close to call",
+                                         "Cannot be judged"};
     return WORDS[verdict];
 }
 
 const char *words_often(const ReviewSweep *sweep, Arena *arena)
 {
-    static const char *const NAMES[4] = {"never", "at worst", "too close", "not visible"};
+    static const char *const NAMES[4] = {"never", "at worst", "too close",
+                                         "cannot be judged"};
     Verdict verdict = sweep_verdict(sweep);
     bool    fails = verdict == VERDICT_FAIL && sweep->failed_share > 0;
     return fails ? words_share(sweep->failed_share, arena) : NAMES[verdict];
@@ -237,7 +310,9 @@ const char *words_case(const ReviewCase *c, Arena *arena)
 static const char *words_decide(const ReviewCase *c, Arena *arena)
 {
     if (!(c->minutes_to_decide > 0)) return "";
-    if (isinf(c->minutes_to_decide)) return "; it lies on the limit: no time decides it";
+    if (isinf(c->minutes_to_decide))
+        return "; no time decides it: the limit lies within the panel's own error, or on the "
+               "figure";
     return arena_format(arena, "; about %s more would decide it (--decide)",
                         words_minutes(fmax(c->minutes_to_decide, 1), arena));
 }
@@ -267,25 +342,59 @@ const char *words_precision(const ReviewCase *c, Arena *arena)
                         words_share(c->precision_asked, arena));
 }
 
+const char *words_unjudged(const ReviewCase *c, Arena *arena)
+{
+    const LimitVerdict *limit = case_worst_limit(c);
+    switch (c->unjudged) {
+    case UNJUDGED_HIDDEN:
+        return arena_format(arena, "nothing of it is seen%s%s%s", c->hider_count ? ": " : "",
+                            words_hiders(c, arena),
+                            c->is_optional ? "; this eye need not see it" : "");
+    case UNJUDGED_PANEL:
+        return arena_format(arena, "the panel of its display says of itself that it is not "
+                            "usable%s%s", c->panel.reason ? ": " : "",
+                            c->panel.reason ? c->panel.reason : "");
+    case UNJUDGED_DATA:
+        return arena_format(arena, "%s of the light that its display reflects comes via "
+                            "materials without optical data, at most %s is accepted",
+                            words_share(c->without_data_share, arena),
+                            words_share(UNJUDGED_DATA_SHARE, arena));
+    case UNJUDGED_LIMIT:
+        return arena_format(arena, "no limit that counts applies to it %s",
+                            words_ambient(c->ambient));
+    case UNJUDGED_FIGURE:
+        return arena_format(arena, "%s could not be found out",
+                            limit && limit->name ? limit->name : "its figure");
+    default: return "nothing of it is known";
+    }
+}
+
 const char *words_reason(const ReviewCase *c, Arena *arena)
 {
     const LimitVerdict *limit = case_worst_limit(c);
-    if (c->verdict == VERDICT_NOT_VISIBLE)
-        return arena_format(arena, "%s of it can be seen from there%s%s",
-                            words_share(c->visible_share, arena), c->hider_count ? ": " : "",
-                            words_hiders(c, arena));
+    if (c->verdict == VERDICT_UNJUDGED) return words_unjudged(c, arena);
     if (!limit) return "no limit applies to it";
     const char *name = limit->name ? limit->name : "limit";
     const char *found = words_found(limit, arena);
-    const char *wanted = words_wanted(limit, arena);
+    const char *required = words_required(limit, arena);
     if (c->verdict == VERDICT_TOO_CLOSE)
-        return arena_format(arena, "%s %s, but anything between %s and %s, wanted %s%s%s",
+        return arena_format(arena, "%s %s, but anything between %s and %s, required %s%s%s",
                             name, found,
                             words_within(limit->low, limit->low, limit->high, arena),
                             words_within(limit->high, limit->low, limit->high, arena),
-                            wanted, words_precision(c, arena), words_decide(c, arena));
-    return arena_format(arena, "%s %s, wanted %s%s", name, found, wanted,
+                            required, words_precision(c, arena), words_decide(c, arena));
+    return arena_format(arena, "%s %s, required %s%s", name, found, required,
                         words_precision(c, arena));
+}
+
+const char *words_remedy(const CaseRemedy *r, Arena *arena)
+{
+    static const char *const THEN[4] = {"passes", "still fails", "too close to call",
+                                        "cannot be judged"};
+    bool is_another = r->then.verdict == VERDICT_PASS && r->verdict != VERDICT_PASS;
+    return arena_format(arena, "%s, required %s: %s", words_quantity(&r->then, arena),
+                        words_required(&r->then, arena),
+                        is_another ? "passes, another limit does not" : THEN[r->verdict]);
 }
 
 const char *words_chain(const CaseCause *cause, Arena *arena)
@@ -298,11 +407,35 @@ const char *words_chain(const CaseCause *cause, Arena *arena)
     return text.data ? text.data : "";
 }
 
+static void add_panel(Text *text, const ReviewCase *c, Arena *arena)
+{
+    const CasePanel *p = &c->panel;
+    text_format(text, "%spanel of %s: %s", text->data ? "; " : "",
+                c->display ? c->display : "?", p->verdict ? p->verdict : "no verdict of its own");
+    if (p->is_coarse) text_add(text, ", coarse");
+    if (p->reason) text_format(text, " (%s)", p->reason);
+    if (p->emission_error > 0 || p->reflection_error > 0)
+        text_format(text, ", known within %s of what it emits and %s of what it reflects",
+                    words_share(p->emission_error, arena),
+                    words_share(p->reflection_error, arena));
+}
+
+const char *words_rests_on(const Review *review, Arena *arena)
+{
+    int  count;
+    Text text = {.arena = arena};
+    const ReviewCase **list = review_displays(review, &count, arena);
+    for (int i = 0; i < count; i++) add_panel(&text, list[i], arena);
+    if (!count) return "";
+    text_add(&text, " (standard errors; the intervals hold them)");
+    return text.data;
+}
+
 const char *words_without_data(const Review *review, const ReviewCase *c, Arena *arena)
 {
     int count = review->without_data_count;
     if (!count) return "";
-    return arena_format(arena, " %s of it came by way of %d material%s without optical data "
+    return arena_format(arena, " %s of it came via %d material%s without optical data "
                                "(taken as perfectly white): %s.",
                         words_share(c->without_data_share, arena), count,
                         count == 1 ? "" : "s", review->without_data);

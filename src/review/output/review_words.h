@@ -31,6 +31,9 @@ const char *words_within(double value, double low, double high, Arena *arena);
 /* A case's: "1.64 : 1"; "–" where it is not visible. */
 const char *words_contrast(const ReviewCase *c, Arena *arena);
 
+/* A contrast ratio of the case in the kind of its limit of contrast, as words_quantity. */
+const char *words_ratio_as(const ReviewCase *c, double ratio, Arena *arena);
+
 /* "1.64 : 1"; "–" for NaN. */
 const char *words_ratio(double value, Arena *arena);
 
@@ -40,7 +43,7 @@ const char *words_interval(double low, double high, Arena *arena);
 /* "62 %", "0.4 %", "99.6 %", "less than 0.1 %"; of a share 0..1. */
 const char *words_share(double share, Arena *arena);
 
-/* "+12 %", "−18 %"; from ten times the limit on "12.5 ×"; "–" where there is no limit. */
+/* "+12 %", "−18 %"; "–" where there is no limit. */
 const char *words_margin(double margin, Arena *arena);
 
 /* As somebody would write it who chose it: "2", "0.65". */
@@ -49,20 +52,35 @@ const char *words_number(double value, Arena *arena);
 /* The figure found for a limit, in its unit: "1.64 : 1", "14 arc min", "320 cd/m²". */
 const char *words_found(const LimitVerdict *limit, Arena *arena);
 
+/* "contrast", "luminance contrast", "height", ... */
+const char *words_kind(const LimitVerdict *limit);
+
+/* The figure with its interval, in its unit: "1.64 +- 0.02 : 1". */
+const char *words_measured(const LimitVerdict *limit, Arena *arena);
+
+/* The same said with what it is a figure of: "1.64 : 1", "luminance contrast 1.04", "14 arc min
+ * high". */
+const char *words_quantity(const LimitVerdict *limit, Arena *arena);
+
+/* The figure that made a case's verdict, as words_quantity; of what cannot be judged one of
+ * unjudged_names. */
+const char *words_judged(const ReviewCase *c, Arena *arena);
+
 /* "3 min", "1 h 25 min"; "–" for NaN. */
 const char *words_minutes(double minutes, Arena *arena);
 
 /* "2 : 1": the limit itself. */
 const char *words_limit(const LimitVerdict *limit, Arena *arena);
 
-/* "at least 2 : 1", "at most ..."; "(advice)" behind what is preferred and not asked. */
-const char *words_wanted(const LimitVerdict *limit, Arena *arena);
+/* ">= 2 : 1", "<= 2 : 1"; "(advice)" behind what is preferred and not asked. */
+const char *words_required(const LimitVerdict *limit, Arena *arena);
 
-/* "Passes", "Fails", "Too close to call", "Not visible": begins a sentence. */
+/* "Passes", "Fails", "Too close to call", "Cannot be judged": begins a sentence. */
 const char *words_verdict(Verdict verdict);
 
 /* How often a sweep fails: "0.5 %"; where its worst does not, or none of its steps: "never",
- * "at worst" (an eye box: a sweep goes by its middle), "too close", "not visible". */
+ * "at worst" (an eye box: a sweep goes by its middle), "too close", "cannot be
+ * judged". */
 const char *words_often(const ReviewSweep *sweep, Arena *arena);
 
 /* "of the time"; of a sweep of directions alone "of the sun's directions". */
@@ -100,14 +118,26 @@ const char *words_glare(double value, MeanInterval range, const char *none, Aren
 /* "sources above 2000 cd/m²: 3; DGP with its factor for low light". */
 const char *words_glare_settings(const CaseGlare *glare, Arena *arena);
 
-/* Why the case has its verdict: "contrast 1.64 : 1, wanted at least 2 : 1". */
+/* Why it cannot be judged: "nothing of it is seen: wheel (leather) hides 100 %". */
+const char *words_unjudged(const ReviewCase *c, Arena *arena);
+
+/* What a remedy makes of the limit that it is for, and of the case: "luminance contrast 2.1,
+ * required >= 2: passes". */
+const char *words_remedy(const CaseRemedy *remedy, Arena *arena);
+
+/* Why the case has its verdict: "contrast 1.64 : 1, required >= 2 : 1". */
 const char *words_reason(const ReviewCase *c, Arena *arena);
 
 /* "; known within 2.3 %, 1.0 % was asked", behind the figures of a case; "" where that was
  * reached. */
 const char *words_precision(const ReviewCase *c, Arena *arena);
 
-/* " 62 % of it came by way of 9 materials without optical data ..."; "" where all have some. */
+/* What the panels of all displays say of themselves: "panel of cluster: good, known within 0.6 %
+ * of what it emits and 0.5 % of what it reflects (standard errors, which are in the
+ * intervals)"; "": there are none. */
+const char *words_rests_on(const Review *review, Arena *arena);
+
+/* " 62 % of it came via 9 materials without optical data ..."; "" where all have some. */
 const char *words_without_data(const Review *review, const ReviewCase *c, Arena *arena);
 
 /* "glass Window_FL: through → seat FrontSeat_L: scatters" */

@@ -114,6 +114,14 @@ const ReviewEye *review_eye_named(const ReviewRequest *request, const char *name
     return NULL;
 }
 
+bool review_is_optional(const ReviewRequest *request, int symbol_id, const ReviewEye *eye)
+{
+    const bool *optional_for = request->symbols[symbol_id].optional_for;
+    for (int i = 0; i < request->eye_count; i++)
+        if (optional_for && !strcmp(request->eyes[i].name, eye->name)) return optional_for[i];
+    return false;
+}
+
 int review_look_count(const ReviewRequest *request)
 {
     int count = 0;

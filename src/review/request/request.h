@@ -113,6 +113,8 @@ typedef struct ReviewSymbol {
     double         uv[4];     /* left, top, right, bottom of the content; else all of it */
     bool           find_text; /* symbols are to be found inside uv */
     ReviewPolarity polarity;
+    bool          *optional_for; /* [eye_count]: whether that eye need not see it; what it does
+                                    see of it is judged all the same */
 } ReviewSymbol;
 
 /* More files of a scene: occupants. */
@@ -322,6 +324,9 @@ bool review_is_compared(const ReviewRequest *request);
 
 /* The factor on a display's level; 1 where no change sets it. */
 double review_brightness(const ReviewRequest *request, ReviewDisplayName display);
+
+/* Need that eye not see the symbol? */
+bool review_is_optional(const ReviewRequest *request, int symbol_id, const ReviewEye *eye);
 
 /* NULL: there is none. */
 const ReviewCondition *review_condition_named(const ReviewRequest *request, const char *name);

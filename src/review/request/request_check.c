@@ -263,11 +263,11 @@ typedef struct EyeStand {
 
 static EyeStand stand_of(const RequestDoubt *doubt, const ReviewEye *eye)
 {
-    Error none;
-    int   id;
-    if (eye->kind != EYE_CAMERA)
-        return (EyeStand){vec3_from_doubles(eye->position_m), {0, 1, 0}, NULL};
     const Scene *scene = doubt->check->scene;
+    Error        none;
+    int          id;
+    if (eye->kind != EYE_CAMERA)
+        return (EyeStand){scene_from_world(scene->origin, eye->position_m), {0, 1, 0}, NULL};
     if (!review_camera_find(scene, eye, *doubt->check->problems->arena, &id, &none))
         return (EyeStand){.up = {0, 1, 0}};
     const Transform *world = &scene->cameras[id].world_from_camera;

@@ -320,9 +320,44 @@ static bool read_find(const JsonView *view, ReviewSymbol *symbol, Error *err)
     return true;
 }
 
-static bool read_symbol(const FieldMembers *members, int i, ReviewSymbol *out, Error *err)
+static bool read_optional(const JsonView *view, const char *key, bool *out, Error *err)
 {
-    static const char *const keys[] = {"display", "content", "uv", "mask", "polarity", "find"};
+    static const char *const words[] = {"required", "optional"};
+    int word = *out;
+    if (!field_choice(view, key, (FieldWords){words, COUNT_OF(words)}, &word, err))
+        return false;
+    *out = word == 1;
+    return true;
+}
+
+/* A word for all eyes, or an object with eyes' names as keys. */
+static bool read_visible(const RequestReading *reading, const JsonView *view, ReviewSymbol *out,
+                         Error *err)
+{
+    const ReviewRequest *request = reading->request;
+    int          count = request->eye_count;
+    const char **names = ARENA_NEW(view->arena, const char *, count);
+    FieldMembers members;
+    out->optional_for = ARENA_NEW(view->arena, bool, count);
+    for (int i = 0; i < count; i++) names[i] = request->eyes[i].name;
+    if (!json_is_object(json_object_get(view->object, "visible"))) {
+        for (int i = 0; i < count; i++)
+            if (!read_optional(view, "visible", &out->optional_for[i], err)) return false;
+        return true;
+    }
+    if (!field_members(view, "visible", count, &members, err) ||
+        !json_view_check_keys(&members.view, names, count, err))
+        return false;
+    for (int i = 0; i < count; i++)
+        if (!read_optional(&members.view, names[i], &out->optional_for[i], err)) return false;
+    return true;
+}
+
+static bool read_symbol(const RequestReading *reading, const FieldMembers *members, int i,
+                        Error *err)
+{
+    static const char *const keys[] = {"display", "content", "uv",     "mask",
+                                       "polarity", "find",   "visible"};
     JsonView     view;
     ReviewSymbol symbol = {.name = members->name[i]};
     if (!json_view_child(&members->view, symbol.name, true, &view, err) ||
@@ -332,9 +367,9 @@ static bool read_symbol(const FieldMembers *members, int i, ReviewSymbol *out, E
         !field_file(&view, "mask", &symbol.mask, err) ||
         !read_rectangle(&view, &symbol, err) ||
         !request_polarity_read(&view, "polarity", &symbol.polarity, err) ||
-        !read_find(&view, &symbol, err))
+        !read_find(&view, &symbol, err) || !read_visible(reading, &view, &symbol, err))
         return false;
-    *out = symbol;
+    reading->request->symbols[i] = symbol;
     return true;
 }
 
@@ -348,7 +383,7 @@ bool request_symbols_read(RequestReading *reading, Error *err)
     request->symbols = ARENA_NEW(reading->root.arena, ReviewSymbol, members.count);
     request->symbol_count = members.count;
     for (int i = 0; i < members.count; i++)
-        if (!read_symbol(&members, i, &request->symbols[i], err)) return false;
+        if (!read_symbol(reading, &members, i, err)) return false;
     return true;
 }
 

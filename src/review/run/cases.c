@@ -13,12 +13,13 @@
 #include "review/judge.h"
 #include "review/keep/journal.h"
 #include "review/light/eye_reading.h"
-#include "review/light/response.h"
+#include "review/light/response_suns.h"
 #include "review/output/review_decide.h"
 #include "review/pace/work.h"
 #include "review/request/request_check.h"
 #include "review/run/causes.h"
 #include "review/run/glare_found.h"
+#include "review/run/worst_part.h"
 #include "text/text.h"
 #include "vision/grey_steps.h"
 
@@ -45,7 +46,9 @@ bool setup_eye_middle(const Setup *setup, const ReviewEye *eye, Arena scratch, V
                       Error *err)
 {
     int id;
-    *out = vec3_add(vec3_from_doubles(eye->position_m), vec3_from_doubles(eye->move_m));
+    double at[3];
+    for (int k = 0; k < 3; k++) at[k] = eye->position_m[k] + eye->move_m[k];
+    *out = scene_from_world(setup->scene->origin, at);
     if (eye->kind != EYE_CAMERA) return true;
     if (!review_camera_find(setup->scene, eye, scratch, &id, err))
         return error_in_file(err, setup->request->file);
@@ -64,7 +67,7 @@ Vec3 *setup_eye_points(const Setup *setup, const ReviewEye *eye, int *count, Are
     for (int i = 0; i < *count; i++) {
         double p[3];
         review_eye_point(eye, i, p);
-        points[i] = vec3_from_doubles(p);
+        points[i] = scene_from_world(setup->scene->origin, p);
     }
     return points;
 }
@@ -133,14 +136,12 @@ typedef struct CaseLook {
     bool               is_coarse, is_bare;
 } CaseLook;
 
-static ProbeAim aim_at(const Setup *setup, const CaseLook *look, const bool *is_visible,
-                       Arena *arena)
+static WorstPart part_of(const Setup *setup, const CaseLook *look, Arena *arena)
 {
     uint32_t base = look->is_coarse ? COARSE_SEED : EYE_SEED;
-    ProbeAim aim = {.context = &setup->context, .eye = look->eye,
-                    .seed = review_seed(setup->request, base)};
-    symbol_aim(&look->symbol->surface, is_visible, arena, &aim);
-    return aim;
+    PartAsk  ask = {look->symbol, look->eye, review_seed(setup->request, base),
+                    look->is_coarse};
+    return worst_part_find(setup, &ask, arena);
 }
 
 /* ---- until its verdict is clear ---------------------------------------------------------- */
@@ -256,6 +257,16 @@ static void see_stray_light(const Setup *setup, const SetupSymbol *symbol, Vec3 
     c->glare = glare_found(&stray.glare, &setup->request->glare);
 }
 
+/* A shape whose shortest chords are more than a quarter of its height, such as a filled sign or
+ * a bar, is not made of strokes: bold faces of type have a fifth, the heaviest a quarter. */
+#define STROKE_MOST 0.25
+
+static double stroke_ratio_of(const SymbolSplit *split)
+{
+    double ratio = split->stroke_px / (split->character_v * split->light.content_height);
+    return ratio <= STROKE_MOST ? ratio : (double)NAN;
+}
+
 /* A stroke and a gap as wide are one cycle. */
 static double visibility_of(const ReviewCase *c, const SymbolSplit *split)
 {
@@ -286,9 +297,7 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     const SetupSymbol *symbol = look->symbol;
     Vec3           eye = look->eye;
     CaseLuminances *l = &c->luminance_cd_m2;
-    bool *is_visible = ARENA_NEW(arena, bool, symbol->surface.point_count);
-    SymbolVisibility seen =
-        symbol_visibility(&symbol->surface, &setup->context, eye, is_visible);
+    SymbolVisibility seen = symbol_visibility(&symbol->surface, &setup->context, eye, NULL);
     *l = (CaseLuminances){(double)NAN, (double)NAN, (double)NAN, (double)NAN, (double)NAN,
                           (double)NAN};
     c->minutes_to_decide = c->precision_asked = c->precision_reached = (double)NAN;
@@ -297,14 +306,19 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     if (seen.visible_share < 1 && !look->is_coarse)
         case_hiders(&symbol->surface, &setup->context, eye, c, arena);
     c->height_arcmin = symbol_height_arcmin(&symbol->surface, symbol->split.box, eye);
+    c->stroke_ratio = stroke_ratio_of(&symbol->split);
     c->contrast_ratio = c->contrast_low = c->contrast_high = c->contrast_with_veil = c->jnd =
         c->visibility = (double)NAN;
-    c->glare = glare_unknown();
+    c->glare = review_glare_unknown();
     if (!(seen.visible_share > 0)) return (ProbeAim){.target_count = 0};
     SymbolLook shown = {&symbol->surface, &symbol->split, eye, setup->tools.threads};
     SymbolEmission emission = symbol_emission(&shown, c->level);
     set_shown(l, &emission, seen.transmittance);
-    ProbeAim aim = aim_at(setup, look, is_visible, arena);
+    WorstPart part = part_of(setup, look, arena);
+    ProbeAim  aim = part.aim;
+    c->whole = part.whole;
+    c->whole.contrast_ratio =
+        luminance_contrast(l->foreground, l->background, c->whole.reflected);
     bool wants_veil = !look->is_bare || tools->profile->uses_veil;
     if (!look->is_coarse && wants_veil) see_stray_light(setup, symbol, eye, c, *arena);
     *direct = direct_sun(setup, &aim, *arena);
@@ -338,9 +352,15 @@ static ReviewCase start_case(const CaseTools *tools, const ReviewEye *eye,
     const Setup *setup = tools->setup;
     Vec3         towards;
     float        bands[LIGHT_BANDS];
-    ReviewCase   c = {.condition = setup->condition->name, .eye = eye->name,
-                      .symbol = symbol->name, .display = symbol->display_name, .limit_id = -1,
-                      .level = setup_level(setup, symbol->display.display_id)};
+    ReviewCase   c = review_case_unknown();
+    c.condition = setup->condition->name;
+    c.eye = eye->name;
+    c.symbol = symbol->name;
+    c.display = symbol->display_name;
+    c.level = setup_level(setup, symbol->display.display_id);
+    c.panel = symbol->panel;
+    c.is_optional = review_is_optional(setup->request, symbol->symbol_id, eye);
+    memcpy(c.origin_m, setup->scene->origin, sizeof c.origin_m);
     if (setup_sun(setup, &towards, bands)) {
         SunAngles angles = setup_angles(setup, towards);
         c.has_sun = true;
@@ -358,6 +378,14 @@ typedef struct CaseAsk {
     bool               is_bare; /* its light and verdict alone */
 } CaseAsk;
 
+/* A variant asks for no causes: what came via things without data in the review itself counts
+ * for it, too. */
+static double data_share_of(const Review *base, const ReviewCase *c)
+{
+    const ReviewCase *like = base ? review_case_like(base, c) : NULL;
+    return like ? like->without_data_share : 0;
+}
+
 static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
                            Arena *arena)
 {
@@ -365,6 +393,7 @@ static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewC
     ProbeAim aim = see_symbol(tools, look, c, &direct, arena);
     judge_ambient(c, tools->profile,
                   aim.target_count && is_in_sun(direct, c->luminance_cd_m2.reflected));
+    c->without_data_share = data_share_of(tools->base, c);
     judge_case(c, tools->profile, arena);
     judge_paths(c);
     c->minutes_to_decide *= c->paths_to_decide;
@@ -382,7 +411,7 @@ static int worst_point(const CaseTools *tools, const CaseLook *look, const Vec3 
         CaseLook   one = {look->symbol, points[i], true, true};
         ReviewCase seen = start;
         judge_look(tools, &one, &seen, &room);
-        failed += seen.verdict == VERDICT_FAIL || seen.verdict == VERDICT_NOT_VISIBLE;
+        failed += seen.verdict == VERDICT_FAIL || seen.verdict == VERDICT_UNJUDGED;
         if (i && !is_worse(&seen, &worst)) continue;
         worst = seen;
         at = i;
@@ -404,13 +433,15 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
     look.eye =
         points[count > 1 ? worst_point(tools, &look, points, count, &c, *arena) : 0];
     ProbeAim aim = judge_look(tools, &look, &c, arena);
-    c.eye_m = look.eye;
+    world_from_scene(tools->setup->scene->origin, look.eye, c.eye_m);
+    c.panel = symbol_panel(ask->symbol, arena);
     if (aim.target_count && !ask->is_bare) {
         long     paths = tools->cause_paths ? tools->cause_paths : CAUSE_PATHS;
         int      rays = tools->cause_rays ? tools->cause_rays : CAUSE_RAYS;
         CauseAsk causes = {&tools->setup->tools, &aim, paths, rays, false, false};
         CauseFacts facts = case_causes(&causes, &c, arena);
-        case_remedies(&facts, &c, arena);
+        judge_case(&c, tools->profile, arena); /* now that its share without data is known */
+        case_remedies(&facts, tools->profile, &c, arena);
     }
     *out = c;
     return true;

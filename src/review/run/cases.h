@@ -49,7 +49,7 @@ bool setup_case(const CaseTools *tools, const SetupSymbol *symbol, const ReviewE
 bool setup_verdict(const CaseTools *tools, const SetupSymbol *symbol, const ReviewEye *eye,
                    Arena *arena, ReviewCase *out, Error *err);
 
-/* The points of an eye, world, as many as it has; in the arena. NULL: its camera is missing. */
+/* The points of an eye, m, as many as it has; in the arena. NULL: its camera is missing. */
 Vec3 *setup_eye_points(const Setup *setup, const ReviewEye *eye, int *count, Arena *arena,
                        Error *err);
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "review/chain/chains.h"
+#include "review/judge.h"
 
 #define LEAST_PART 0.01 /* of what is reflected: a part that is worth a word */
 #define COATED 0.25 /* of a mirror's light that a usual anti-reflection coating leaves */
@@ -245,43 +246,138 @@ void case_hiders(const SymbolSurface *surface, const PathContext *context, Vec3 
 
 /* ---- remedies ---------------------------------------------------------------------------- */
 
-/* The display's own light that comes back to it grows with its brightness. */
-static double contrast(const CaseLuminances *l, double brighter, double reflected)
+/* What a remedy changes: factors on what the display emits and on its own light that comes back
+ * to it, and on all that it reflects else. */
+typedef struct Remedied {
+    double brighter, reflected; /* reflected: cd m^-2 beside its own light, after */
+} Remedied;
+
+/* The case with so much light, judged again; the doubt is that of its reading, in proportion. */
+static ReviewCase judged_with(const CauseFacts *facts, const Profile *profile,
+                              const ReviewCase *c, Remedied with, Arena *arena)
 {
-    return luminance_contrast(brighter * l->foreground, brighter * l->background, reflected);
+    ReviewCase      out = *c;
+    CaseLuminances *l = &out.luminance_cd_m2;
+    double before = l->reflected, own = fmin(facts->own_cd_m2, before);
+    l->foreground *= with.brighter;
+    l->background *= with.brighter;
+    l->reflected = with.reflected + with.brighter * own;
+    double scale = before > 0 ? l->reflected / before : 1;
+    out.level *= with.brighter;
+    judge_contrasts(&out, (MeanInterval){scale * c->reflected_range.low,
+                                         scale * c->reflected_range.high});
+    judge_case(&out, profile, arena);
+    return out;
 }
 
-/* By how much the display must be brighter for a contrast,
+/* Of the limits of contrast that count and are missed the one that is missed by most; -1. */
+static int limit_to_mend(const ReviewCase *c)
+{
+    int worst = -1;
+    for (int i = 0; i < c->limit_count; i++) {
+        const LimitVerdict *limit = &c->limits[i];
+        LimitKind           kind = limit_kind_named(limit->kind);
+        bool is_missed = !limit->is_advice && limit->margin < 0 &&
+                         (limit->verdict == VERDICT_FAIL || limit->verdict == VERDICT_TOO_CLOSE);
+        if (!is_missed || !limit_kinds[kind].is_contrast) continue;
+        if (worst < 0 || limit->margin < c->limits[worst].margin) worst = i;
+    }
+    return worst;
+}
+
+/* By how much the display must be brighter, or darker, for a contrast,
  * (H x + R + O x) / (L x + R + O x) = C, O its own light that is reflected, R all other;
  * NaN: no brightness does it. */
-static double brighter_for(const CaseLuminances *l, double own, double wanted)
+static double brighter_for(const CaseLuminances *l, double own, double other, double wanted)
 {
     double high = fmax(l->foreground, l->background), low = fmin(l->foreground, l->background);
     double gain = high + own - wanted * (low + own);
-    return gain > 0 ? (l->reflected - own) * (wanted - 1) / gain : (double)NAN;
+    return gain > 0 ? other * (wanted - 1) / gain : (double)NAN;
 }
 
-void case_remedies(const CauseFacts *facts, ReviewCase *c, Arena *arena)
+/* To three digits, away from 1. */
+static double rounded_out(double factor)
+{
+    double digit = pow(10, floor(log10(factor)) - 2);
+    return digit * (factor > 1 ? ceil(factor / digit) : floor(factor / digit));
+}
+
+typedef struct Remedies {
+    const CauseFacts *facts;
+    const Profile    *profile;
+    ReviewCase       *c;
+    int               limit; /* that they are for */
+    CaseRemedy       *list;
+    Arena            *arena;
+} Remedies;
+
+/* Nothing that leaves the figure within its interval. */
+static void add_remedy(Remedies *to, const char *what, const ReviewCase *then)
+{
+    const LimitVerdict *before = &to->c->limits[to->limit], *after = &then->limits[to->limit];
+    bool helps = before->is_upper ? after->found < before->low : after->found > before->high;
+    if (then->limit_count != to->c->limit_count || !helps) return;
+    to->list[to->c->remedy_count++] =
+        (CaseRemedy){what, then->contrast_ratio, then->level, *after, then->verdict};
+}
+
+#define BRIGHTER_TRIES 40
+#define BRIGHTER_STEP 1.05 /* the panel's errors are in the interval, too */
+
+/* The least brightness with which the limit is judged to be kept although as much more is
+ * reflected as the interval is wide. */
+static void add_brightness(Remedies *to)
+{
+    const ReviewCase   *c = to->c;
+    const LimitVerdict *limit = &c->limits[to->limit];
+    CaseLuminances l = c->luminance_cd_m2;
+    double veil = to->profile->uses_veil && l.veil > 0 ? l.veil : 0;
+    double own = fmin(to->facts->own_cd_m2, l.reflected), other = l.reflected - own;
+    double wide = c->reflected_range.high - c->reflected_range.low;
+    double doubt = limit->is_upper ? -0.5 * wide : 0.5 * wide;
+    double wanted = ratio_from_contrast(limit_kind_named(limit->kind), limit->value);
+    double x = brighter_for(&l, own, fmax(other + veil + 2 * doubt, 0), wanted);
+    for (int i = 0; i < BRIGHTER_TRIES && x > 0 && isfinite(x); i++) {
+        double     factor = rounded_out(x);
+        ReviewCase sure = judged_with(to->facts, to->profile, c,
+                                      (Remedied){factor, fmax(other + doubt, 0)}, to->arena);
+        ReviewCase then = judged_with(to->facts, to->profile, c, (Remedied){factor, other},
+                                      to->arena);
+        bool keeps = sure.limit_count == c->limit_count &&
+                     sure.limits[to->limit].verdict == VERDICT_PASS;
+        x *= limit->is_upper ? 1 / BRIGHTER_STEP : BRIGHTER_STEP;
+        if (!keeps) continue;
+        add_remedy(to, arena_format(to->arena, "the display %.3g times as bright", factor),
+                   &then);
+        return;
+    }
+}
+
+static void add_less_light(Remedies *to, const char *what, double cd_m2)
+{
+    const CaseLuminances *l = &to->c->luminance_cd_m2;
+    double own = fmin(to->facts->own_cd_m2, l->reflected);
+    Remedied   with = {1, fmax(l->reflected - cd_m2 - own, 0)};
+    ReviewCase then = judged_with(to->facts, to->profile, to->c, with, to->arena);
+    add_remedy(to, what, &then);
+}
+
+void case_remedies(const CauseFacts *facts, const Profile *profile, ReviewCase *c,
+                   Arena *arena)
 {
     const CaseLuminances *l = &c->luminance_cd_m2;
-    CaseRemedy *list = ARENA_NEW(arena, CaseRemedy, 4);
-    if (c->limit_id < 0 || !(c->margin < 0) || !(c->visible_share > 0)) return;
-    double own = fmin(facts->own_cd_m2, l->reflected);
-    double wanted = c->limits[c->limit_id].value, brighter = brighter_for(l, own, wanted);
-    if (brighter > 1)
-        list[c->remedy_count++] = (CaseRemedy){
-            arena_format(arena, "the display %.3g times as bright", brighter),
-            contrast(l, brighter, l->reflected + (brighter - 1) * own), c->level * brighter};
+    Remedies to = {facts, profile, c, limit_to_mend(c), ARENA_NEW(arena, CaseRemedy, 4), arena};
+    if (c->verdict == VERDICT_UNJUDGED || to.limit < 0) return;
+    c->remedies = to.list;
+    add_brightness(&to);
     if (l->mirror > 0)
-        list[c->remedy_count++] = (CaseRemedy){
-            "a coating that leaves a quarter of the mirror's light",
-            contrast(l, 1, l->reflected - (1 - COATED) * l->mirror), c->level};
+        add_less_light(&to, "a coating that leaves a quarter of the mirror's light",
+                       (1 - COATED) * l->mirror);
     for (int i = 0; i < facts->part_count; i++) {
         const CausePart *part = &facts->parts[i];
-        list[c->remedy_count++] = (CaseRemedy){
-            arena_format(arena, "%s (%.0f %% of what is reflected comes by it)", part->what,
-                         100 * fmin(part->cd_m2 / l->reflected, 1)),
-            contrast(l, 1, fmax(l->reflected - part->cd_m2, 0)), c->level};
+        add_less_light(&to,
+                       arena_format(arena, "%s (%.0f %% of what is reflected comes by it)",
+                                    part->what, 100 * fmin(part->cd_m2 / l->reflected, 1)),
+                       part->cd_m2);
     }
-    c->remedies = list;
 }

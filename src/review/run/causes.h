@@ -11,6 +11,7 @@
  */
 #pragma once
 #include "review/chain/chains.h"
+#include "review/profile.h"
 #include "review/symbol/symbol_sight.h"
 #include "review/verdict.h"
 
@@ -46,9 +47,13 @@ typedef struct CauseFacts {
  * reflected light by these paths, and the groups; that light itself where asked. */
 CauseFacts case_causes(const CauseAsk *ask, ReviewCase *c, Arena *arena);
 
-/* Sets its remedies, from its figures and causes: nothing is traced. Where its limit is kept
- * there are none. */
-void case_remedies(const CauseFacts *facts, ReviewCase *c, Arena *arena);
+/* Sets its remedies, from its figures and causes: nothing is traced. They are for the contrast
+ * limit that is missed by most; where none is missed, or the case cannot be judged, there are
+ * none, nor is anything listed that leaves the figure within the interval it has. A brightness
+ * is that with which the case is judged to keep the limit: with as much more light than was
+ * found as its interval is wide, so that fresh paths find it kept as well. */
+void case_remedies(const CauseFacts *facts, const Profile *profile, ReviewCase *c,
+                   Arena *arena);
 
 /* Sets the case's hiders, by the names of nodes and materials; what has the same name counts as
  * one. */

@@ -142,7 +142,8 @@ static bool explain_on(Setup *setup, const ExplainOptions *options, Arena *scrat
     tools.symbols = symbols;
     if (!explain_symbol(&tools, symbol, eye, arena, out, err)) return false;
     out->has_outlook = options->with_outlook && out->of.visible_share > 0;
-    if (out->has_outlook) out->outlook = setup_outlook(setup, symbol, out->of.eye_m, arena);
+    Vec3 from = scene_from_world(setup->scene->origin, out->of.eye_m);
+    if (out->has_outlook) out->outlook = setup_outlook(setup, symbol, from, arena);
     return true;
 }
 
@@ -273,7 +274,10 @@ void explain_place(const ExplainPlace *place, Arena *arena, Explained *out)
     ReviewCase *c = &out->of;
     *c = (ReviewCase){.luminance_cd_m2 = {nan, nan, nan, nan, nan, nan}, .contrast_ratio = nan,
                       .contrast_low = nan, .contrast_high = nan, .limit_id = -1, .level = nan,
-                      .eye_m = place->aim.eye, .visible_share = 1};
+                      .visible_share = 1};
+    const Scene *scene = place->aim.context->scene;
+    memcpy(c->origin_m, scene->origin, sizeof c->origin_m);
+    world_from_scene(scene->origin, place->aim.eye, c->eye_m);
     if (is_display) set_sent(place, &aim, out);
     CauseAsk   ask = {place->tools, &aim, place->paths, CHAIN_RAYS, !is_display, true};
     CauseFacts facts = case_causes(&ask, c, arena);

@@ -31,7 +31,7 @@ const char *frame_view(const char *frame, FrameView view, Arena *arena);
 typedef struct FrameAsk {
     const Setup     *setup;
     const ReviewEye *eye;
-    Vec3             look_at; /* m, world: of an eye that is no camera */
+    Vec3             look_at; /* m, scene: of an eye that is no camera */
     const char      *folder;
     const char      *unfinished; /* folder of its checkpoint */
     const char      *name;    /* without an ending */

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/run/glare_found.h"
 
-#include <math.h>
-
 CaseGlare glare_found(const GlareReading *reading, const GlareSettings *settings)
 {
     const GlareFigures *f = &reading->figures;
@@ -15,14 +13,4 @@ CaseGlare glare_found(const GlareReading *reading, const GlareSettings *settings
                        .low_light = settings->low_light,
                        .small_sources = settings->small_sources,
                        .none = discomfort_none_words(f->none)};
-}
-
-CaseGlare glare_unknown(void)
-{
-    const double       none = (double)NAN;
-    const MeanInterval range = {none, none};
-    return (CaseGlare){.dgp = none, .ugr = none, .dgi = none, .dgp_range = range,
-                       .ugr_range = range, .dgi_range = range, .threshold_cd_m2 = none,
-                       .background_cd_m2 = none, .source_lx = none, .smallest_sr = none,
-                       .largest_sr = none};
 }

@@ -8,6 +8,3 @@
 #include "review/verdict.h"
 
 CaseGlare glare_found(const GlareReading *reading, const GlareSettings *settings);
-
-/* Of what is not seen. */
-CaseGlare glare_unknown(void);

@@ -26,7 +26,8 @@ static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const DistantT
     double     own = sight->own.lamps + level * sight->own.displays;
     double     reflected = distant_reading_sum(light) + own;
     ReviewCase c = {.level = level, .limit_id = -1, .visible_share = sight->seen.visible_share,
-                    .height_arcmin = sight->height_arcmin};
+                    .height_arcmin = sight->height_arcmin, .stroke_ratio = (double)NAN,
+                    .panel = sight->symbol->panel};
     c.display_lux = sight->face->lux[sun] + sight->face->own.lamps +
                     level * sight->face->own.displays;
     c.luminance_cd_m2 = (CaseLuminances){

@@ -212,6 +212,22 @@ static void set_when(const SweepReport *to, const SweepSun *sun, ReviewCase *c)
                                                     to->arena));
 }
 
+/* Of an eye box or ellipse the middle counts for every place. */
+static ReviewCase hidden_case(const SweepReport *to, const Sight *sight,
+                              const ReviewSweep *sweep)
+{
+    const ReviewRequest *request = to->sweep->run->request;
+    ReviewCase c = review_case_unknown();
+    c.condition = sweep->condition;
+    c.eye = sweep->eye;
+    c.symbol = sweep->symbol;
+    c.display = sight->symbol->display_name;
+    c.panel = symbol_panel(sight->symbol, to->arena);
+    c.is_optional = review_is_optional(request, sight->symbol->symbol_id, sight->eye);
+    if (review_eye_is_wide(sight->eye)) c.eye_failed_share = 1;
+    return c;
+}
+
 static ReviewSweep sweep_of(const SweepReport *to, const Sight *sight)
 {
     const char *symbol = sight->symbol->name;
@@ -219,10 +235,7 @@ static ReviewSweep sweep_of(const SweepReport *to, const Sight *sight)
                          .eye = sight->eye->name, .cases = to->suns->count,
                          .symbol = arena_string(to->arena, symbol, strlen(symbol)),
                          .longest_failure_minutes = to->suns->has_time ? 0 : (double)NAN};
-    sweep.worst = (ReviewCase){.condition = sweep.condition, .eye = sweep.eye,
-                               .symbol = sweep.symbol, .limit_id = -1, .margin = (double)NAN,
-                               .display = sight->symbol->display_name,
-                               .verdict = VERDICT_NOT_VISIBLE};
+    sweep.worst = hidden_case(to, sight, &sweep);
     return sweep;
 }
 

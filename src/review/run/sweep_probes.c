@@ -94,8 +94,9 @@ static void place_meters(Sweep *sweep, Arena *arena)
     for (int i = 0; i < request->level_count; i++) {
         const ReviewLevel *level = &request->levels[i];
         if (level->is_curve)
-            sweep->sensors[i] = meter_at(vec3_from_doubles(level->position_m),
-                                         vec3_from_doubles(level->normal));
+            sweep->sensors[i] =
+                meter_at(scene_from_world(sweep->setup->scene->origin, level->position_m),
+                         vec3_from_doubles(level->normal));
     }
 }
 
@@ -114,6 +115,10 @@ static void aim_sight(Sweep *sweep, Sight *sight, Arena *arena)
         (ProbeAim){.context = &setup->context, .eye = sight->from,
                    .seed = review_seed(setup->request, EYE_SEED)};
     symbol_aim(surface, is_visible, arena, &sight->probe.aim);
+    if (!sight->probe.aim.target_count) return;
+    LightParts *parts = ARENA_NEW(arena, LightParts, 1);
+    *parts = symbol_parts(sight->symbol, &sight->probe.aim, SUN_PATHS, arena);
+    if (parts->aim.target_count) sight->probe.parts = parts;
 }
 
 /* Symbols follow each other eye by eye. */

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/run/symbols.h"
 
+#include <math.h>
 #include <string.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "panel/query/panel_stated.h"
 #include "render/identity.h"
 #include "review/request/request_check.h"
 #include "review/symbol/text_find.h"
@@ -38,8 +40,13 @@ static bool add_symbol(SymbolList *list, SetupSymbol symbol, const SymbolQuestio
     *kept = symbol;
     SymbolPlace place = {.scene = scene, .display = &kept->display,
                          .point_count = SYMBOL_POINTS};
+    SymbolSurface rectangle;
     memcpy(place.uv, question->uv, sizeof place.uv);
-    if (!symbol_surface_build(&place, arena, &kept->surface, err)) return false;
+    memcpy(kept->uv, question->uv, sizeof kept->uv);
+    if (!symbol_surface_build(&place, arena, &rectangle, err) ||
+        !symbol_surface_within(&rectangle, kept->split.box, SYMBOL_POINTS, arena,
+                               &kept->surface, err))
+        return false;
     list->count++;
     return true;
 }
@@ -104,6 +111,26 @@ static bool add_found(SymbolList *list, const SetupSymbol *symbol, SymbolQuestio
     return true;
 }
 
+static CasePanel panel_of(const Panel *panel, Arena *arena)
+{
+    PanelStated stated = panel_stated(panel, arena);
+    return (CasePanel){stated.verdict, stated.reason, stated.is_coarse, stated.is_unusable,
+                       stated.emission_error, stated.reflection_error};
+}
+
+static const char *copied(const char *text, Arena *arena)
+{
+    return text ? arena_string(arena, text, strlen(text)) : NULL;
+}
+
+CasePanel symbol_panel(const SetupSymbol *symbol, Arena *arena)
+{
+    CasePanel panel = symbol->panel;
+    panel.verdict = copied(panel.verdict, arena);
+    panel.reason = copied(panel.reason, arena);
+    return panel;
+}
+
 static bool add_asked(SymbolList *list, int id, Arena *arena, Error *err)
 {
     const ReviewSymbol *asked = &list->setup->request->symbols[id];
@@ -111,7 +138,9 @@ static bool add_asked(SymbolList *list, int id, Arena *arena, Error *err)
     SetupSymbol symbol = {.name = asked->name, .display_name = asked->display, .symbol_id = id};
     Image       mask;
     if (!review_display_find(scene, asked->display, arena, &symbol.display, err)) return false;
-    SymbolQuestion question = {.panel = scene->displays[symbol.display.display_id].panel,
+    const Panel *panel = scene->displays[symbol.display.display_id].panel;
+    symbol.panel = panel_of(panel, arena);
+    SymbolQuestion question = {.panel = panel,
                                .content = shown_content(scene, &symbol.display),
                                .uv = {0, 0, 1, 1}, .polarity = polarity_of(list->setup, id)};
     if (asked->has_uv) memcpy(question.uv, asked->uv, sizeof question.uv);
@@ -143,6 +172,82 @@ void symbol_aim(const SymbolSurface *surface, const bool *is_visible, Arena *are
         targets[aim->target_count] = patch.middle;
         patches[aim->target_count++] = (ProbePatch){patch.along, patch.down};
     }
+}
+
+/* ---- its parts --------------------------------------------------------------------------- */
+
+#define STEPS_MOST 8 /* in which a part slides over its own length */
+
+/* Cells of one length of the box, of which `steps` make a part. */
+static int cells_along(double box, double part, int steps)
+{
+    return part > 0 && part < box ? (int)floor(steps * box / part) : steps;
+}
+
+/* Lengths of a part within the box: its share of the content. */
+static void part_size(const SymbolSplit *split, double size[2])
+{
+    size[0] = split->stroke_px / split->light.content_width;
+    size[1] = split->character_v;
+}
+
+/* Sets how the box is divided into no more than so many cells. */
+static void divide(const SymbolSplit *split, int most, LightParts *parts)
+{
+    double size[2], width = split->box[2] - split->box[0];
+    double height = split->box[3] - split->box[1], larger = 1;
+    part_size(split, size);
+    int steps = STEPS_MOST;
+    do {
+        parts->columns = cells_along(width, larger * size[0], steps);
+        parts->rows = cells_along(height, larger * size[1], steps);
+        parts->wide = parts->high = steps;
+        if (steps > 1) steps /= 2;
+        else larger *= 2;
+    } while ((double)parts->columns * parts->rows > most);
+}
+
+static void cell_box(const SymbolSplit *split, const LightParts *parts, const int cell[4],
+                     double uv[4])
+{
+    for (int k = 0; k < 4; k++) {
+        double low = split->box[k % 2], high = split->box[k % 2 + 2];
+        uv[k] = low + cell[k] * (high - low) / (k % 2 ? parts->rows : parts->columns);
+    }
+}
+
+void symbol_part_box(const SetupSymbol *symbol, const LightParts *parts, int part, double uv[4])
+{
+    int column, row;
+    light_parts_place(parts, part, &column, &row);
+    const int cell[4] = {column, row, column + parts->wide, row + parts->high};
+    cell_box(&symbol->split, parts, cell, uv);
+}
+
+LightParts symbol_parts(const SetupSymbol *symbol, const ProbeAim *aim, int most, Arena *arena)
+{
+    LightParts parts = {.aim = *aim};
+    divide(&symbol->split, most, &parts);
+    int         count = parts.columns * parts.rows;
+    Vec3       *targets = ARENA_NEW(arena, Vec3, count);
+    ProbePatch *patches = ARENA_NEW(arena, ProbePatch, count);
+    int        *cell_of = ARENA_NEW(arena, int, count);
+    parts.aim.targets = targets;
+    parts.aim.patches = patches;
+    parts.aim.target_count = 0;
+    parts.cell_of = cell_of;
+    for (int i = 0; i < count; i++) {
+        double      uv[4];
+        SymbolPatch patch;
+        int         column = i % parts.columns, row = i / parts.columns;
+        const int   cell[4] = {column, row, column + 1, row + 1};
+        cell_box(&symbol->split, &parts, cell, uv);
+        if (!symbol_box_seen(&symbol->surface, uv, aim->context, aim->eye, &patch)) continue;
+        targets[parts.aim.target_count] = patch.middle;
+        patches[parts.aim.target_count] = (ProbePatch){patch.along, patch.down};
+        cell_of[parts.aim.target_count++] = i;
+    }
+    return parts;
 }
 
 bool setup_symbols(const Setup *setup, Arena *arena, SetupSymbol **out, int *count, Error *err)

@@ -83,9 +83,9 @@ static CaseView view_of(const Camera *camera)
 }
 
 /* From corner to corner; a curved display bends between them. */
-static void add_rim(const SymbolSurface *surface, ReviewCase *c, Arena *arena)
+static void add_rim(const SetupSymbol *symbol, ReviewCase *c, Arena *arena)
 {
-    const double *uv = surface->uv;
+    const double *uv = symbol->uv;
     const double  corner[5][2] = {{uv[0], uv[1]}, {uv[2], uv[1]}, {uv[2], uv[3]},
                                   {uv[0], uv[3]}, {uv[0], uv[1]}};
     Vec3 *rim = ARENA_NEW(arena, Vec3, 4 * RIM_STEPS);
@@ -94,7 +94,7 @@ static void add_rim(const SymbolSurface *surface, ReviewCase *c, Arena *arena)
         double      t = (double)(i % RIM_STEPS) / RIM_STEPS;
         double      at[2] = {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
         SymbolPoint point;
-        if (symbol_surface_at(surface, at, &point)) rim[c->rim_count++] = point.position;
+        if (symbol_surface_at(&symbol->surface, at, &point)) rim[c->rim_count++] = point.position;
     }
     c->rim = rim;
 }
@@ -103,7 +103,8 @@ static bool add_outlook(const FrameAsk *ask, const SetupSymbol *symbol, ReviewCa
                         Arena *arena, Error *err)
 {
     Arena       scratch = arena_reserve((size_t)1 << 28);
-    Outlook     outlook = setup_outlook(ask->setup, symbol, c->eye_m, &scratch);
+    Vec3        eye = scene_from_world(ask->setup->scene->origin, c->eye_m);
+    Outlook     outlook = setup_outlook(ask->setup, symbol, eye, &scratch);
     Picture     picture = outlook_picture(&outlook, &scratch);
     PictureFile file = {.bits = 8, .is_srgb = true};
     c->outlook_words = outlook_words(&outlook, arena);
@@ -132,7 +133,7 @@ static bool add_sights(const FrameAsk *ask, ReviewCase *c, Arena *arena, Error *
         c->view = view;
         for (int i = 0; i < count && ok; i++) {
             if (strcmp(symbols[i].name, c->symbol)) continue;
-            add_rim(&symbols[i].surface, c, arena);
+            add_rim(&symbols[i], c, arena);
             ok = add_outlook(ask, &symbols[i], c, arena, err);
         }
     }

@@ -177,6 +177,47 @@ SymbolPatch symbol_patch_seen(const SymbolSurface *surface, int point,
     return (SymbolPatch){.middle = surface->points[point].position};
 }
 
+bool symbol_box_seen(const SymbolSurface *surface, const double uv[4],
+                     const PathContext *context, Vec3 eye, SymbolPatch *out)
+{
+    const double at[2] = {0.5 * (uv[0] + uv[2]), 0.5 * (uv[1] + uv[3])};
+    SymbolPoint  middle;
+    Wavelengths  wavelengths;
+    wavelengths_sample(0.5f, &wavelengths);
+    if (!symbol_surface_at(surface, at, &middle) ||
+        !(passed_from(&middle, context, &wavelengths, eye) > 0))
+        return false;
+    *out = sees_corners(surface, uv, context, eye)
+               ? symbol_patch_of(surface, uv, middle.position)
+               : (SymbolPatch){.middle = middle.position};
+    return true;
+}
+
+static bool is_lit(const SymbolPoint *point, const PathContext *context,
+                   const Wavelengths *wavelengths, Vec3 towards)
+{
+    SightQuestion question = {.context = context, .wavelengths = wavelengths,
+                              .direction = towards, .passed = spectrum_all(1)};
+    Ray ray = {symbol_point_start(context->scene, point), towards, 0, INFINITY};
+    return vec3_dot(towards, point->ng) > 0 &&
+           !bvh_occluded(context->bvh, ray, passes, &question);
+}
+
+double symbol_lit_share(const SymbolSurface *surface, const bool *is_visible,
+                        const PathContext *context, Vec3 towards)
+{
+    double lit = 0, visible = 0;
+    Wavelengths wavelengths;
+    wavelengths_sample(0.5f, &wavelengths);
+    for (int i = 0; i < surface->point_count; i++) {
+        const SymbolPoint *point = &surface->points[i];
+        if (!is_visible[i]) continue;
+        visible += (double)point->area_m2;
+        if (is_lit(point, context, &wavelengths, towards)) lit += (double)point->area_m2;
+    }
+    return lit / visible;
+}
+
 /* ---- light ------------------------------------------------------------------------------- */
 
 /* Adds the XYZ that the pixel sends to the eye; false: it turns its back. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* symbol_sight.h -- a symbol as an eye sees it: how large, how much of it, how bright.
  *
- * Frames   metres, world.  Units  arc minutes, cd m^-2.
+ * Frames   metres, scene.  Units  arc minutes, cd m^-2.
  * Threads  pure functions; symbol_emission starts its own.
  */
 #pragma once
@@ -40,6 +40,16 @@ SymbolHiding symbol_hiding(const SymbolSurface *surface, const PathContext *cont
  * to a patch that something covers in part would measure what covers it. */
 SymbolPatch symbol_patch_seen(const SymbolSurface *surface, int point,
                               const PathContext *context, Vec3 eye);
+
+/* The same of any rectangle of it; false: its middle is hidden, or not shown. */
+bool symbol_box_seen(const SymbolSurface *surface, const double uv[4],
+                     const PathContext *context, Vec3 eye, SymbolPatch *out);
+
+/* The share, 0..1, of the surface's points with is_visible[point] to which light comes straight
+ * from `towards` (unit, world), windows that pass a hundredth of it apart: with the middle of
+ * the sun, what it lights by more than half. NaN: none is visible. */
+double symbol_lit_share(const SymbolSurface *surface, const bool *is_visible,
+                        const PathContext *context, Vec3 towards);
 
 /* XYZ that the display sends towards the eye: means of light (not of codes) over the pixels of
  * a class; edges are in neither. Pixels that turn their back to the eye are left out; NaN: all

@@ -173,18 +173,24 @@ bool symbol_patch_box(const SymbolSurface *surface, int point, double uv[4])
     return true;
 }
 
-SymbolPatch symbol_patch(const SymbolSurface *surface, int point)
+SymbolPatch symbol_patch_of(const SymbolSurface *surface, const double uv[4], Vec3 middle)
 {
-    double      uv[4];
     SymbolPoint first, along, down;
-    if (!symbol_patch_box(surface, point, uv) ||
-        !symbol_surface_at(surface, (double[2]){uv[0], uv[1]}, &first) ||
+    if (!symbol_surface_at(surface, (double[2]){uv[0], uv[1]}, &first) ||
         !symbol_surface_at(surface, (double[2]){uv[2], uv[1]}, &along) ||
         !symbol_surface_at(surface, (double[2]){uv[0], uv[3]}, &down))
-        return (SymbolPatch){.middle = surface->points[point].position};
+        return (SymbolPatch){.middle = middle};
     return (SymbolPatch){vec3_scale(vec3_add(along.position, down.position), 0.5f),
                          vec3_sub(along.position, first.position),
                          vec3_sub(down.position, first.position)};
+}
+
+SymbolPatch symbol_patch(const SymbolSurface *surface, int point)
+{
+    double uv[4];
+    Vec3   middle = surface->points[point].position;
+    if (!symbol_patch_box(surface, point, uv)) return (SymbolPatch){.middle = middle};
+    return symbol_patch_of(surface, uv, middle);
 }
 
 static bool corners_are_there(const SymbolSurface *surface, Error *err)
@@ -206,6 +212,19 @@ bool symbol_surface_build(const SymbolPlace *place, Arena *arena, SymbolSurface 
     take_triangles(place, arena, &surface);
     surface.points = ARENA_NEW(arena, SymbolPoint, place->point_count);
     if (!corners_are_there(&surface, err) || !place_points(&surface, err)) return false;
+    *out = surface;
+    return true;
+}
+
+bool symbol_surface_within(const SymbolSurface *of, const double uv[4], int point_count,
+                           Arena *arena, SymbolSurface *out, Error *err)
+{
+    SymbolSurface surface = *of;
+    for (int k = 0; k < 4; k++) surface.uv[k] = uv[k];
+    surface.point_count = point_count;
+    surface.area_m2 = 0;
+    surface.points = ARENA_NEW(arena, SymbolPoint, point_count);
+    if (!place_points(&surface, err)) return false;
     *out = surface;
     return true;
 }

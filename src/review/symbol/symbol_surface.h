@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* symbol_surface.h -- where a rectangle of a display's content lies in the world.
  *
- * Frames   metres, world. uv of the content: after the display's own texture transform, u
+ * Frames   metres, scene. uv of the content: after the display's own texture transform, u
  *          right, v down, 0..1.
  * Memory   from the arena; the scene must outlive the surface.
  * Threads  const once built.
@@ -56,6 +56,10 @@ typedef struct SymbolSurface {
 bool symbol_surface_build(const SymbolPlace *place, Arena *arena, SymbolSurface *out,
                           Error *err);
 
+/* A rectangle within that of a surface, with points of its own. */
+bool symbol_surface_within(const SymbolSurface *of, const double uv[4], int point_count,
+                           Arena *arena, SymbolSurface *out, Error *err);
+
 /* The part of the rectangle that a point stands for: patches do not overlap, and together they
  * are the rectangle. */
 typedef struct SymbolPatch {
@@ -67,6 +71,9 @@ typedef struct SymbolPatch {
 bool symbol_patch_box(const SymbolSurface *surface, int point, double uv[4]);
 
 SymbolPatch symbol_patch(const SymbolSurface *surface, int point);
+
+/* The patch of any rectangle of it, its edges 0 where that is not shown; the middle is. */
+SymbolPatch symbol_patch_of(const SymbolSurface *surface, const double uv[4], Vec3 middle);
 
 /* The point of the surface that shows uv, its area_m2 left 0; false: none of its triangles
  * does. */

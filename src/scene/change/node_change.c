@@ -15,7 +15,7 @@
 /* ---- the surface of a node --------------------------------------------------------------- */
 
 typedef struct NodeSurface {
-    Vec3  low, high;   /* of all corners, world */
+    Vec3  low, high;   /* of all corners */
     Vec3  normal_area; /* sum of normals by area, twice */
     float area;        /* twice */
 } NodeSurface;
@@ -175,8 +175,9 @@ static bool mark(GltfFile *file, const int *parent, const SceneChange *change, c
     return true;
 }
 
-static void change_nodes(GltfFile *file, const int *parent, const SceneChange *change)
+static void change_nodes(GltfFile *file, const SceneChange *change)
 {
+    const int       *parent = file->parents;
     const GltfValue *nodes = tree_member(file->root, "nodes");
     bool            *is_moved = ARENA_NEW(&file->load->scratch, bool, nodes->count);
     if (!mark(file, parent, change, change->name, is_moved)) return;
@@ -191,12 +192,15 @@ static void change_nodes(GltfFile *file, const int *parent, const SceneChange *c
         return;
     }
     Transform move = move_of(&surface, change);
+    NodePlace exact = node_place_of(&move);
     for (int i = 0; i < nodes->count; i++)
-        if (is_moved[i])
+        if (is_moved[i]) {
             file->world_from_node[i] = transform_compose(&move, &file->world_from_node[i]);
+            file->places[i] = node_place_compose(&exact, &file->places[i]);
+        }
 }
 
-void nodes_change(GltfFile *file, const int *parent)
+void nodes_change(GltfFile *file)
 {
     const SceneOptions *options = file->load->options;
     const GltfValue    *nodes = tree_member(file->root, "nodes");
@@ -207,6 +211,6 @@ void nodes_change(GltfFile *file, const int *parent)
         int count = count_named(nodes, change->name, &first);
         if (!count) continue;
         file->load->change_uses[i]++;
-        change_nodes(file, parent, change);
+        change_nodes(file, change);
     }
 }

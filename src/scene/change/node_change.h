@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* node_change.h -- nodes are turned and moved once their places in the world are known.
+/* node_change.h -- nodes are turned and moved once their places are known.
  *
  * A change names one node, which it turns about the middle of its surface, and others of the
  * same file that move along: a display with its glass and its rim. All that hangs below a moved
@@ -20,6 +20,6 @@
 #pragma once
 #include "scene/gltf/loader.h"
 
-/* All changes of nodes that the file has; counts them in load->change_uses. parent: one a node,
- * NO_ID at roots. After file->world_from_node is set. */
-void nodes_change(GltfFile *file, const int *parent);
+/* All changes of nodes that the file has; counts them in load->change_uses. After
+ * nodes_enter_scene (load/nodes.h). */
+void nodes_change(GltfFile *file);

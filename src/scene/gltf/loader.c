@@ -1,6 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "scene/gltf/loader.h"
 
+bool load_is_within_reach(const Loader *load, Vec3 p, double world_m[3])
+{
+    bool is_near = true;
+    world_from_scene(load->origin, p, world_m);
+    for (int i = 0; i < 3; i++) is_near &= fabs(world_m[i]) <= (double)SCENE_MOST_M;
+    return is_near;
+}
+
 void load_progress_begin(Loader *load, const char *what, const char *unit, double total)
 {
     load->progress = progress_start(load->progress_mode, what, unit, total);

@@ -3,7 +3,8 @@
  *
  * One Loader makes one Scene of several GltfFiles, each of them in four steps: read the
  * document (gltf/document.c), check it completely (check/), load what it refers to
- * (load/image.c), and build world-space arrays (load/graph.c, load/primitive.c ...).
+ * (load/image.c) and place its nodes; and when all have come so far, from where coordinates
+ * count (load/scene_origin.c), build arrays (load/graph.c, load/primitive.c ...).
  * A file with errors is not built, but the next one is still checked.
  *
  * Memory   what the Scene keeps lies in `arena`; everything else in `scratch`.
@@ -12,6 +13,7 @@
 #include "base/file.h"
 #include "base/progress.h"
 #include "scene/gltf/list.h"
+#include "scene/gltf/node_place.h"
 #include "scene/gltf/tree.h"
 #include "scene/scene.h"
 
@@ -54,6 +56,7 @@ typedef struct Loader {
     bool has_step;
     size_t vertex_total;
     int ignored_occlusion_count;
+    double origin[3];        /* Scene.origin; 0 until scene_origin_find */
 } Loader;
 
 typedef struct GltfFile {
@@ -69,12 +72,19 @@ typedef struct GltfFile {
     FileBytes *views; /* of each of data's, unpacked; data NULL: could not be had */
     int variant_id;            /* of KHR_materials_variants, that is worn; NO_ID: none */
     struct NodePose *poses;    /* one a node (load/pose.h); NULL: at rest */
-    Transform *world_from_node;
+    int *parents;               /* one a node; NO_ID: a root */
+    NodePlace *places;          /* one a node; in the world until nodes_enter_scene */
+    Transform *world_from_node; /* the same in floats, from nodes_enter_scene on */
+    int *shown, shown_count;    /* the nodes that are shown, in order */
+    struct NodeInstances *instances; /* one a node (load/nodes.h) */
     struct LightProfile *profiles; /* of EXT_lights_ies, one a list item (load/profiles.c) */
     int material_base, texture_base;     /* first id of this file's */
     int default_material_id;             /* NO_ID until it is needed */
     int skipped_count, degenerate_count; /* primitives; triangles */
 } GltfFile;
+
+/* Where p, of the scene, is in the world, and whether that is within SCENE_MOST_M. */
+bool load_is_within_reach(const Loader *load, Vec3 p, double world_m[3]);
 
 /* ---- progress ---------------------------------------------------------------------------- */
 

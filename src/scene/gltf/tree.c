@@ -103,14 +103,28 @@ const char *tree_text(const GltfValue *object, const char *name, const char *fal
     return value && value->kind == GLTF_STRING ? value->text : fallback;
 }
 
-bool tree_floats(const GltfValue *object, const char *name, int count, float *out)
+/* NULL unless it is so many numbers. */
+static const GltfValue *numbers_of(const GltfValue *object, const char *name, int count)
 {
     const GltfValue *value = tree_member(object, name);
-    if (!value || value->kind != GLTF_ARRAY || value->count != count) return false;
+    if (!value || value->kind != GLTF_ARRAY || value->count != count) return NULL;
     for (int i = 0; i < count; i++)
-        if (value->items[i].kind != GLTF_NUMBER) return false;
-    for (int i = 0; i < count; i++) out[i] = (float)value->items[i].number;
-    return true;
+        if (value->items[i].kind != GLTF_NUMBER) return NULL;
+    return value;
+}
+
+bool tree_floats(const GltfValue *object, const char *name, int count, float *out)
+{
+    const GltfValue *value = numbers_of(object, name, count);
+    for (int i = 0; value && i < count; i++) out[i] = (float)value->items[i].number;
+    return value != NULL;
+}
+
+bool tree_numbers(const GltfValue *object, const char *name, int count, double *out)
+{
+    const GltfValue *value = numbers_of(object, name, count);
+    for (int i = 0; value && i < count; i++) out[i] = value->items[i].number;
+    return value != NULL;
 }
 
 /* Puts `text` in front of what already stands at *start. */

@@ -50,6 +50,7 @@ const char *tree_text(const GltfValue *object, const char *name, const char *fal
 
 /* Exactly `count` numbers into `out`; false (and out as it was) unless they are there. */
 bool tree_floats(const GltfValue *object, const char *name, int count, float *out);
+bool tree_numbers(const GltfValue *object, const char *name, int count, double *out);
 
 /* The value's JSON pointer (RFC 6901), "" of the whole document. */
 void tree_pointer(const GltfValue *value, char *buffer, size_t size);

@@ -6,129 +6,11 @@
 #include "base/mathd.h"
 #include "base/units.h"
 #include "scene/change/node_change.h"
-#include "scene/gltf/accessor.h"
 #include "scene/gltf/document.h"
 #include "scene/load/environment.h"
 #include "scene/load/luminaire.h"
-#include "scene/load/node_transform.h"
-#include "scene/load/pose.h"
+#include "scene/load/nodes.h"
 #include "scene/load/primitive.h"
-
-/* ---- transforms ------------------------------------------------------------------------ */
-
-/* pose: the values of animations; NULL: at rest. */
-static Transform parent_from_node(const GltfValue *node, const NodePose *pose)
-{
-    float matrix[16], t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
-    if (tree_floats(node, "matrix", 16, matrix)) return transform_from_matrix(matrix);
-    tree_floats(node, "translation", 3, t);
-    tree_floats(node, "rotation", 4, q);
-    tree_floats(node, "scale", 3, s);
-    if (pose)
-        return transform_from_trs(pose->translation ? pose->translation : t,
-                                  pose->rotation ? pose->rotation : q,
-                                  pose->scale ? pose->scale : s);
-    return transform_from_trs(t, q, s);
-}
-
-/* ---- the order of nodes ---------------------------------------------------------------- */
-
-/* Parents before children, siblings in the file's order, below the nodes of `roots` (an array
- * of node indices). The check has made sure that this is a tree. */
-typedef struct NodeOrder {
-    const NodePose *poses; /* NULL: at rest */
-    int *nodes;
-    int *stack;
-    bool *is_seen;
-    int count, capacity;
-    bool skips_hidden;
-} NodeOrder;
-
-/* KHR_node_visibility: the node and everything below it. */
-static bool is_hidden(const NodeOrder *order, const GltfValue *node)
-{
-    const NodePose *pose = order->poses ? &order->poses[node->index] : NULL;
-    if (pose && pose->visible) return pose->visible[0] == 0;
-    return !tree_boolean(tree_extension(node, "KHR_node_visibility"), "visible", true);
-}
-
-static NodeOrder order_start(GltfFile *file, int node_count)
-{
-    Arena *scratch = &file->load->scratch;
-    return (NodeOrder){file->poses,
-                       ARENA_NEW(scratch, int, node_count),
-                       ARENA_NEW(scratch, int, node_count),
-                       ARENA_NEW(scratch, bool, node_count),
-                       0,
-                       node_count,
-                       false};
-}
-
-static void order_below(NodeOrder *order, const GltfValue *nodes, int root)
-{
-    int depth = 0;
-    if (root < 0 || root >= order->capacity || order->is_seen[root]) return;
-    order->stack[depth++] = root;
-    order->is_seen[root] = true;
-    while (depth) {
-        int node = order->stack[--depth];
-        const GltfValue *children = tree_member(&nodes->items[node], "children");
-        if (order->skips_hidden && is_hidden(order, &nodes->items[node])) continue;
-        order->nodes[order->count++] = node;
-        for (int i = children ? children->count : 0; i-- > 0;) {
-            int child = (int)children->items[i].number;
-            if (child < 0 || child >= order->capacity || order->is_seen[child]) continue;
-            order->is_seen[child] = true;
-            order->stack[depth++] = child;
-        }
-    }
-}
-
-static int *parents_of(GltfFile *file, const GltfValue *nodes)
-{
-    int *parent = ARENA_NEW(&file->load->scratch, int, nodes->count);
-    for (int i = 0; i < nodes->count; i++) parent[i] = NO_ID;
-    for (int i = 0; i < nodes->count; i++) {
-        const GltfValue *c = tree_items(&nodes->items[i], "children");
-        for (; c; c = tree_next(c))
-            if (c->number >= 0 && c->number < nodes->count) parent[(int)c->number] = i;
-    }
-    return parent;
-}
-
-static void place_nodes(GltfFile *file, const GltfValue *nodes, const int *parent)
-{
-    NodeOrder order = order_start(file, nodes->count);
-    file->world_from_node = ARENA_NEW(&file->load->scratch, Transform, nodes->count);
-    for (int i = 0; i < nodes->count; i++)
-        if (parent[i] == NO_ID) order_below(&order, nodes, i);
-    for (int i = 0; i < order.count; i++) {
-        int node = order.nodes[i];
-        Transform local = parent_from_node(&nodes->items[node],
-                                           file->poses ? &file->poses[node] : NULL);
-        file->world_from_node[node] =
-            parent[node] == NO_ID
-                ? local
-                : transform_compose(&file->world_from_node[parent[node]], &local);
-    }
-}
-
-/* The nodes of the scene to show: the file's default, else its first, else every root. */
-static NodeOrder nodes_of_scene(GltfFile *file, const GltfValue *nodes, const int *parent)
-{
-    NodeOrder order = order_start(file, nodes->count);
-    order.skips_hidden = true;
-    const GltfValue *scene =
-        tree_element(file->root, "scenes", tree_int(file->root, "scene", 0));
-    if (!scene) {
-        file_warning(file, NULL, "the file has no scene; all its nodes are shown");
-        for (int i = 0; i < nodes->count; i++)
-            if (parent[i] == NO_ID) order_below(&order, nodes, i);
-    }
-    for (const GltfValue *r = tree_items(scene, "nodes"); r; r = tree_next(r))
-        order_below(&order, nodes, (int)r->number);
-    return order;
-}
 
 /* ---- cameras and lights ---------------------------------------------------------------- */
 
@@ -181,10 +63,11 @@ static void add_light(GltfFile *file, const GltfValue *node, const Transform *wo
 
 static void claim_near(GltfFile *file, const GltfValue *node, const char *what, Vec3 p)
 {
-    if (!vec3_is_within(p, SCENE_MOST_M))
+    double at[3];
+    if (!load_is_within_reach(file->load, p, at))
         file_error(file, node,
-                   "its %s stands at (%g, %g, %g) in the scene; numbers within %g m are wanted",
-                   what, (double)p.x, (double)p.y, (double)p.z, (double)SCENE_MOST_M);
+                   "its %s stands at (%g, %g, %g) in the world; numbers within %g m are wanted",
+                   what, at[0], at[1], at[2], (double)SCENE_MOST_M);
 }
 
 /* The light that was added last; of a directional one glTF ignores the place. */
@@ -206,56 +89,6 @@ static void add_sights(GltfFile *file, const GltfValue *node, const Transform *w
         claim_near(file, node, "light", world->origin);
 }
 
-/* ---- meshes ---------------------------------------------------------------------------- */
-
-/* The places in which a node's mesh stands, in scratch. */
-typedef struct Instances {
-    Transform *world_from_mesh;
-    int count;
-} Instances;
-
-/* One of the attributes, or NULL: the default for all. */
-static bool read_attribute(GltfFile *file, const GltfValue *attributes, const char *name,
-                           const float **out, int *count)
-{
-    const GltfValue *at = tree_member(attributes, name);
-    int id = tree_whole(at, NO_ID);
-    const GltfAccessor *accessor = accessor_get(file, id);
-    *out = NULL;
-    if (!accessor) return true;
-    if (!accessor_claim_bytes(file, id, at, name)) return false;
-    *out = accessor_floats(file, id);
-    *count = (int)accessor->count;
-    return true;
-}
-
-/* One, at `world`, unless the node states others (EXT_mesh_gpu_instancing); none where bytes
- * are missing. */
-static Instances instances_of(GltfFile *file, const GltfValue *node, const Transform *world)
-{
-    static const float ORIGIN[3] = {0, 0, 0}, UPRIGHT[4] = {0, 0, 0, 1}, SAME[3] = {1, 1, 1};
-    Arena *scratch = &file->load->scratch;
-    Instances out = {ARENA_NEW(scratch, Transform, 1), 1};
-    const GltfValue *attributes =
-        tree_member(tree_extension(node, INSTANCING_EXTENSION), "attributes");
-    const float *moves, *turns, *scales;
-    out.world_from_mesh[0] = *world;
-    if (!attributes) return out;
-    out.count = 0;
-    if (!read_attribute(file, attributes, "TRANSLATION", &moves, &out.count) ||
-        !read_attribute(file, attributes, "ROTATION", &turns, &out.count) ||
-        !read_attribute(file, attributes, "SCALE", &scales, &out.count))
-        return (Instances){NULL, 0};
-    out.world_from_mesh = ARENA_NEW(scratch, Transform, out.count);
-    for (int i = 0; i < out.count; i++) {
-        Transform own = transform_from_trs(moves ? moves + 3 * i : ORIGIN,
-                                           turns ? turns + 4 * i : UPRIGHT,
-                                           scales ? scales + 3 * i : SAME);
-        out.world_from_mesh[i] = transform_compose(world, &own);
-    }
-    return out;
-}
-
 /* ---- all of it ------------------------------------------------------------------------- */
 
 static void add_mesh(GltfFile *file, const GltfValue *node, const Transform *world)
@@ -263,11 +96,15 @@ static void add_mesh(GltfFile *file, const GltfValue *node, const Transform *wor
     const GltfValue *mesh = tree_referred(tree_member(node, "mesh"), "meshes");
     const GltfValue *primitives = tree_member(mesh, "primitives");
     if (!primitives) return;
-    Instances instances = instances_of(file, node, world);
-    for (int k = 0; k < instances.count; k++)
+    const NodeInstances *instances = &file->instances[node->index];
+    for (int k = 0; k < instances->count; k++) {
+        Transform at = *world;
+        if (instances->node_from_mesh)
+            at = node_place_within(&file->places[node->index], world,
+                                   &instances->node_from_mesh[k]);
         for (int i = 0; i < primitives->count; i++)
-            primitive_build(file, node, &instances.world_from_mesh[k], mesh,
-                            &primitives->items[i]);
+            primitive_build(file, node, &at, mesh, &primitives->items[i]);
+    }
 }
 
 /* For options that ask for a node by its name. */
@@ -309,14 +146,12 @@ void graph_build(GltfFile *file)
     const GltfValue *nodes = tree_member(file->root, "nodes");
     build_environment(file);
     if (nodes) {
-        const int *parent = parents_of(file, nodes);
-        place_nodes(file, nodes, parent);
-        nodes_change(file, parent);
-        NodeOrder order = nodes_of_scene(file, nodes, parent);
-        load_progress_begin(file->load, "place", "nodes", order.count);
-        for (int i = 0; i < order.count; i++) {
-            const GltfValue *node = &nodes->items[order.nodes[i]];
-            const Transform *world = &file->world_from_node[order.nodes[i]];
+        nodes_enter_scene(file);
+        nodes_change(file);
+        load_progress_begin(file->load, "place", "nodes", file->shown_count);
+        for (int i = 0; i < file->shown_count; i++) {
+            const GltfValue *node = &nodes->items[file->shown[i]];
+            const Transform *world = &file->world_from_node[file->shown[i]];
             note_name(file, node);
             add_sights(file, node, world);
             add_mesh(file, node, world);

@@ -123,10 +123,11 @@ static Transform *bind_transforms(GltfFile *file, const GltfValue *skin, int joi
     float *inverse = accessor >= 0 ? accessor_floats(file, accessor) : NULL;
     Transform *out = ARENA_NEW(&file->load->scratch, Transform, joint_count);
     for (int i = 0; i < joint_count; i++) {
-        out[i] = file->world_from_node[(int)joints->items[i].number];
+        int joint = (int)joints->items[i].number;
+        out[i] = file->world_from_node[joint];
         if (!inverse) continue;
         Transform bind = transform_from_matrix(inverse + 16 * i);
-        out[i] = transform_compose(&out[i], &bind);
+        out[i] = node_place_within(&file->places[joint], &out[i], &bind);
     }
     return out;
 }
@@ -291,12 +292,12 @@ static bool stands_near(GltfFile *file, const GltfValue *primitive,
                                 const PartDraft *draft)
 {
     for (uint32_t i = 0; i < draft->vertex_count; i++) {
-        Vec3 p = draft->positions[i];
-        if (vec3_is_within(p, SCENE_MOST_M)) continue;
+        double at[3];
+        if (load_is_within_reach(file->load, draft->positions[i], at)) continue;
         return file_error(file, primitive,
-                          "vertex %u stands at (%g, %g, %g) in the scene; numbers within %g m "
+                          "vertex %u stands at (%g, %g, %g) in the world; numbers within %g m "
                           "are wanted",
-                          i, (double)p.x, (double)p.y, (double)p.z, (double)SCENE_MOST_M);
+                          i, at[0], at[1], at[2], (double)SCENE_MOST_M);
     }
     return true;
 }

@@ -28,9 +28,11 @@
 #include "scene/load/image.h"
 #include "scene/load/luminaire.h"
 #include "scene/load/material.h"
+#include "scene/load/nodes.h"
 #include "scene/gltf/part_draft.h"
 #include "scene/load/pose.h"
 #include "scene/load/profiles.h"
+#include "scene/load/scene_origin.h"
 #include "text/nearest_word.h"
 
 /* ---- materials marked BLEND or MASK that are opaque everywhere ------------------------- */
@@ -146,10 +148,6 @@ static void measure_bounds(Scene *scene)
     scene->bounds_max = high;
 }
 
-/* Vertices are 32-bit numbers: so far out they move by some hundred-thousandths of the scene's
- * size, as much as a seal or a film is thick. Nothing is wrong with the file. */
-#define FAR_IN_SIZES 200
-
 /* Below a tenth of it, rays that leave a surface are set off by lengths like the scene's own,
  * and areas are no floats at last: light is lost. */
 #define LEAST_SIZE_M 1e-6f
@@ -159,13 +157,6 @@ static void warn_if_odd(const Scene *scene, Loader *load)
     if (!scene->triangle_count) return;
     Vec3  low = scene->bounds_min, high = scene->bounds_max;
     float size = vec3_length(vec3_sub(high, low));
-    float distance = vec3_length(vec3_scale(vec3_add(low, high), 0.5f));
-    if (distance > FAR_IN_SIZES * size)
-        problems_add(load->problems, SEVERITY_WARNING, scene->inputs[0], "",
-                     "the scene is %.3g m large and stands %.3g m from the origin, where "
-                     "coordinates are %.2g m apart: what lies closer together is lost; move it "
-                     "nearer",
-                     (double)size, (double)distance, (double)distance * 0x1p-23);
     if (size < LEAST_SIZE_M)
         problems_add(load->problems, SEVERITY_WARNING, scene->inputs[0], "",
                      "the scene is %.3g m large: light goes astray below %g m; glTF's lengths "
@@ -225,6 +216,7 @@ static Scene *assemble(Loader *load)
                      .animation_count = load->animations.count,
                      .environment = load->environment,
                      .ignored_occlusion_count = load->ignored_occlusion_count};
+    memcpy(scene->origin, load->origin, sizeof scene->origin);
     join_parts(load, scene);
     measure_bounds(scene);
     fill_gaps(scene);
@@ -259,30 +251,44 @@ static bool read_data(GltfFile *file)
            file_error(file, NULL, "%s", err.text);
 }
 
-/* One file: read, check, and, when nothing is wrong, build. */
-static void load_file(Loader *load, const char *path)
+/* One file: read, check, and, when nothing is wrong, load what it refers to and place its
+ * nodes. NULL: something is wrong. */
+static GltfFile *load_file(Loader *load, const char *path)
 {
     const Problems *problems = load->problems;
     int before = problems->error_count;
     GltfFile *file = ARENA_NEW(&load->scratch, GltfFile, 1);
     *file = (GltfFile){.load = load, .path = load_keep(load, path)};
-    if (!document_read(file)) return;
+    if (!document_read(file)) return NULL;
     extras_unfold(file);
     materials_change(file);
     note_extensions(file);
     variant_choose(file);
     check_structure(file);
-    if (problems->error_count > before || !read_data(file)) return;
+    if (problems->error_count > before || !read_data(file)) return NULL;
     buffer_views_build(file);
     if (problems->error_count == before) packed_meshes_build(file);
-    if (problems->error_count > before) return;
+    if (problems->error_count > before) return NULL;
     check_data(file);
-    if (problems->error_count > before) return;
+    if (problems->error_count > before) return NULL;
     images_load(file);
     profiles_load(file);
     materials_build(file);
     pose_build(file);
-    graph_build(file);
+    nodes_place(file);
+    return file;
+}
+
+static void load_files(Loader *load)
+{
+    int        count = 0;
+    GltfFile **files = ARENA_NEW(&load->scratch, GltfFile *, load->options->path_count);
+    for (int i = 0; i < load->options->path_count; i++) {
+        GltfFile *file = load_file(load, load->options->paths[i]);
+        if (file) files[count++] = file;
+    }
+    scene_origin_find(load, files, count);
+    for (int i = 0; i < count; i++) graph_build(files[i]);
 }
 
 static Loader loader_start(const SceneOptions *options, Arena *arena, Problems *problems)
@@ -360,7 +366,7 @@ Scene *scene_survey(const SceneOptions *options, ProgressMode progress, Arena *a
     load.progress_mode = progress;
     load.change_uses = ARENA_NEW(&load.scratch, int, options->change_count);
     luminaires_start(&load);
-    for (int i = 0; i < options->path_count; i++) load_file(&load, options->paths[i]);
+    load_files(&load);
     pose_report_missing(&load);
     luminaires_finish(&load);
     displays_override(&load);

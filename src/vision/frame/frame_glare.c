@@ -21,6 +21,7 @@ typedef struct Pixels {
     double      *sr, *projected_sr;
     int32_t     *source;   /* its place in the list; NO_SOURCE */
     bool        *is_core;  /* of that source */
+    double      *share;    /* of y, its source's; the rest is background */
 } Pixels;
 
 static size_t count_of(const Pixels *pixels)
@@ -55,6 +56,7 @@ static bool find_pixels(const FrameImage *frame, Arena *arena, Pixels *out, Erro
     out->projected_sr = ARENA_NEW(arena, double, count_of(out));
     out->source = ARENA_NEW(arena, int32_t, count_of(out));
     out->is_core = ARENA_NEW(arena, bool, count_of(out));
+    out->share = ARENA_NEW(arena, double, count_of(out));
     return true;
 }
 
@@ -267,6 +269,93 @@ static void find_sources(Area *area, Arena *arena, FrameGlare *out)
         if (p->source[i] == REFUTED) p->source[i] = NO_SOURCE;
 }
 
+/* ---- rims -------------------------------------------------------------------------------- */
+
+#define AROUND 2 /* pixels to each side in which the background about a rim is looked for */
+
+/* Pixel i's neighbour; -1: outside. */
+static long beside(const Pixels *p, size_t i, int dx, int dy)
+{
+    int x = (int)(i % (size_t)p->width) + dx, y = (int)(i / (size_t)p->width) + dy;
+    return x < 0 || y < 0 || x >= p->width || y >= p->height ? -1 : (long)y * p->width + x;
+}
+
+/* The brightest source that a background pixel touches, of those with a core. */
+static int32_t touched(const Pixels *p, const FrameGlare *found, size_t i)
+{
+    int32_t best = NO_SOURCE;
+    for (int k = 0; k < 9; k++) {
+        long    at = beside(p, i, k % 3 - 1, k / 3 - 1);
+        int32_t id = at < 0 ? NO_SOURCE : p->source[at];
+        if (id == NO_SOURCE || !found->sources[id].has_core) continue;
+        double l = found->sources[id].source.luminance_cd_m2;
+        if (best == NO_SOURCE || l > found->sources[best].source.luminance_cd_m2) best = id;
+    }
+    return best;
+}
+
+/* Mean luminance of the background near pixel i that touches no source; NaN: there is none. */
+static double behind_rim(const Pixels *p, const int32_t *rim, size_t i)
+{
+    double sum = 0, sr = 0;
+    for (int dy = -AROUND; dy <= AROUND; dy++)
+        for (int dx = -AROUND; dx <= AROUND; dx++) {
+            long at = beside(p, i, dx, dy);
+            if (at < 0 || p->source[at] != NO_SOURCE || rim[at] != NO_SOURCE) continue;
+            if (!(p->projected_sr[at] > 0)) continue;
+            sum += (double)p->y[at] * p->sr[at];
+            sr += p->sr[at];
+        }
+    return sr > 0 ? sum / sr : (double)NAN;
+}
+
+/* Of a rim's luminance y, source and background in part: y = f l + (1 - f) b. At most all of it
+ * is the source's; noise of a pixel may leave it less than nothing. */
+static double share_of(double y, double l, double b)
+{
+    return y < l ? l * (y - b) / (l - b) : y;
+}
+
+/* Every pixel of an edge has its part of the source, whether that makes it brighter than the
+ * threshold or not. Then source[i] is that of rims, too. */
+static void share_rims(const Pixels *p, const FrameGlare *found, Arena scratch)
+{
+    int32_t *rim = ARENA_NEW(&scratch, int32_t, count_of(p));
+    for (size_t i = 0; i < count_of(p); i++) {
+        bool is_behind = p->projected_sr[i] > 0 && p->source[i] == NO_SOURCE;
+        rim[i] = is_behind ? touched(p, found, i) : NO_SOURCE;
+    }
+    for (size_t i = 0; i < count_of(p); i++) {
+        int32_t id = p->source[i] == NO_SOURCE ? rim[i] : p->source[i];
+        p->share[i] = id != NO_SOURCE ? (double)p->y[i] : 0;
+        if (id == NO_SOURCE || !found->sources[id].has_core || p->is_core[i]) continue;
+        double b = behind_rim(p, rim, i);
+        if (!isnan(b))
+            p->share[i] = share_of((double)p->y[i],
+                                   found->sources[id].source.luminance_cd_m2, b);
+        else if (p->source[i] == NO_SOURCE) p->share[i] = 0;
+    }
+    for (size_t i = 0; i < count_of(p); i++)
+        if (rim[i] != NO_SOURCE) p->source[i] = rim[i];
+}
+
+/* Sources get the light of their shares. */
+static void add_shares(const Pixels *p, FrameGlare *found)
+{
+    for (int i = 0; i < found->source_count; i++)
+        found->sources[i].light = found->sources[i].lx = 0;
+    for (size_t i = 0; i < count_of(p); i++) {
+        if (p->source[i] == NO_SOURCE) continue;
+        FrameSource *s = &found->sources[p->source[i]];
+        s->light += p->share[i] * p->sr[i];
+        s->lx += p->share[i] * p->projected_sr[i];
+    }
+    for (int i = 0; i < found->source_count; i++) {
+        FrameSource *s = &found->sources[i];
+        s->source.solid_angle_sr = s->light / s->source.luminance_cd_m2;
+    }
+}
+
 /* ---- figures ----------------------------------------------------------------------------- */
 
 /* What the figures are made of. */
@@ -292,8 +381,9 @@ static bool sum_up(const Pixels *pixels, const GlareRequest *request, const Fram
         out->view.source_lx += found->sources[i].lx;
     }
     for (size_t i = 0; i < count_of(pixels); i++)
-        if (pixels->source[i] == NO_SOURCE && pixels->projected_sr[i] > 0)
-            out->view.background_lx += (double)pixels->y[i] * pixels->projected_sr[i];
+        if (pixels->projected_sr[i] > 0)
+            out->view.background_lx +=
+                ((double)pixels->y[i] - pixels->share[i]) * pixels->projected_sr[i];
     if (request->has_lux)
         out->view.background_lx = request->vertical_lx - out->view.source_lx;
     out->lux = out->view.source_lx + out->view.background_lx;
@@ -495,6 +585,8 @@ bool frame_glare_measure(const FrameImage *frame, const GlareRequest *request, A
     Area area = {.pixels = &pixels, .settings = settings, .threshold = found.threshold_cd_m2,
                  .list = ARENA_NEW(arena, size_t, count_of(&pixels))};
     find_sources(&area, arena, &found);
+    share_rims(&pixels, &found, *arena);
+    add_shares(&pixels, &found);
     if (!sum_up(&pixels, request, &found, arena, &sums, err)) return false;
     GlareFigures figures = discomfort_figures(settings, &sums.view);
     SlopeTable   table = find_slopes(request, &sums, figures.dgp, arena);

@@ -10,8 +10,10 @@
  * which changes UGR and DGP only where they differ in luminance), and:
  *
  * Edges    pixels of a source's edge are partly its surroundings. So its luminance is the mean
- *          over its core, the pixels that all have eight neighbours of it, and its solid angle
- *          what gives all its light with that luminance; evalglare's mean over all pixels
+ *          over its core, the pixels that all have eight neighbours of it; pixels of its edge,
+ *          and those below the threshold that touch it, are in part source and in part
+ *          background as bright as that nearby; and its solid angle is what gives all its light
+ *          with that luminance. evalglare's mean over all pixels above the threshold
  *          dims and widens a disc of n pixels across, and UGR is some 9/n too low. A source
  *          without a core has the mean weighed by luminance: its UGR and DGP are too low, and
  *          only a larger frame tells by how much.
@@ -20,9 +22,8 @@
  *          half of the samples has it above the threshold where the other half found it so
  *          (layer halves: that mean is without bias), by three times its noise (layers
  *          variance, halves). Without these layers all counts. Intervals are 95 % of the
- *          render's noise, to first order, of the sources as they were found: which pixels of
- *          an edge were above the threshold is not in them. By halves, else by variance
- *          (measure.h).
+ *          render's noise, to first order, of the sources as they were found: what a source
+ *          without a core lacks is not in them. By halves, else by variance (measure.h).
  *
  * Threads  pure functions. Memory: the arena's.
  * Fails    when the frame does not say its view, or does not see half the space and no

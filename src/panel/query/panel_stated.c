@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "panel/query/panel_stated.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <string.h>
+
+#include "panel/query/panel_report.h"
+
+static const char *kept_text(const json_t *text, Arena *arena)
+{
+    return json_is_string(text)
+               ? arena_string(arena, json_string_value(text), json_string_length(text)) : NULL;
+}
+
+/* Tables of the reflection are named "brdf ...". */
+static double error_of(const json_t *tables, bool of_reflection)
+{
+    double        squares = 0;
+    int           count = 0;
+    size_t        i;
+    const json_t *table;
+    json_array_foreach(tables, i, table) {
+        const char *name = json_string_value(json_object_get(table, "name"));
+        double      error = json_number_value(json_object_get(table, "rms_error"));
+        if (!name || !(error >= 0) || !strncmp(name, "brdf", 4) != of_reflection) continue;
+        squares += error * error;
+        count++;
+    }
+    return count ? sqrt(squares / count) : 0;
+}
+
+PanelStated panel_stated(const Panel *panel, Arena *arena)
+{
+    PanelStated out = {0};
+    Error       ignored;
+    json_t     *report;
+    if (!panel_report(panel, &report, &ignored)) return out;
+    const json_t *tables = json_object_get(report, "tables");
+    out.verdict = kept_text(json_object_get(report, "verdict"), arena);
+    out.reason = kept_text(json_array_get(json_object_get(report, "reasons"), 0), arena);
+    out.is_coarse = json_is_true(json_object_get(report, "coarse"));
+    out.is_unusable = out.verdict && !strcmp(out.verdict, "not usable");
+    out.emission_error = error_of(tables, false);
+    out.reflection_error = error_of(tables, true);
+    json_decref(report);
+    return out;
+}

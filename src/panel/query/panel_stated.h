@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* panel_stated.h -- what a panel file says of itself: the verdict of its fit, and how far it
+ * may be from what was measured.
+ *
+ * Units    relative errors: the root of the mean square over its tables of each table's own
+ *          (each relative to the measured values, noise included), as `panel info` prints them.
+ * Memory   texts live in the arena.  Threads  pure function.
+ * Fails    a report that cannot be read states nothing.
+ */
+#pragma once
+#include <stdbool.h>
+
+#include "base/arena.h"
+#include "panel/query/panel.h"
+
+typedef struct PanelStated {
+    const char *verdict;    /* "good", "usable with care", "not usable"; NULL: an older file */
+    const char *reason;     /* the worst; NULL: none */
+    bool        is_coarse;
+    bool        is_unusable;
+    double      emission_error, reflection_error; /* 0: not stated */
+} PanelStated;
+
+PanelStated panel_stated(const Panel *panel, Arena *arena);

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "review/quantity.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/mathd.h"
+
+const LimitKindFacts limit_kinds[LIMIT_KIND_COUNT] = {
+    [LIMIT_CONTRAST_RATIO] = {"contrast_ratio", "1", true, true},
+    [LIMIT_LUMINANCE_CONTRAST] = {"luminance_contrast", "1", true, true},
+    [LIMIT_MODULATION] = {"modulation", "1", true, true},
+    [LIMIT_CHARACTER_HEIGHT] = {"character_height", "arcmin", false, true},
+    [LIMIT_STROKE_RATIO] = {"stroke_ratio", "1", false, true},
+    [LIMIT_WIDTH_RATIO] = {"width_ratio", "1", false, false},
+};
+
+LimitKind limit_kind_named(const char *name)
+{
+    int kind = 0;
+    while (kind < LIMIT_KIND_COUNT && (!name || strcmp(name, limit_kinds[kind].name) != 0))
+        kind++;
+    return (LimitKind)kind;
+}
+
+double contrast_from_ratio(LimitKind kind, double ratio)
+{
+    if (kind == LIMIT_LUMINANCE_CONTRAST) return ratio - 1;
+    if (kind == LIMIT_MODULATION) return isinf(ratio) ? 1 : (ratio - 1) / (ratio + 1);
+    return ratio;
+}
+
+double ratio_from_contrast(LimitKind kind, double contrast)
+{
+    if (kind == LIMIT_LUMINANCE_CONTRAST) return contrast + 1;
+    if (kind == LIMIT_MODULATION)
+        return contrast < 1 ? (1 + contrast) / (1 - contrast) : (double)INFINITY;
+    return contrast;
+}
+
+/* 0 at full wash-out, or of nothing. */
+static double progress(LimitKind kind, double value)
+{
+    bool is_contrast = kind < LIMIT_KIND_COUNT && limit_kinds[kind].is_contrast;
+    return is_contrast ? log2_d(ratio_from_contrast(kind, value)) : value;
+}
+
+double quantity_margin(LimitKind kind, bool is_upper, double found, double limit)
+{
+    if (isnan(found)) return (double)NAN;
+    if (found == limit) return 0;
+    double at = progress(kind, found), wanted = progress(kind, limit);
+    if (!(wanted > 0)) wanted = 0; /* a ratio of 1, which any contrast keeps */
+    return is_upper ? wanted / at - 1 : isinf(wanted) ? -1 : at / wanted - 1;
+}
+
+Verdict quantity_verdict(const LimitVerdict *of)
+{
+    if (isnan(of->found) || isnan(of->low) || isnan(of->high)) return VERDICT_UNJUDGED;
+    bool keeps = of->is_upper ? of->high <= of->value : of->low >= of->value;
+    bool breaks = of->is_upper ? of->low > of->value : of->high < of->value;
+    return keeps ? VERDICT_PASS : breaks ? VERDICT_FAIL : VERDICT_TOO_CLOSE;
+}
