@@ -12,7 +12,7 @@
 #include "cli/options/cli.h"
 #include "cli/options/scene_warnings.h"
 #include "cli/options/scene_options.h"
-#include "scene/load/display_frame.h"
+#include "scene/check/display_frame.h"
 #include "scene/load/scene_load.h"
 #include "spectrum/photometry.h"
 #include "text/json_text.h"

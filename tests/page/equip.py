@@ -497,7 +497,7 @@ def check_way(work):
         click_point(page, [0.1, 0.1, 0])
         d = equip(page)["displays"][0]
         report.claim(d["on"] == "far" and near(d["centre_m"], [0, 0, 0]), f"behind it: {d}")
-        report.claim({"48", "km/h", "10:42"} <= {s["name"] for s in d["symbols"]},
+        report.claim({"48", "350 m", "10:42"} <= {s["name"] for s in d["symbols"]},
                      f"texts by their words: {d['symbols']}")
         page.run("(t=>{t.checked=false;t.dispatchEvent(new Event('change'))})"
                  "(document.querySelector('.found input[type=checkbox]'))")

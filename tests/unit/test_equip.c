@@ -7,7 +7,7 @@
 #include "cli/equip/equip_page.h"
 #include "cli/equip/equip_shipped.h"
 #include "cli/equip/usual_material.h"
-#include "scene/load/display_frame.h"
+#include "scene/check/display_frame.h"
 #include "scene/load/scene_load.h"
 #include "text/text.h"
 

@@ -14,7 +14,7 @@
 #include "cli/equip/equip_occupant.h"
 #include "cli/equip/equip_patch.h"
 #include "cli/equip/equip_shipped.h"
-#include "scene/load/display_frame.h"
+#include "scene/check/display_frame.h"
 #include "scene/load/material_data.h"
 #include "scene/load/scene_load.h"
 #include "text/json_text.h"

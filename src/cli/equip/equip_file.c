@@ -8,7 +8,7 @@
 #include "review/profile.h"
 #include "review/request/request_eyes.h"
 #include "review/request/request_fields.h"
-#include "scene/load/display_frame.h"
+#include "scene/check/display_frame.h"
 
 #define METRES_MAX 1e6
 #define LEAST_M 0.001   /* a display's side of any size */

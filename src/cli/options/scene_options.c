@@ -6,7 +6,7 @@
 #include "base/count.h"
 #include "base/reference.h"
 #include "cli/options/scene_warnings.h"
-#include "scene/load/display_frame.h"
+#include "scene/check/display_frame.h"
 #include "scene/load/scene_load.h"
 
 /* They apply in their order: what a later one would undo is refused. */

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "scene/load/display_frame.h"
+#include "scene/check/display_frame.h"
 #include "text/nearest_word.h"
 
 #define ADVICE_CHARS 320

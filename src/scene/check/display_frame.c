@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "scene/load/display_frame.h"
+#include "scene/check/display_frame.h"
 
 #include <math.h>
 
