@@ -63,6 +63,9 @@ start 'the command line' cli python3 tests/hostile/cli.py $program
 start 'options given twice' options python3 tests/hostile/options.py $program
 start 'settings that cannot be meant' settings python3 tests/hostile/settings.py $program
 start 'reviews that ask wrongly' review-request python3 tests/hostile/review_request.py $program
+start 'names give a terminal no commands' printed python3 tests/hostile/printed.py $program
+start "a review's folder is the user's too" review-files \
+    python3 tests/hostile/review_files.py $program
 start 'panel commands' panel-commands python3 tests/hostile/panel_commands.py $program
 start 'a second reader of panels' library-agreement \
     python3 tests/library/agreement.py .build/release

@@ -10,12 +10,14 @@
 
 #include "base/arena_guard.h"
 #include "base/machine.h"
+#include "print/print.h"
+#include "print/printable.h"
 
 /* Threads may still be at work: their libraries' tables must not be taken down under them. */
 static void exit_when_full(size_t bytes_wanted, size_t bytes_left)
 {
-    fprintf(stderr, "parhelion: out of memory: %zu bytes wanted, %zu left\n", bytes_wanted,
-            bytes_left);
+    print_to(stderr, "parhelion: out of memory: %zu bytes wanted, %zu left\n", bytes_wanted,
+             bytes_left);
     fflush(stderr);
     _exit(3);
 }
@@ -98,6 +100,14 @@ char *arena_string(Arena *arena, const char *text, size_t length)
 {
     char *copy = ARENA_NEW(arena, char, length + 1);
     memcpy(copy, text, length);
+    return copy;
+}
+
+char *arena_printable(Arena *arena, const char *text)
+{
+    size_t size = printable_size(text);
+    char  *copy = ARENA_NEW(arena, char, size);
+    printable_copy(copy, size, text);
     return copy;
 }
 

@@ -46,6 +46,9 @@ void *arena_grow(Arena *arena, void *bytes, size_t size, size_t wanted, size_t a
 /* A copy of a string of `length` bytes, terminated. */
 char *arena_string(Arena *arena, const char *text, size_t length);
 
+/* A copy of a text as it may be shown (print/printable.h). */
+char *arena_printable(Arena *arena, const char *text);
+
 /* printf into the arena. */
 char *arena_format(Arena *arena, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

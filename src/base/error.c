@@ -3,28 +3,18 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
 
-void error_make_plain(char *text)
-{
-    for (; *text; text++)
-        if ((unsigned char)*text < ' ' || *text == 127) *text = '?';
-}
-
-static void copy_text(char *to, size_t size, const char *from)
-{
-    snprintf(to, size, "%s", from ? from : "");
-    error_make_plain(to);
-}
+#include "print/printable.h"
 
 bool error_at_list(Error *err, ErrorCode code, const char *file, const char *path,
                    const char *format, va_list list)
 {
+    char text[sizeof err->text];
+    vsnprintf(text, sizeof text, format, list); /* may quote *err */
     err->code = code;
-    copy_text(err->file, sizeof err->file, file);
-    copy_text(err->path, sizeof err->path, path);
-    vsnprintf(err->text, sizeof err->text, format, list);
-    error_make_plain(err->text);
+    printable_copy(err->file, sizeof err->file, file ? file : "");
+    printable_copy(err->path, sizeof err->path, path ? path : "");
+    printable_copy(err->text, sizeof err->text, text);
     return false;
 }
 
@@ -62,17 +52,15 @@ bool error_prefix(Error *err, const char *format, ...)
     va_list args;
     va_start(args, format);
     vsnprintf(context, sizeof context, format, args);
-    error_make_plain(context);
     va_end(args);
     snprintf(whole, sizeof whole, "%s: %s", context, err->text);
-    whole[sizeof err->text - 1] = '\0';
-    memcpy(err->text, whole, sizeof err->text);
+    printable_copy(err->text, sizeof err->text, whole);
     return false;
 }
 
 bool error_in_file(Error *err, const char *file)
 {
-    if (!err->file[0]) copy_text(err->file, sizeof err->file, file);
+    if (!err->file[0]) printable_copy(err->file, sizeof err->file, file);
     return false;
 }
 

@@ -3,7 +3,8 @@
  *
  * A function that can fail returns bool and takes `Error *err` last. On false, *err is
  * filled and every output argument is left untouched. The caller owns the Error; threads
- * never share one.
+ * never share one. What a foreign file holds may be quoted: its texts are escaped
+ * (printable.h), so that a message stays one line and gives a terminal no commands.
  */
 #pragma once
 #include <stdarg.h>
@@ -54,10 +55,6 @@ bool error_prefix(Error *err, const char *format, ...)
 
 /* Names the file unless one is named already; returns false. */
 bool error_in_file(Error *err, const char *file);
-
-/* Control characters become '?': what a foreign file holds may be quoted, but a message stays
- * one line and gives a terminal no commands. The functions above do this themselves. */
-void error_make_plain(char *text);
 
 /* The whole failure as one line, "FILE: PATH: text". buffer holds at least size chars. */
 void error_line(const Error *err, char *buffer, int size);

@@ -3,6 +3,7 @@
 
 #include <stdarg.h>
 
+
 void lines_put(Lines *lines, const char *text)
 {
     if (lines->count == lines->capacity) {
@@ -19,7 +20,5 @@ void lines_add(Lines *lines, const char *format, ...)
     va_start(arguments, format);
     char *text = arena_format_list(lines->arena, 2047, format, arguments);
     va_end(arguments);
-    for (char *c = text; *c; c++) /* texts of files must not steer a terminal */
-        if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = ' ';
-    lines_put(lines, text);
+    lines_put(lines, arena_printable(lines->arena, text));
 }

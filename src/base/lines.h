@@ -15,5 +15,5 @@ typedef struct Lines {
 /* As it is; it is not copied. */
 void lines_put(Lines *lines, const char *text);
 
-/* A sentence for people, without control characters, cut at 2047 bytes. */
+/* A sentence for people, cut at 2047 bytes; what is foreign in it is escaped (printable.h). */
 void lines_add(Lines *lines, const char *format, ...) __attribute__((format(printf, 2, 3)));

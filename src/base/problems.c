@@ -2,18 +2,11 @@
 #include "base/problems.h"
 
 #include <stdio.h>
-#include <string.h>
+
 
 Problems problems_start(Arena *arena)
 {
     return (Problems){.arena = arena};
-}
-
-static const char *plain_copy(Arena *arena, const char *text)
-{
-    char *copy = arena_string(arena, text ? text : "", text ? strlen(text) : 0);
-    error_make_plain(copy);
-    return copy;
 }
 
 static void append(Problems *problems, Severity severity, const char *file, const char *path,
@@ -26,7 +19,8 @@ static void append(Problems *problems, Severity severity, const char *file, cons
                                     problems->capacity);
     }
     problems->list[problems->count++] = (Problem){
-        plain_copy(arena, file), plain_copy(arena, path), plain_copy(arena, message), severity};
+        arena_printable(arena, file ? file : ""), arena_printable(arena, path ? path : ""),
+        arena_printable(arena, message), severity};
     problems->error_count += severity == SEVERITY_ERROR;
 }
 

@@ -8,6 +8,11 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <jansson.h>
+
+#include "print/print.h"
+#include "print/printable.h"
+
 #define BAR_CELLS 24
 #define FIRST_S 1 /* of the first line, at the latest */
 
@@ -82,13 +87,18 @@ static ProgressState state_of(const Progress *progress, double done, double now)
 
 static void show_json(const Progress *progress, double done, const ProgressState *f)
 {
-    char remaining[32] = "null";
+    char remaining[32] = "null", what[256];
     if (isfinite(f->remaining_s)) snprintf(remaining, sizeof remaining, "%.1f", f->remaining_s);
-    fprintf(stderr,
-            "{\"progress\":{\"what\":\"%s\",\"unit\":\"%s\",\"done\":%.0f,\"total\":%.0f,"
-            "\"fraction\":%.4f,\"per_s\":%.6g,\"elapsed_s\":%.1f,\"remaining_s\":%s}}\n",
-            progress->what, progress->unit, done, progress->total, f->fraction, f->rate,
-            f->elapsed_s, remaining);
+    printable_copy(what, sizeof what, progress->what);
+    json_t *name = json_string(what);
+    char   *quoted = json_dumps(name, JSON_ENCODE_ANY);
+    print_to(stderr,
+             "{\"progress\":{\"what\":%s,\"unit\":\"%s\",\"done\":%.0f,\"total\":%.0f,"
+             "\"fraction\":%.4f,\"per_s\":%.6g,\"elapsed_s\":%.1f,\"remaining_s\":%s}}\n",
+             quoted ? quoted : "null", progress->unit, done, progress->total, f->fraction,
+             f->rate, f->elapsed_s, remaining);
+    free(quoted);
+    json_decref(name);
 }
 
 static void show_text(Progress *progress, const ProgressState *f)
@@ -98,22 +108,23 @@ static void show_text(Progress *progress, const ProgressState *f)
     print_time(elapsed, sizeof elapsed, f->elapsed_s);
     print_time(remaining, sizeof remaining, f->remaining_s);
     if (progress->mode == PROGRESS_PLAIN) {
-        fprintf(stderr, "parhelion: %s %.0f%%, %s%s/s, %s elapsed, %s left\n", progress->what,
-                floor(100 * f->fraction), rate, progress->unit, elapsed, remaining);
+        print_to(stderr, "parhelion: %s %.0f%%, %s%s/s, %s elapsed, %s left\n", progress->what,
+                 floor(100 * f->fraction), rate, progress->unit, elapsed, remaining);
         return;
     }
     int full = (int)(BAR_CELLS * f->fraction);
     memset(bar, '.', BAR_CELLS);
     memset(bar, '#', (size_t)full);
     bar[BAR_CELLS] = '\0';
-    const char *on = progress->has_colour ? "\033[36m" : "";
-    const char *off = progress->has_colour ? "\033[0m" : "";
-    int written = fprintf(stderr, "\r%s %3.0f%% [%s%s%s] %s%s/s  %s elapsed  %s left",
-                          progress->what, floor(100 * f->fraction), on, bar, off, rate,
-                          progress->unit, elapsed, remaining);
-    int columns = written - 1 - (int)strlen(on) - (int)strlen(off);
+    print_own(stderr, "\r");
+    int columns = print_to(stderr, "%s %3.0f%% [", progress->what, floor(100 * f->fraction));
+    if (progress->has_colour) print_own(stderr, "\033[36m");
+    columns += print_to(stderr, "%s", bar);
+    if (progress->has_colour) print_own(stderr, "\033[0m");
+    columns += print_to(stderr, "] %s%s/s  %s elapsed  %s left", rate, progress->unit, elapsed,
+                        remaining);
     if (columns > progress->shown_columns) progress->shown_columns = columns;
-    fprintf(stderr, "%*s", progress->shown_columns - columns, "");
+    print_to(stderr, "%*s", progress->shown_columns - columns, "");
     fflush(stderr);
 }
 
@@ -161,7 +172,7 @@ void progress_end(Progress *progress, double done)
         return;
     }
     show(progress, done, monotonic_seconds());
-    if (progress->mode == PROGRESS_BAR) fprintf(stderr, "\n");
+    if (progress->mode == PROGRESS_BAR) print_own(stderr, "\n");
 }
 
 void progress_clear(const Progress *progress)
@@ -171,5 +182,5 @@ void progress_clear(const Progress *progress)
         return;
     }
     if (progress->mode == PROGRESS_BAR)
-        fprintf(stderr, "\r%*s\r", progress->shown_columns, "");
+        print_to(stderr, "\r%*s\r", progress->shown_columns, "");
 }

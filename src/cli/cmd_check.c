@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion check: what is in a scene, and everything that is wrong with it. */
-#include <stdio.h>
 #include <string.h>
 
 #include "base/count.h"
+#include "print/print.h"
 #include "base/reference.h"
 #include "base/units.h"
 #include "cli/commands.h"
@@ -66,12 +66,12 @@ static void print_displays(const Scene *scene)
     for (int i = 0; i < scene->display_count; i++) {
         const Display *d = &scene->displays[i];
         const Image *content = content_of(scene, d);
-        printf("display      %s: panel %s, level %g %%, ", d->name, d->panel_path,
-               100 * (double)d->level);
+        print("display      %s: panel %s, level %g %%, ", d->name, d->panel_path,
+              100 * (double)d->level);
         if (content)
-            printf("content of %dx%d pixels\n", content->width, content->height);
+            print("content of %dx%d pixels\n", content->width, content->height);
         else
-            printf("no content (full white)\n");
+            print("no content (full white)\n");
     }
 }
 
@@ -99,11 +99,11 @@ static float share_of(const PunctualLight *light)
 static void print_white(const PunctualLight *light)
 {
     const char *text = light->cct_text;
-    if (light->cct_k > 0) printf("%g K", (double)light->cct_k);
-    else printf("D65");
-    if (text && light->cct_k > 0) printf(" (\"%.60s\")", text);
-    else if (text && text[0]) printf(" (\"%.60s\" tells no colour temperature)", text);
-    else if (text) printf(" (the file tells no colour temperature)");
+    if (light->cct_k > 0) print("%g K", (double)light->cct_k);
+    else print("D65");
+    if (text && light->cct_k > 0) print(" (\"%.60s\")", text);
+    else if (text && text[0]) print(" (\"%.60s\" tells no colour temperature)", text);
+    else if (text) print(" (the file tells no colour temperature)");
 }
 
 static const char *opening_name(const LuminousOpening *opening)
@@ -122,18 +122,18 @@ static void print_luminaire(const PunctualLight *light)
     Vec3 d = brightest_of(light);
     float share = share_of(light);
     const float *half = light->opening.half;
-    printf("light        %s: luminaire %s, ", light->name, light->file);
+    print("light        %s: luminaire %s, ", light->name, light->file);
     print_white(light);
-    printf(", level %g %%, %g lm, at most %g cd towards (%.3f, %.3f, %.3f), ",
-           100 * (double)light->level, (double)(light->web->flux_lm * share),
-           (double)(light->web->largest_cd * share), (double)d.x, (double)d.y, (double)d.z);
-    if (light->opening.shape == OPENING_POINT) printf("a point");
-    else printf("%s of %g x %g x %g m", opening_name(&light->opening), 2 * (double)half[0],
-                2 * (double)half[1], 2 * (double)half[2]);
+    print(", level %g %%, %g lm, at most %g cd towards (%.3f, %.3f, %.3f), ",
+          100 * (double)light->level, (double)(light->web->flux_lm * share),
+          (double)(light->web->largest_cd * share), (double)d.x, (double)d.y, (double)d.z);
+    if (light->opening.shape == OPENING_POINT) print("a point");
+    else print("%s of %g x %g x %g m", opening_name(&light->opening), 2 * (double)half[0],
+               2 * (double)half[1], 2 * (double)half[2]);
     if (light->has_tilt)
-        printf(", tilted by %.3g degrees: x %g", (double)light->tilt_deg,
-               (double)light->tilt_factor);
-    printf("\n");
+        print(", tilted by %.3g degrees: x %g", (double)light->tilt_deg,
+              (double)light->tilt_factor);
+    print("\n");
 }
 
 /* A row of street lamps is one line. */
@@ -150,11 +150,11 @@ static void print_light(const Scene *scene, int index)
         print_luminaire(light);
         return;
     }
-    printf("light        %s: %s, RGB %g %g %g %s", light->name, light_kind(light->kind),
-           (double)light->intensity[0], (double)light->intensity[1],
-           (double)light->intensity[2], light_unit(light->kind));
-    if (count > 1) printf(", %d times", count);
-    printf("\n");
+    print("light        %s: %s, RGB %g %g %g %s", light->name, light_kind(light->kind),
+          (double)light->intensity[0], (double)light->intensity[1],
+          (double)light->intensity[2], light_unit(light->kind));
+    if (count > 1) print(", %d times", count);
+    print("\n");
 }
 
 static void print_lights(const Scene *scene)
@@ -163,64 +163,64 @@ static void print_lights(const Scene *scene)
     for (int i = 0; i < scene->material_count; i++) {
         const Material *m = &scene->materials[i];
         if (!m->is_emitter || m->display_id != NO_ID || m->unlit) continue;
-        printf("light        %s: emissive material, RGB up to %g %g %g cd/m2\n", m->name,
-               (double)m->emissive_cd_m2[0], (double)m->emissive_cd_m2[1],
-               (double)m->emissive_cd_m2[2]);
+        print("light        %s: emissive material, RGB up to %g %g %g cd/m2\n", m->name,
+              (double)m->emissive_cd_m2[0], (double)m->emissive_cd_m2[1],
+              (double)m->emissive_cd_m2[2]);
     }
 }
 
 static void print_environment(const Environment *e)
 {
-    printf("environment  %s", environment_kind(e->kind));
-    if (e->kind == ENVIRONMENT_CONSTANT) printf(", %g cd/m2", (double)e->luminance_cd_m2);
+    print("environment  %s", environment_kind(e->kind));
+    if (e->kind == ENVIRONMENT_CONSTANT) print(", %g cd/m2", (double)e->luminance_cd_m2);
     if (e->kind == ENVIRONMENT_HDRI)
-        printf(" %s, %dx%d pixels", e->hdri_path, e->hdri.width, e->hdri.height);
+        print(" %s, %dx%d pixels", e->hdri_path, e->hdri.width, e->hdri.height);
     if (e->has_sun)
-        printf(", sun at azimuth %.4g deg, elevation %.4g deg, %g lx", degrees(e->sun_azimuth),
-               degrees(e->sun_elevation), (double)e->sun_illuminance_lx);
-    printf("%s\n", e->kind == ENVIRONMENT_NONE && !e->has_sun ? ": the outside is black" : "");
+        print(", sun at azimuth %.4g deg, elevation %.4g deg, %g lx", degrees(e->sun_azimuth),
+              degrees(e->sun_elevation), (double)e->sun_illuminance_lx);
+    print("%s\n", e->kind == ENVIRONMENT_NONE && !e->has_sun ? ": the outside is black" : "");
 }
 
 static void print_cameras(const Scene *scene)
 {
     for (int i = 0; i < scene->camera_count; i++) {
         const SceneCamera *c = &scene->cameras[i];
-        printf("camera %-5d %s: ", i, camera_name(c)[0] ? camera_name(c) : "(no name)");
+        print("camera %-5d %s: ", i, camera_name(c)[0] ? camera_name(c) : "(no name)");
         if (c->is_perspective)
-            printf("perspective, %.4g deg high\n", degrees(c->yfov));
+            print("perspective, %.4g deg high\n", degrees(c->yfov));
         else
-            printf("orthographic, %g m high\n", 2 * (double)c->ymag);
+            print("orthographic, %g m high\n", 2 * (double)c->ymag);
     }
     if (!scene->camera_count)
-        printf("camera       none: %s seen from the front\n",
-               scene->display_count ? "the displays are" : "the scene is framed whole,");
+        print("camera       none: %s seen from the front\n",
+              scene->display_count ? "the displays are" : "the scene is framed whole,");
 }
 
 static void print_states(const Scene *scene)
 {
     for (int i = 0; i < scene->variant_count; i++)
-        printf("variant      %s\n", scene->variants[i]);
+        print("variant      %s\n", scene->variants[i]);
     for (int i = 0; i < scene->animation_count; i++)
-        printf("animation    %s: %g s\n", scene->animations[i].name,
-               scene->animations[i].end_s);
+        print("animation    %s: %g s\n", scene->animations[i].name,
+              scene->animations[i].end_s);
 }
 
 static void print_size(const Scene *scene, Arena *arena)
 {
     const Vec3 low = scene->bounds_min, high = scene->bounds_max;
-    printf("triangles    %u (%u opaque) in %d parts\n", scene->triangle_count,
-           scene->opaque_count, scene->part_count);
+    print("triangles    %u (%u opaque) in %d parts\n", scene->triangle_count,
+          scene->opaque_count, scene->part_count);
     if (scene->triangle_count)
-        printf("size         %.4g x %.4g x %.4g m\n", (double)(high.x - low.x),
-               (double)(high.y - low.y), (double)(high.z - low.z));
+        print("size         %.4g x %.4g x %.4g m\n", (double)(high.x - low.x),
+              (double)(high.y - low.y), (double)(high.z - low.z));
     const double *o = scene->origin;
     if (o[0] != 0 || o[1] != 0 || o[2] != 0)
-        printf("origin       %.10g, %.10g, %.10g m: coordinates are reckoned from there\n",
-               o[0], o[1], o[2]);
-    printf("materials    %d, textures %d\n", scene->material_count, scene->texture_count);
+        print("origin       %.10g, %.10g, %.10g m: coordinates are reckoned from there\n",
+              o[0], o[1], o[2]);
+    print("materials    %d, textures %d\n", scene->material_count, scene->texture_count);
     material_list_print_one_sided(scene, arena);
     if (scene->ignored_occlusion_count)
-        printf(
+        print(
             "note         %d materials have an occlusion texture: it is ignored, since tracing "
             "finds what is occluded\n",
             scene->ignored_occlusion_count);
@@ -230,8 +230,8 @@ static void print_problems(const Problems *problems)
 {
     for (int i = 0; i < problems->count; i++) {
         const Problem *p = &problems->list[i];
-        printf("%-12s %s: %s%s%s%s\n", p->severity == SEVERITY_ERROR ? "ERROR" : "warning",
-               p->file, p->message, p->path[0] ? " (" : "", p->path, p->path[0] ? ")" : "");
+        print("%-12s %s: %s%s%s%s\n", p->severity == SEVERITY_ERROR ? "ERROR" : "warning",
+              p->file, p->message, p->path[0] ? " (" : "", p->path, p->path[0] ? ")" : "");
     }
 }
 
@@ -243,12 +243,12 @@ static void print_report(const Scene *scene, const Problems *problems, Arena *ar
     print_environment(&scene->environment);
     print_cameras(scene);
     print_states(scene);
-    if (scene->extension_count) printf("extensions  ");
-    for (int i = 0; i < scene->extension_count; i++) printf(" %s", scene->extensions[i]);
-    if (scene->extension_count) printf("\n");
+    if (scene->extension_count) print("extensions  ");
+    for (int i = 0; i < scene->extension_count; i++) print(" %s", scene->extensions[i]);
+    if (scene->extension_count) print("\n");
     print_problems(problems);
-    printf("%s: %d errors, %d warnings\n", problems->error_count ? "NOT OK" : "ok",
-           problems->error_count, problems->count - problems->error_count);
+    print("%s: %d errors, %d warnings\n", problems->error_count ? "NOT OK" : "ok",
+          problems->error_count, problems->count - problems->error_count);
 }
 
 /* ---- for scripts ----------------------------------------------------------------------- */

@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "base/count.h"
+#include "print/print.h"
 #include "cli/commands.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
@@ -80,12 +81,12 @@ static void print_text(const DevelopWords *typed, const LookReport *look, Arena 
 {
     const DevelopReport *r = &look->develop;
     if (r->is_developed)
-        printf("%s: %s, %s, middle grey %.4g cd/m2 (EV %.2f), %s%s\n", typed->output,
-               r->display, r->view, r->grey_cd_m2, r->ev, r->config,
-               look_options_words(look, &scratch));
+        print("%s: %s, %s, middle grey %.4g cd/m2 (EV %.2f), %s%s\n", typed->output,
+              r->display, r->view, r->grey_cd_m2, r->ev, r->config,
+              look_options_words(look, &scratch));
     else
-        printf("%s%s%s%s\n", typed->output, r->scale[0] ? ": " : "", r->scale,
-               look_options_words(look, &scratch));
+        print("%s%s%s%s\n", typed->output, r->scale[0] ? ": " : "", r->scale,
+              look_options_words(look, &scratch));
 }
 
 static bool develop(DevelopWords *typed, Arena *arena, Error *err)
@@ -97,9 +98,9 @@ static bool develop(DevelopWords *typed, Arena *arena, Error *err)
                                  &typed->eye};
     if (!look_options_develop(&request, *arena, &look, err)) return false;
     if (look.develop.is_developed && look.develop.nonfinite_pixels > 0)
-        fprintf(stderr,
-                "parhelion: warning: %s: %ld pixels are not finite: NaN is shown black, "
-                "infinity white\n", typed->frame, look.develop.nonfinite_pixels);
+        print_to(stderr,
+                 "parhelion: warning: %s: %ld pixels are not finite: NaN is shown black, "
+                 "infinity white\n", typed->frame, look.develop.nonfinite_pixels);
     if (typed->cli.json) return print_json(typed, &look, err);
     print_text(typed, &look, *arena);
     return true;

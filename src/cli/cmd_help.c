@@ -3,6 +3,7 @@
 #include "cli/cmd_help.h"
 
 #include "base/count.h"
+#include "print/print.h"
 #include "base/program.h"
 #include "cli/commands.h"
 #include "cli/options/answer.h"
@@ -34,19 +35,19 @@ static bool find_scenes(char path[static PATH_MAX])
 void cmd_help_print(FILE *out)
 {
     char scenes[PATH_MAX];
-    fprintf(out, "parhelion: " SUMMARY "\n\n"
-                 "usage: parhelion COMMAND ... | help [NAME] | -h | -V\n\n");
+    print_to(out, "parhelion: " SUMMARY "\n\n"
+                  "usage: parhelion COMMAND ... | help [NAME] | -h | -V\n\n");
     for (int i = 0; i < command_count; i++)
-        fprintf(out, "  %-18s %s\n", command_table[i]->name, command_table[i]->summary);
-    fprintf(out, "\nparhelion COMMAND --help tells the options of each, with an example.\n"
-                 "Guides, shown by parhelion help NAME:\n\n");
+        print_to(out, "  %-18s %s\n", command_table[i]->name, command_table[i]->summary);
+    print_to(out, "\nparhelion COMMAND --help tells the options of each, with an example.\n"
+                  "Guides, shown by parhelion help NAME:\n\n");
     for (int i = 0; i < guide_count; i++) {
         const char *title;
         int         length = guide_title(&guide_table[i], &title);
-        fprintf(out, "  %-18s %.*s\n", guide_table[i].name, length, title);
+        print_to(out, "  %-18s %.*s\n", guide_table[i].name, length, title);
     }
-    fprintf(out, "\nscenes/ of the examples: %s\n",
-            find_scenes(scenes) ? scenes : "not installed (the package parhelion-scenes)");
+    print_to(out, "\nscenes/ of the examples: %s\n",
+             find_scenes(scenes) ? scenes : "not installed (the package parhelion-scenes)");
 }
 
 static bool unknown_name(const char *name, Error *err)
@@ -85,7 +86,7 @@ static bool print_command(const Command *command, const HelpWords *words, Arena 
 static bool print_guide(const Guide *guide, const HelpWords *words, Error *err)
 {
     if (words->form == HELP_MAN) return man_guide_print(guide), true;
-    if (!words->cli.json) return fputs(guide->text, stdout), true;
+    if (!words->cli.json) return print_own(stdout, guide->text), true;
     const char *title;
     int         length = guide_title(guide, &title);
     return cli_print_json(json_pack("{s:s, s:s%, s:s}", "name", guide->name, "title", title,

@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "base/count.h"
+#include "print/print.h"
 #include "cli/commands.h"
 #include "cli/luxmeter.h"
 #include "cli/measure_glare.h"
@@ -105,16 +106,16 @@ static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error 
 static void print_figure(const char *name, Measured figure, const char *unit)
 {
     if (isnan(figure.value)) {
-        printf("%-12s undefined: there is no light\n", name);
+        print("%-12s undefined: there is no light\n", name);
         return;
     }
     if (isnan(figure.low)) {
-        printf("%-12s %.6g%s\n", name, figure.value, unit);
+        print("%-12s %.6g%s\n", name, figure.value, unit);
         return;
     }
     Arena scratch = arena_reserve(INTERVAL_BYTES);
-    printf("%-12s %s%s\n", name,
-           interval_text(figure.value, figure.low, figure.high, &scratch), unit);
+    print("%-12s %s%s\n", name,
+          interval_text(figure.value, figure.low, figure.high, &scratch), unit);
     arena_release(&scratch);
 }
 
@@ -134,7 +135,7 @@ static void print_content(const ContentContrast *c)
 {
     const char *reason = content_reason(c->verdict);
     if (reason) {
-        printf("%-12s missing: %s\n", "content", reason);
+        print("%-12s missing: %s\n", "content", reason);
         return;
     }
     print_figure("content", c->ratio, " : 1");
@@ -143,20 +144,20 @@ static void print_content(const ContentContrast *c)
     print_figure("  Michelson", c->michelson, "");
     print_figure("  Weber", c->weber, "");
     if (!c->edges_left_out)
-        printf("  strokes are too thin to leave their edges out: the contrast is at least "
-               "this\n");
+        print("  strokes are too thin to leave their edges out: the contrast is at least "
+              "this\n");
 }
 
 static void print_display(const FrameMeasurement *m)
 {
     print_figure("  Weber", m->weber, "");
     print_figure("  Michelson", m->michelson, "");
-    printf("  white %.6g, black %.6g, reflected %.6g cd/m2", m->white, m->black, m->reflected);
-    if (!isnan(m->mirror)) printf(": %.6g by the mirror", m->mirror);
-    if (!isnan(m->lambertian)) printf(", %.6g lambertian", m->lambertian);
-    putchar('\n');
+    print("  white %.6g, black %.6g, reflected %.6g cd/m2", m->white, m->black, m->reflected);
+    if (!isnan(m->mirror)) print(": %.6g by the mirror", m->mirror);
+    if (!isnan(m->lambertian)) print(", %.6g lambertian", m->lambertian);
+    print("\n");
     if (!m->has_errors) return;
-    printf("  shown %.6g cd/m2; what is seen is off by\n", m->shown);
+    print("  shown %.6g cd/m2; what is seen is off by\n", m->shown);
     print_figure("  luminance", m->luminance_error, " of what is shown");
     print_figure("  colour", m->colour_error, " in u'v'");
 }
@@ -166,31 +167,31 @@ static void print_rim(const FrameMeasurement *m)
 {
     switch (m->rim) {
     case RIM_BY_COVERAGE:
-        printf("%-12s %ld of them, by their part: %.6g pixels in all\n", "  at the rim",
-               m->rim_pixels, m->area);
+        print("%-12s %ld of them, by their part: %.6g pixels in all\n", "  at the rim",
+              m->rim_pixels, m->area);
         break;
     case RIM_LEFT_OUT:
-        printf("%-12s %ld more are left out: their part is not known (--layers display)\n",
-               "  at the rim", m->rim_pixels);
+        print("%-12s %ld more are left out: their part is not known (--layers display)\n",
+              "  at the rim", m->rim_pixels);
         break;
     case RIM_WHOLE:
-        printf("%-12s whole, with what is around: their part is not known (--layers "
-               "display)\n", "  at the rim");
+        print("%-12s whole, with what is around: their part is not known (--layers "
+              "display)\n", "  at the rim");
     }
     if (m->shared_pixels)
-        printf("%-12s %ld show two displays: they have no part in the contrast\n", "",
-               m->shared_pixels);
+        print("%-12s %ld show two displays: they have no part in the contrast\n", "",
+              m->shared_pixels);
     if (m->unknown_pixels)
-        printf("%-12s %ld show more displays, and are left out\n", "", m->unknown_pixels);
+        print("%-12s %ld show more displays, and are left out\n", "", m->unknown_pixels);
 }
 
 static void print_text(const FrameMeasurement *m, bool is_display)
 {
-    printf("%-12s %ld\n", "pixels", m->pixels);
+    print("%-12s %ld\n", "pixels", m->pixels);
     if (is_display) print_rim(m);
-    if (m->nonfinite) printf("%-12s %ld\n", "left out", m->nonfinite);
+    if (m->nonfinite) print("%-12s %ld\n", "left out", m->nonfinite);
     print_figure("luminance", m->luminance, " cd/m2");
-    printf("%-12s %.6g to %.6g cd/m2\n", "  of pixels", m->least, m->greatest);
+    print("%-12s %.6g to %.6g cd/m2\n", "  of pixels", m->least, m->greatest);
     print_figure("x", m->x, "");
     print_figure("y", m->y, "");
     print_figure("u'", m->u, "");
@@ -199,23 +200,23 @@ static void print_text(const FrameMeasurement *m, bool is_display)
         print_figure("contrast", m->contrast, " : 1");
         print_display(m);
     } else {
-        printf("%-12s missing: no pixel of a display, or no layers of it (--layers display)\n",
-               "contrast");
+        print("%-12s missing: no pixel of a display, or no layers of it (--layers display)\n",
+              "contrast");
     }
     if (m->has_content) print_content(&m->content);
     if (!m->has_variance)
-        printf("%-12s missing: no layer variance (--layers variance)\n", "intervals");
+        print("%-12s missing: no layer variance (--layers variance)\n", "intervals");
 }
 
 static void print_lights(const LightShares *lights, bool is_display)
 {
     if (lights->count && is_display && !lights->pixels) {
-        printf("%-12s missing: no pixel shows the display alone\n", "by light");
+        print("%-12s missing: no pixel shows the display alone\n", "by light");
         return;
     }
     for (int i = 0; i < lights->count; i++)
-        printf("%-12s %.6g cd/m2 (%.1f %%) of %s\n", i ? "" : "by light",
-               lights->list[i].cd_m2, 100 * lights->list[i].share, lights->list[i].name);
+        print("%-12s %.6g cd/m2 (%.1f %%) of %s\n", i ? "" : "by light",
+              lights->list[i].cd_m2, 100 * lights->list[i].share, lights->list[i].name);
 }
 
 /* ---- as JSON ----------------------------------------------------------------------------- */

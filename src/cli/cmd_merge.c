@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion merge: parts of a frame become the frame, with the bits of one run; the parts of a
  * review the review (job_run.h). */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -10,6 +9,7 @@
 #include "base/file.h"
 #include "base/file_write.h"
 #include "base/machine.h"
+#include "print/print.h"
 #include "cli/commands.h"
 #include "cli/job/job_manifest.h"
 #include "cli/job/job_state.h"
@@ -415,13 +415,13 @@ static void print_line(const MergeRun *work)
     const FilmPart *whole = &work->whole;
     const FilmRect *crop = &whole->crop;
     char            error[32];
-    printf("%s: %d part%s, pixels %d,%d,%d,%d of %dx%d, samples %u:%u, relative "
-           "error %s%s\n",
-           work->output, work->count,
-           work->count == 1 ? "" : "s", crop->x0, crop->y0, crop->x1,
-           crop->y1, whole->width, whole->height, whole->first_sample,
-           whole->end_sample, cli_relative_error(work->error.frame, error, sizeof error),
-           work->keeps_sums ? ", with its sums" : "");
+    print("%s: %d part%s, pixels %d,%d,%d,%d of %dx%d, samples %u:%u, relative "
+          "error %s%s\n",
+          work->output, work->count,
+          work->count == 1 ? "" : "s", crop->x0, crop->y0, crop->x1,
+          crop->y1, whole->width, whole->height, whole->first_sample,
+          whole->end_sample, cli_relative_error(work->error.frame, error, sizeof error),
+          work->keeps_sums ? ", with its sums" : "");
 }
 
 static bool merge(MergeRun *work, Error *err)

@@ -10,6 +10,7 @@
 
 #include "base/count.h"
 #include "base/file.h"
+#include "print/print.h"
 #include "cli/commands.h"
 #include "cli/job/job_manifest.h"
 #include "cli/job/job_state.h"
@@ -61,7 +62,7 @@ static bool is_done(const PartRun *work)
     if (job_part_is_done(&work->job, work->index, true, *work->arena, &why)) return true;
     if (!why.text[0]) return false;
     error_line(&why, line, (int)sizeof line);
-    fprintf(stderr, "parhelion: warning: %s — it is done again\n", line);
+    print_to(stderr, "parhelion: warning: %s — it is done again\n", line);
     return false;
 }
 
@@ -122,8 +123,8 @@ static bool print_answer(const PartRun *work, Error *err)
                                         work->job.part_count, "output", json_text(file),
                                         "was_there", work->was_there),
                               err);
-    printf("%s of %d: %s\n", work->name, work->job.part_count,
-           work->was_there ? "is there already" : "done");
+    print("%s of %d: %s\n", work->name, work->job.part_count,
+          work->was_there ? "is there already" : "done");
     return true;
 }
 

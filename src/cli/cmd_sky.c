@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion sky: draws a sky and prints its figures. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -9,6 +8,7 @@
 #include "base/file.h"
 #include "base/file_write.h"
 #include "base/parallel.h"
+#include "print/print.h"
 #include "base/reference.h"
 #include "base/units.h"
 #include "cli/commands.h"
@@ -280,7 +280,7 @@ static void print_lines(const char *const *line, int count)
 {
     for (int i = 0; i < count; i++) {
         const char *bar = strchr(line[i], '|');
-        printf("%-20.*s %s\n", (int)(bar - line[i]), line[i], bar + 1);
+        print("%-20.*s %s\n", (int)(bar - line[i]), line[i], bar + 1);
     }
 }
 
@@ -446,7 +446,7 @@ static bool run(SkyRun *work, OutputKind kind, Error *err)
     if (work->cli.json) return print_json(work, &figures, err);
     print_lines(line, figure_lines(work, &figures, line));
     const char *weather = weather_option_text(&work->scene->environment, work->arena);
-    if (weather) printf("%-20s %s\n", "weather file", weather);
+    if (weather) print("%-20s %s\n", "weather file", weather);
     return true;
 }
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion status: how far a job is that `--slurm` shared out, and what is left. */
-#include <stdio.h>
 
 #include "base/file.h"
+#include "print/print.h"
 #include "cli/commands.h"
 #include "cli/job/job_manifest.h"
 #include "cli/job/job_state.h"
@@ -95,38 +95,38 @@ static void print_kept(const StatusRun *work, int index)
 {
     uint32_t kept = work->reports[index].kept;
     if (work->job.kind == JOB_REVIEW) {
-        printf(", %u answer%s kept", kept, kept == 1 ? " is" : "s are");
+        print(", %u answer%s kept", kept, kept == 1 ? " is" : "s are");
         return;
     }
     const JobPart *part = &work->job.parts[index];
     uint32_t       all = part->end_sample - part->first_sample;
-    printf(", %u of %u samples a pixel are kept", kept, all);
+    print(", %u of %u samples a pixel are kept", kept, all);
 }
 
 static void print_part(const StatusRun *work, int index)
 {
     const JobPartReport *report = &work->reports[index];
     if (report->state == JOB_PART_DONE) return;
-    printf("part %d: %s", index, state_names[report->state]);
+    print("part %d: %s", index, state_names[report->state]);
     if (report->kept) print_kept(work, index);
-    if (report->reason) printf(", status %d: %s", report->status, report->reason);
-    printf("\n    %s\n", job_part_command(&work->job, index, work->arena));
+    if (report->reason) print(", status %d: %s", report->status, report->reason);
+    print("\n    %s\n", job_part_command(&work->job, index, work->arena));
 }
 
 static void print_lines(const StatusRun *work)
 {
     int count = work->job.part_count;
-    printf("%s: %d of %d part%s done", work->cli.arguments[0], work->counts[JOB_PART_DONE],
-           count, count == 1 ? "" : "s");
+    print("%s: %d of %d part%s done", work->cli.arguments[0], work->counts[JOB_PART_DONE],
+          count, count == 1 ? "" : "s");
     for (int i = 0; i < JOB_PART_DONE; i++)
-        if (work->counts[i]) printf(", %d %s", work->counts[i], state_names[i]);
-    printf("\n");
+        if (work->counts[i]) print(", %d %s", work->counts[i], state_names[i]);
+    print("\n");
     for (int i = 0; i < count; i++) print_part(work, i);
     if (is_all_done(work) && file_exists(work->output))
-        printf("%s is there\n", work->output);
+        print("%s is there\n", work->output);
     else
-        printf("%s: %s\n", is_all_done(work) ? "merge them" : "then",
-               job_merge_command(&work->job, work->arena));
+        print("%s: %s\n", is_all_done(work) ? "merge them" : "then",
+              job_merge_command(&work->job, work->arena));
 }
 
 /* 1 while something is left. */

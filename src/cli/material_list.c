@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/material_list.h"
 
-#include <stdio.h>
 #include <string.h>
 
+#include "print/print.h"
 #include "text/json_text.h"
 
 /* The nodes, meshes and areas of one material. */
@@ -114,8 +114,8 @@ static void print_names(const char *what, const char *const *names, int count)
 {
     enum { MOST = 4 };
     for (int i = 0; i < count && i < MOST; i++)
-        printf("%s%s", i ? ", " : what, names[i]);
-    if (count > MOST) printf(" and %d more", count - MOST);
+        print("%s%s", i ? ", " : what, names[i]);
+    if (count > MOST) print(" and %d more", count - MOST);
 }
 
 void material_list_print_one_sided(const Scene *scene, Arena *arena)
@@ -127,23 +127,23 @@ void material_list_print_one_sided(const Scene *scene, Arena *arena)
         if (is_one_sided(scene, i)) names[count++] = scene->materials[i].name;
     print_names("one-sided    ", names, count);
     if (count)
-        printf(": their backs are seen and reflect as their fronts do; glTF's viewers leave "
-               "them out\n");
+        print(": their backs are seen and reflect as their fronts do; glTF's viewers leave "
+              "them out\n");
 }
 
 static void print_material(const Scene *scene, int id, const MaterialUse *use)
 {
     const Material *material = &scene->materials[id];
     bool is_screen = looks_like_screen(scene, id, use);
-    printf("%-12s %s: %.4g m2%s%s%s", is_screen ? "screen?" : "material", material->name,
-           use->area_m2, use->is_flat ? ", flat" : "", has_uv(use) ? ", UVs" : "",
-           glows_with_texture(scene, id) ? ", emissive texture" : "");
-    if (material->display_id != NO_ID) printf(", is a display");
-    if (is_one_sided(scene, id)) printf(", one-sided");
-    if (!use->area_m2) printf(", worn by nothing that is shown");
+    print("%-12s %s: %.4g m2%s%s%s", is_screen ? "screen?" : "material", material->name,
+          use->area_m2, use->is_flat ? ", flat" : "", has_uv(use) ? ", UVs" : "",
+          glows_with_texture(scene, id) ? ", emissive texture" : "");
+    if (material->display_id != NO_ID) print(", is a display");
+    if (is_one_sided(scene, id)) print(", one-sided");
+    if (!use->area_m2) print(", worn by nothing that is shown");
     print_names("; node ", use->nodes, use->node_count);
     print_names("; mesh ", use->meshes, use->mesh_count);
-    printf("\n");
+    print("\n");
 }
 
 void material_list_print(const Scene *scene, Arena *arena)

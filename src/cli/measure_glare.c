@@ -2,9 +2,9 @@
 #include "cli/measure_glare.h"
 
 #include <math.h>
-#include <stdio.h>
 
 #include "base/count.h"
+#include "print/print.h"
 #include "cli/options/answer.h"
 #include "text/interval_text.h"
 #include "text/json_text.h"
@@ -40,28 +40,28 @@ static void print_figure(const char *name, Measured figure, const char *unit, Ar
     const char *text = isnan(figure.low)
                            ? arena_format(&scratch, "%.6g", figure.value)
                            : interval_text(figure.value, figure.low, figure.high, &scratch);
-    printf("%-12s %s%s\n", name, text, unit);
+    print("%-12s %s%s\n", name, text, unit);
 }
 
 static void print_index(const char *name, Measured figure, GlareNone none, Arena scratch)
 {
-    if (isnan(figure.value)) printf("%-12s none: %s\n", name, discomfort_none_words(none));
+    if (isnan(figure.value)) print("%-12s none: %s\n", name, discomfort_none_words(none));
     else print_figure(name, figure, "", scratch);
 }
 
 static void print_sources(const FrameGlare *g)
 {
-    printf("%-12s %d brighter than %.6g cd/m2\n", "sources", g->source_count,
-           g->threshold_cd_m2);
+    print("%-12s %d brighter than %.6g cd/m2\n", "sources", g->source_count,
+          g->threshold_cd_m2);
     for (int i = 0; i < g->source_count && i < SOURCES_TOLD; i++) {
         const FrameSource *s = &g->sources[i];
-        printf("  %.4g cd/m2, %.3g sr, position index %.3g, at %.1f deg right, %.1f deg up, "
-               "%.4g lx (%ld pixels about %.0f,%.0f)\n",
-               s->source.luminance_cd_m2, s->source.solid_angle_sr, s->source.position_index,
-               s->right_deg, s->up_deg, s->lx, s->pixels, s->x, s->y);
+        print("  %.4g cd/m2, %.3g sr, position index %.3g, at %.1f deg right, %.1f deg up, "
+              "%.4g lx (%ld pixels about %.0f,%.0f)\n",
+              s->source.luminance_cd_m2, s->source.solid_angle_sr, s->source.position_index,
+              s->right_deg, s->up_deg, s->lx, s->pixels, s->x, s->y);
     }
     if (g->source_count > SOURCES_TOLD)
-        printf("  and %d more\n", g->source_count - SOURCES_TOLD);
+        print("  and %d more\n", g->source_count - SOURCES_TOLD);
 }
 
 static long count_small(const FrameGlare *g)
@@ -75,17 +75,17 @@ static void print_doubts(const FrameGlare *g)
 {
     long small = count_small(g);
     if (small)
-        printf("%-12s %ld sources are too small for the frame: their pixels show their "
-               "surroundings, too, and dim them; a larger frame tells\n", "size", small);
+        print("%-12s %ld sources are too small for the frame: their pixels show their "
+              "surroundings, too, and dim them; a larger frame tells\n", "size", small);
     if (g->doubtful)
-        printf("%-12s %ld areas are above the threshold by noise alone, as two halves of the "
-               "samples tell: not counted\n", "noise", g->doubtful);
+        print("%-12s %ld areas are above the threshold by noise alone, as two halves of the "
+              "samples tell: not counted\n", "noise", g->doubtful);
     if (!g->has_noise)
-        printf("%-12s not looked for, without layers of it (--layers halves,variance): "
-               "bright pixels of few samples count as sources\n", "noise");
+        print("%-12s not looked for, without layers of it (--layers halves,variance): "
+              "bright pixels of few samples count as sources\n", "noise");
     if (!g->has_intervals)
-        printf("%-12s missing: no layers halves or variance (--layers halves,variance)\n",
-               "intervals");
+        print("%-12s missing: no layers halves or variance (--layers halves,variance)\n",
+              "intervals");
 }
 
 static void print_text(const FrameGlare *g, const GlareWords *words, Arena scratch)
@@ -95,8 +95,8 @@ static void print_text(const FrameGlare *g, const GlareWords *words, Arena scrat
     print_figure("background", g->background_cd_m2, " cd/m2", scratch);
     print_index("UGR", g->ugr, g->none, scratch);
     print_index("DGP", g->dgp, g->none, scratch);
-    printf("%-12s its factor for less than 1000 lx is %s\n", "",
-           words->request.settings.low_light ? "in it (--no-low-light)" : "left out");
+    print("%-12s its factor for less than 1000 lx is %s\n", "",
+          words->request.settings.low_light ? "in it (--no-low-light)" : "left out");
     print_index("DGI", g->dgi, g->none, scratch);
     print_sources(g);
     print_doubts(g);

@@ -8,7 +8,7 @@ include(GNUInstallDirs)
 set(PANEL_LIBRARY_ABI 1)
 set(panel_library_sources src/library/parhelion_panel.c
   src/base/arena.c src/base/error.c src/base/file.c src/base/machine.c src/base/mathd.c
-  src/base/sort.c
+  src/base/sort.c src/print/print.c src/print/printable.c src/print/utf8.c
   src/spectrum/spectral_table.c src/spectrum/wavelengths.c
   src/hemisphere/geodesic.c src/hemisphere/specular_frame.c src/hemisphere/surface_frame.c
   src/hemisphere/haar.c

@@ -27,8 +27,10 @@ void page_begin(Text *page, const PageHead *head)
 
 void page_end(Text *page, const char *command, const char *const *scripts)
 {
-    text_format(page, "<footer>Parhelion %s, %s</footer>\n</main>\n<script>\n%s",
-                PARHELION_VERSION, command, PAGE_SCRIPT);
+    text_format(page, "<footer>Parhelion %s, ", PARHELION_VERSION);
+    escape_markup(page, command);
+    text_add(page, "</footer>\n</main>\n<script>\n");
+    text_add(page, PAGE_SCRIPT);
     while (*scripts) text_add(page, *scripts++);
     text_add(page, "</script>\n</body></html>\n");
 }

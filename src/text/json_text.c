@@ -6,15 +6,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "print/printable.h"
+
 json_t *json_text(const char *text)
 {
     json_t *string = json_string(text);
     if (string) return string;
-    char *plain = strdup(text);
-    for (char *c = plain; c && *c; c++)
-        if ((unsigned char)*c >= 0x80) *c = '?';
-    string = json_string(plain ? plain : "");
-    free(plain);
+    size_t size = printable_size(text);
+    char  *shown = malloc(size);
+    if (shown) printable_copy(shown, size, text);
+    string = json_string(shown ? shown : "");
+    free(shown);
     return string;
 }
 
@@ -33,6 +35,21 @@ json_t *json_texts(const char *const *texts, int count)
 json_t *json_figure(double value)
 {
     return isfinite(value) ? json_real(value) : json_null();
+}
+
+/* Outside of strings JSON has no character to escape but the ends of its lines. */
+bool json_dump_text(Text *text, const json_t *value, size_t flags)
+{
+    char *document = json_dumps(value, flags);
+    if (!document) return false;
+    for (const char *line = document; *line;) {
+        size_t length = strcspn(line, "\n");
+        text_add_printable(text, line, length);
+        line += length;
+        if (*line) text_add_bytes(text, line++, 1);
+    }
+    free(document);
+    return true;
 }
 
 #define LINE_CHARS 92
@@ -67,10 +84,8 @@ static void print_real(const Printer *out, double value)
 /* Texts, integers and words as jansson has them. */
 static void print_scalar(const Printer *out, const json_t *value)
 {
-    char *word = json_is_real(value) ? NULL : json_dumps(value, JSON_ENCODE_ANY);
     if (json_is_real(value)) print_real(out, json_real_value(value));
-    else text_add(out->text, word ? word : "null");
-    free(word);
+    else json_dump_text(out->text, value, JSON_ENCODE_ANY);
 }
 
 /* Returns its letters. */

@@ -6,11 +6,12 @@
  */
 #pragma once
 #include <jansson.h>
+#include <stdbool.h>
 
 #include "text/text.h"
 
-/* Bytes beyond ASCII become '?' in a text that is not UTF-8: names of files may hold
- * anything. */
+/* A text that is not UTF-8 becomes what may be shown of it (printable.h): names of files may
+ * hold anything. */
 json_t *json_text(const char *text);
 
 /* The same; null for NULL. */
@@ -21,6 +22,10 @@ json_t *json_texts(const char *const *texts, int count);
 
 /* null where it is not finite: JSON has neither NaN nor infinity. */
 json_t *json_figure(double value);
+
+/* Adds the document as jansson writes it with these flags, with what a terminal would obey as
+ * \u escapes. False: there is none, or memory is out. */
+bool json_dump_text(Text *text, const json_t *value, size_t flags);
 
 /* A number has `digits` digits where they are enough to give the same double again, else as
  * many as it takes, 17 at most; or `digits` of them at most. */

@@ -6,7 +6,8 @@
 #include <string.h>
 
 #include "base/file_write.h"
-#include "text/utf8.h"
+#include "print/printable.h"
+#include "print/utf8.h"
 
 /* Room for `size` more bytes and the zero behind them. */
 static void make_room(Text *text, size_t size)
@@ -60,28 +61,28 @@ bool text_write(const Text *text, const char *path, Error *err)
 
 /* ---- inside languages that give some characters a meaning -------------------------------- */
 
-/* Extensible Markup Language (XML) 1.0, production 2; no deletion either. */
-static bool is_allowed(unsigned code)
+void text_add_printable(Text *text, const char *bytes, size_t size)
 {
-    bool is_control = (code < 0x20 && !strchr("\t\n\r", (int)code)) || code == 0x7f;
-    return !is_control && code != 0xfffe && code != 0xffff;
+    char one[PRINTABLE_ROOM];
+    for (size_t taken; size; bytes += taken, size -= taken) {
+        taken = printable_next(bytes, size, one);
+        text_add(text, one);
+    }
 }
 
 void escape_markup(Text *text, const char *string)
 {
+    char one[PRINTABLE_ROOM];
     for (const char *c = string ? string : ""; *c;) {
-        unsigned code = 0;
-        int      length = utf8_decode(c, UTF8_BYTES_MAX, &code);
-        if (!is_allowed(code)) length = 0;
-        switch (*c) {
+        c += printable_next(c, UTF8_BYTES_MAX, one);
+        switch (one[0]) {
         case '&': text_add(text, "&amp;"); break;
         case '<': text_add(text, "&lt;"); break;
         case '>': text_add(text, "&gt;"); break;
         case '"': text_add(text, "&quot;"); break;
         case '\'': text_add(text, "&#39;"); break;
-        default: text_add_bytes(text, length ? c : "?", length ? (size_t)length : 1);
+        default: text_add(text, one);
         }
-        c += length ? length : 1;
     }
 }
 

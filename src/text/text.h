@@ -30,8 +30,11 @@ bool text_write(const Text *text, const char *path, Error *err);
 
 /* ---- inside languages that give some characters a meaning -------------------------------- */
 
-/* Adds `string` as the content of an element or of a quoted attribute, in HTML and in XML 1.0.
- * What is no UTF-8, and characters that XML does not allow, become '?'. NULL adds nothing. */
+/* Adds `size` bytes as they may be shown (printable.h). */
+void text_add_printable(Text *text, const char *bytes, size_t size);
+
+/* The same as the content of an element or of a quoted attribute, in HTML and in XML 1.0. NULL
+ * adds nothing. */
 void escape_markup(Text *text, const char *string);
 
 /* A word as a POSIX shell wants it: itself, or in single quotes. */

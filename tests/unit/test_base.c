@@ -496,11 +496,12 @@ ARENA_TEST(a_message_is_one_line_whatever_it_quotes)
     error_at(&err, ERROR_INPUT, "a\nb", "/x\r", "found \"%s\"", "\033[2J\t\177\n\303\244");
     error_prefix(&err, "%s", "in\n");
     error_line(&err, line, sizeof line);
-    assert_string_equal(line, "a?b: /x?: in?: found \"?[2J???\303\244\"");
+    assert_string_equal(line, "a\\u000Ab: /x\\u000D: in\\u000A: found "
+                        "\"\\u001B[2J\\u0009\\u007F\\u000A\303\244\"");
     problems_add(&problems, SEVERITY_WARNING, "a\nb", "/x\r", "%s", "c\nd");
-    assert_string_equal(problems.list[0].file, "a?b");
-    assert_string_equal(problems.list[0].path, "/x?");
-    assert_string_equal(problems.list[0].message, "c?d");
+    assert_string_equal(problems.list[0].file, "a\\u000Ab");
+    assert_string_equal(problems.list[0].path, "/x\\u000D");
+    assert_string_equal(problems.list[0].message, "c\\u000Ad");
 }
 
 TEST(a_long_error_is_cut_and_stays_a_string)

@@ -241,7 +241,7 @@ MEMORY_TEST(warnings_are_listed_once_each)
     assert_int_equal(json_array_size(errors), 1);
     assert_string_equal(
         json_string_value(json_object_get(json_array_get(errors, 0), "message")),
-        "bad ? bytes");
+        "bad \\xFF bytes");
     json_decref(warnings);
     json_decref(errors);
 }

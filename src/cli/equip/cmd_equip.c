@@ -8,6 +8,7 @@
 #include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
+#include "print/print.h"
 #include "base/reference.h"
 #include "cli/equip/equip_apply.h"
 #include "cli/equip/equip_page.h"
@@ -54,8 +55,8 @@ static bool print_page(const EquipWords *words, const char *page, const Scene *s
                                         "parts", scene->part_count, "materials",
                                         scene->material_count),
                               err);
-    printf("%s: %u triangles in %d parts. Open it in a browser, click, and save.\n", page,
-           scene->triangle_count, scene->part_count);
+    print("%s: %u triangles in %d parts. Open it in a browser, click, and save.\n", page,
+          scene->triangle_count, scene->part_count);
     return true;
 }
 
@@ -102,22 +103,22 @@ static bool print_result(const EquipWords *words, const EquipResult *r, Arena *a
                       "forward_is_proposed", r->forward_is_proposed, "occupant",
                       json_text_or_null(r->occupant)),
             err);
-    printf("scene        %s: displays %d, eyes %d, materials %d\n", r->scene, r->display_count,
-           r->eye_count, r->material_count);
-    printf("ahead        (%g, %g, %g)%s\n", r->forward[0] + 0.0, r->forward[1] + 0.0,
-           r->forward[2] + 0.0,
-           r->forward_is_proposed ? ": proposed from where the first eye looks" : "");
-    if (r->bin) printf("bytes        %s\n", r->bin);
-    if (r->occupant) printf("occupant     %s\n", r->occupant);
-    else printf("occupant     none: nobody sits in the driver's seat\n");
-    for (int i = 0; i < r->copy_count; i++) printf("copy         %s\n", r->copies[i]);
-    if (r->review) printf("review       %s\n", r->review);
-    else printf("review       none: no display shows content that could be read\n");
+    print("scene        %s: displays %d, eyes %d, materials %d\n", r->scene, r->display_count,
+          r->eye_count, r->material_count);
+    print("ahead        (%g, %g, %g)%s\n", r->forward[0] + 0.0, r->forward[1] + 0.0,
+          r->forward[2] + 0.0,
+          r->forward_is_proposed ? ": proposed from where the first eye looks" : "");
+    if (r->bin) print("bytes        %s\n", r->bin);
+    if (r->occupant) print("occupant     %s\n", r->occupant);
+    else print("occupant     none: nobody sits in the driver's seat\n");
+    for (int i = 0; i < r->copy_count; i++) print("copy         %s\n", r->copies[i]);
+    if (r->review) print("review       %s\n", r->review);
+    else print("review       none: no display shows content that could be read\n");
     if (r->without_data)
-        printf("without data %d material%s: parhelion check %s tells which\n", r->without_data,
-               r->without_data == 1 ? "" : "s", escape_shell(r->scene, arena));
+        print("without data %d material%s: parhelion check %s tells which\n", r->without_data,
+              r->without_data == 1 ? "" : "s", escape_shell(r->scene, arena));
     if (r->review)
-        printf("next         parhelion review %s --dry-run\n", escape_shell(r->review, arena));
+        print("next         parhelion review %s --dry-run\n", escape_shell(r->review, arena));
     return true;
 }
 

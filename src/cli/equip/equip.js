@@ -4,7 +4,8 @@
 (function(){
 var view=equipView,data=view.data,base=equipBase,state=base.state,pictures=base.pictures;
 var $=base.$,make=base.make,say=base.say,round=base.round,list=base.list,vector=base.vector,
-  inWorld=base.inWorld,fromWorld=base.fromWorld,freeName=base.freeName,numberField=base.numberField,choice=base.choice,card=base.card;
+  inWorld=base.inWorld,fromWorld=base.fromWorld,freeName=base.freeName,
+  numberField=base.numberField,choice=base.choice,card=base.card,shown=base.shown;
 var frameOf=equipDisplay.frame;
 var proposals=[],OWN='figures of its own',MODES=['display','draw','eye','hide'];
 
@@ -316,7 +317,7 @@ function offerProposals(){
   });
 }
 function fill(){
-  $('title').textContent='Equip '+data.model;
+  $('title').textContent='Equip '+shown(data.model);
   var long=Math.max(...data.high.map(function(h,a){return h-data.low[a];}));
   if(long>100||long<0.3)$('units').textContent='The model is '+long.toPrecision(3)+
     ' m long. glTF counts in metres: was it exported in another unit?';
@@ -327,9 +328,10 @@ function fill(){
   $('profile').value='iso-15008';
   var own=data.materials.filter(function(m){return m.display;})
     .map(function(m){return m.name;});
-  $('own-displays').textContent=own.length?'Displays already: '+own.join(', ')+'.':'';
-  $('command').textContent=data.command+' --with '+quoted(fileName())+
-    ' -o '+quoted(stem()+'.equipped.gltf');
+  $('own-displays').textContent=own.length?'Displays already: '+
+    shown(own.join(', '))+'.':'';
+  $('command').textContent=shown(data.command+' --with '+quoted(fileName())+
+    ' -o '+quoted(stem()+'.equipped.gltf'));
   data.contents.forEach(function(c){
     pictures[c.name]=c;
     if(!c.picture)return;

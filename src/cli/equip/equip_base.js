@@ -8,16 +8,22 @@ var state={displays:[],eyes:[],as:{},kept:{},mode:'display',chosen:null,lit:null
   forwardIsChosen:false};
 var base={state:state,pictures:{},changed:null,rebuild:null};
 function $(id){return document.getElementById(id);}
+/* A name as it may be shown (print/printable.h); what is typed and saved stays as it is. */
+function shown(text){
+  return String(text).replace(
+    /[\u0000-\u001f\u007f-\u009f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]/g,function(c){
+      return '\\u'+c.charCodeAt(0).toString(16).toUpperCase().padStart(4,'0');});
+}
 function make(tag,attributes,text){
   var e=document.createElement(tag);
   for(var key in attributes||{})
     if(key in e&&typeof attributes[key]!=='string')e[key]=attributes[key];
-    else e.setAttribute(key,attributes[key]);
-  if(text!==undefined)e.textContent=text;
+    else e.setAttribute(key,key==='value'?attributes[key]:shown(attributes[key]));
+  if(text!==undefined)e.textContent=shown(text);
   return e;
 }
 function say(text,isBad){
-  $('hint').textContent=text;
+  $('hint').textContent=shown(text);
   $('hint').classList.toggle('bad',!!isBad);
 }
 function round(v){return Math.round(v*1e6)/1e6+0;}
@@ -108,7 +114,7 @@ function card(item,title,from){
   box.append(top,make('p',{'class':'from'},from));
   return box;
 }
-return Object.assign(base,{$:$,make:make,say:say,round:round,list:list,vector:vector,
+return Object.assign(base,{$:$,shown:shown,make:make,say:say,round:round,list:list,vector:vector,
   inWorld:inWorld,fromWorld:fromWorld,  isTaken:isTaken,freeName:freeName,numberField:numberField,choice:choice,
   fileChoice:fileChoice,card:card});
 })();

@@ -21,6 +21,7 @@ extern const char EQUIP_STYLE[], EQUIP_BODY[], EQUIP_VIEW[], EQUIP_FACE[], EQUIP
     EQUIP_BASE[], EQUIP_DISPLAY[], EQUIP_SCRIPT[], THREE_NOTICE[], THREE_SCRIPT[];
 
 #define STEPS 16777215.0 /* of a coordinate over the model's size: three bytes */
+#define DATA_BYTES ((size_t)1 << 32) /* address space: what is not touched costs nothing */
 #define GRID 12          /* of places where a texture is asked for its mean */
 #define GLASS_ALPHA 0.25 /* what lets light through is drawn so */
 
@@ -184,9 +185,12 @@ static json_t *data_json(const Scene *scene, const char *model, const char *comm
 /* Inside a script element nothing may look like its end. */
 static void add_data(Text *page, json_t *data)
 {
-    char *text = json_dumps(data, JSON_COMPACT | JSON_REAL_PRECISION(9));
+    Arena own = arena_reserve(DATA_BYTES);
+    Text  text = {.arena = &own};
+    if (!json_dump_text(&text, data, JSON_COMPACT | JSON_REAL_PRECISION(9)))
+        text_add(&text, "{}");
     text_add(page, "<script type=\"application/json\" id=\"equip-data\">");
-    for (const char *c = text ? text : "{}"; *c;) {
+    for (const char *c = text.data; *c;) {
         size_t plain = strcspn(c, "<");
         text_add_bytes(page, c, plain);
         c += plain;
@@ -194,7 +198,7 @@ static void add_data(Text *page, json_t *data)
         c += *c != 0;
     }
     text_add(page, "</script>\n");
-    free(text);
+    arena_release(&own);
     json_decref(data);
 }
 

@@ -10,6 +10,7 @@
 #include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
+#include "print/print.h"
 #include "camera/camera.h"
 #include "cli/explain/ray_option.h"
 #include "cli/options/answer.h"
@@ -150,10 +151,10 @@ static bool is_review(const ExplainWords *words)
 static void print_where(const ReviewCase *c)
 {
     if (c->symbol)
-        printf("symbol     %s on %s, seen by %s, %s\n", c->symbol, c->display, c->eye,
-               c->condition);
-    else if (c->display) printf("display    %s\n", c->display);
-    printf("eye        %.3f, %.3f, %.3f m\n", c->eye_m[0], c->eye_m[1], c->eye_m[2]);
+        print("symbol     %s on %s, seen by %s, %s\n", c->symbol, c->display, c->eye,
+              c->condition);
+    else if (c->display) print("display    %s\n", c->display);
+    print("eye        %.3f, %.3f, %.3f m\n", c->eye_m[0], c->eye_m[1], c->eye_m[2]);
 }
 
 static void print_light(const Explained *explained, Arena scratch)
@@ -162,32 +163,32 @@ static void print_light(const Explained *explained, Arena scratch)
     const CaseLuminances *l = &c->luminance_cd_m2;
     const char *light = c->display ? "reflected" : "luminance";
     if (c->symbol)
-        printf("sends      %.4g cd/m2 foreground, %.4g background\n", l->foreground,
-               l->background);
+        print("sends      %.4g cd/m2 foreground, %.4g background\n", l->foreground,
+              l->background);
     else if (c->display)
-        printf("sends      %.4g cd/m2; white %.4g, black %.4g\n", explained->shown,
-               l->foreground, l->background);
-    printf("%-10s %s cd/m2", light,
-           interval_text(l->reflected, c->reflected_range.low, c->reflected_range.high,
-                         &scratch));
-    if (c->display) printf(": mirror %.4g, scattered %.4g", l->mirror, l->scattered);
-    printf("\n");
+        print("sends      %.4g cd/m2; white %.4g, black %.4g\n", explained->shown,
+              l->foreground, l->background);
+    print("%-10s %s cd/m2", light,
+          interval_text(l->reflected, c->reflected_range.low, c->reflected_range.high,
+                        &scratch));
+    if (c->display) print(": mirror %.4g, scattered %.4g", l->mirror, l->scattered);
+    print("\n");
     if (c->display)
-        printf("contrast   %s : 1; %.4g : 1 if nothing were reflected\n",
-               interval_text(c->contrast_ratio, c->contrast_low, c->contrast_high, &scratch),
-               luminance_contrast(l->foreground, l->background, 0));
+        print("contrast   %s : 1; %.4g : 1 if nothing were reflected\n",
+              interval_text(c->contrast_ratio, c->contrast_low, c->contrast_high, &scratch),
+              luminance_contrast(l->foreground, l->background, 0));
 }
 
 static void print_cause(const CaseCause *cause, bool has_contrast, Arena scratch)
 {
-    printf("%6.1f %%  %8s  %8s to %-8s", 100 * cause->share,
-           words_within(cause->cd_m2, cause->low, cause->high, &scratch),
-           words_within(cause->low, cause->low, cause->high, &scratch),
-           words_within(cause->high, cause->low, cause->high, &scratch));
-    if (has_contrast) printf("  %7.3g : 1", cause->contrast_without);
+    print("%6.1f %%  %8s  %8s to %-8s", 100 * cause->share,
+          words_within(cause->cd_m2, cause->low, cause->high, &scratch),
+          words_within(cause->low, cause->low, cause->high, &scratch),
+          words_within(cause->high, cause->low, cause->high, &scratch));
+    if (has_contrast) print("  %7.3g : 1", cause->contrast_without);
     for (int i = 0; i < cause->links; i++)
-        printf("%s%s", i ? " > " : "  ", cause->chain[i]);
-    printf("\n");
+        print("%s%s", i ? " > " : "  ", cause->chain[i]);
+    print("\n");
 }
 
 /* Each adds up to all of the light. */
@@ -197,45 +198,45 @@ static void print_groups(const ReviewCase *c)
     for (int g = 0; g < CAUSE_GROUPS; g++) {
         const CaseGroup *group = &c->groups[g];
         for (int i = 0; i < group->count; i++)
-            printf("%s%.3g %% %s", i ? ", " : g ? "\n" : "", 100 * group->list[i].share,
-                   group->list[i].what);
-        if (group->count) printf(" (%s)", NAMES[g]);
+            print("%s%.3g %% %s", i ? ", " : g ? "\n" : "", 100 * group->list[i].share,
+                  group->list[i].what);
+        if (group->count) print(" (%s)", NAMES[g]);
     }
-    printf("\n");
+    print("\n");
 }
 
 static void print_causes(const ReviewCase *c, Arena scratch)
 {
     bool has_contrast = c->display != NULL;
     if (!c->cause_count) return;
-    printf("\n   share     cd/m2   95 %% interval     %s  by way of\n",
-           has_contrast ? "without it " : "");
+    print("\n   share     cd/m2   95 %% interval     %s  by way of\n",
+          has_contrast ? "without it " : "");
     for (int i = 0; i < c->cause_count; i++) print_cause(&c->causes[i], has_contrast, scratch);
 }
 
 static void print_remedies(const ReviewCase *c)
 {
-    if (c->remedy_count) printf("\n");
+    if (c->remedy_count) print("\n");
     for (int i = 0; i < c->remedy_count; i++)
-        printf("would mend %s: contrast %.3g : 1\n", c->remedies[i].what,
-               c->remedies[i].contrast_ratio);
+        print("would mend %s: contrast %.3g : 1\n", c->remedies[i].what,
+              c->remedies[i].contrast_ratio);
 }
 
 static void print_text(const Explained *explained, Arena *arena)
 {
     print_where(&explained->of);
     if (explained->of.hider_count)
-        printf("hidden     %s\n", words_hiders(&explained->of, arena));
+        print("hidden     %s\n", words_hiders(&explained->of, arena));
     if (!(explained->of.visible_share > 0)) {
-        printf("not visible\n");
+        print("not visible\n");
         return;
     }
     print_light(explained, *arena);
     print_groups(&explained->of);
     print_causes(&explained->of, *arena);
     print_remedies(&explained->of);
-    if (explained->has_outlook) printf("\nsees       %s\n", outlook_words(&explained->outlook,
-                                                                          arena));
+    if (explained->has_outlook) print("\nsees       %s\n", outlook_words(&explained->outlook,
+                                                                         arena));
 }
 
 /* ---- as JSON ----------------------------------------------------------------------------- */

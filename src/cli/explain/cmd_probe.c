@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/count.h"
+#include "print/print.h"
 #include "cli/explain/cmd_explain.h"
 #include "cli/explain/ray_option.h"
 #include "cli/options/answer.h"
@@ -123,40 +124,40 @@ static void print_place(const Scene *scene, Vec3 p)
 {
     double at[3];
     world_from_scene(scene->origin, p, at);
-    printf("  at %.3f, %.3f, %.3f m", at[0], at[1], at[2]);
+    print("  at %.3f, %.3f, %.3f m", at[0], at[1], at[2]);
 }
 
 static void print_way(const Probed *probed, const Chain *chain, Arena scratch)
 {
     ProbeWay way = way_of(probed, chain);
-    printf("%6.1f %%  %10.4g  %9.2g  %s\n",
-           100 * chain->figure.cd_m2 / probed->chains.all.cd_m2, chain->figure.cd_m2,
-           chain->figure.sigma, way.light);
+    print("%6.1f %%  %10.4g  %9.2g  %s\n",
+          100 * chain->figure.cd_m2 / probed->chains.all.cd_m2, chain->figure.cd_m2,
+          chain->figure.sigma, way.light);
     for (int i = 0; i < way.count; i++) {
         const ProbeBounce *bounce = &way.bounce[i];
-        printf("%34d %-8s %s", i + 1, bounce->what,
-               chain_part_words(probed->chains.scene, bounce->part_id, &scratch));
+        print("%34d %-8s %s", i + 1, bounce->what,
+              chain_part_words(probed->chains.scene, bounce->part_id, &scratch));
         if (bounce->has_place) print_place(probed->chains.scene, bounce->at);
-        printf("\n");
+        print("\n");
     }
-    if (chain->key.is_longer) printf("%34s further surfaces\n", "");
+    if (chain->key.is_longer) print("%34s further surfaces\n", "");
     if (!way.has_from) return;
-    printf("%34s begins ", "");
+    print("%34s begins ", "");
     print_place(probed->chains.scene, way.from);
-    printf("\n");
+    print("\n");
 }
 
 static void print_ways(const Probed *probed, Arena scratch)
 {
     const Chains *chains = &probed->chains;
     if (!(chains->all.cd_m2 > 0)) return;
-    printf("\n   share       cd/m2      error  light, and what the eye's ray meets before "
-           "it\n");
+    print("\n   share       cd/m2      error  light, and what the eye's ray meets before "
+          "it\n");
     for (int i = 0; i < chains->count; i++) print_way(probed, &chains->list[i], scratch);
     if (chains->others)
-        printf("%6.1f %%  %10.4g  %9.2g  %d other ways\n",
-               100 * chains->rest.cd_m2 / chains->all.cd_m2, chains->rest.cd_m2,
-               chains->rest.sigma, chains->others);
+        print("%6.1f %%  %10.4g  %9.2g  %d other ways\n",
+              100 * chains->rest.cd_m2 / chains->all.cd_m2, chains->rest.cd_m2,
+              chains->rest.sigma, chains->others);
 }
 
 static double greatest(const PixelLight *light)
@@ -175,12 +176,12 @@ static void print_spectrum(const PixelLight *light)
 {
     double most = greatest(light);
     if (!(most > 0)) return;
-    printf("\n    nm  W m-2 sr-1 nm-1      error\n");
+    print("\n    nm  W m-2 sr-1 nm-1      error\n");
     for (int i = 0; i < PIXEL_BANDS; i++) {
         const PixelFigure *figure = &light->radiance[i];
         int length = (int)(BAR * fmax(figure->mean, 0) / most + 0.5);
-        printf("%6d  %15.4g  %9.2g  %.*s\n", band_center_nm(i), figure->mean, figure->sigma,
-               length, "########################################");
+        print("%6d  %15.4g  %9.2g  %.*s\n", band_center_nm(i), figure->mean, figure->sigma,
+              length, "########################################");
     }
 }
 
@@ -188,11 +189,11 @@ static void print_text(const Probed *probed, Arena scratch)
 {
     const PixelFigure *xyz = probed->light.xyz;
     double sum = xyz[0].mean + xyz[1].mean + xyz[2].mean;
-    printf("pixel      %d,%d of %dx%d, %ld paths\n", probed->pixel[0], probed->pixel[1],
-           probed->size[0], probed->size[1], probed->chains.paths);
-    printf("luminance  %.5g cd/m2, standard error %.2g", xyz[1].mean, xyz[1].sigma);
-    if (sum > 0) printf("; x %.4f, y %.4f", xyz[0].mean / sum, xyz[1].mean / sum);
-    printf("\n");
+    print("pixel      %d,%d of %dx%d, %ld paths\n", probed->pixel[0], probed->pixel[1],
+          probed->size[0], probed->size[1], probed->chains.paths);
+    print("luminance  %.5g cd/m2, standard error %.2g", xyz[1].mean, xyz[1].sigma);
+    if (sum > 0) print("; x %.4f, y %.4f", xyz[0].mean / sum, xyz[1].mean / sum);
+    print("\n");
     print_ways(probed, scratch);
     print_spectrum(&probed->light);
 }

@@ -9,6 +9,7 @@
 
 #include "base/count.h"
 #include "base/file_write.h"
+#include "print/print.h"
 #include "cli/job/job_manifest.h"
 #include "cli/job/job_scripts.h"
 #include "cli/job/job_state.h"
@@ -16,7 +17,6 @@
 #include "render/identity.h"
 #include "text/text.h"
 #include "text/json_text.h"
-#include "text/utf8.h"
 
 /* The job and its submission. */
 typedef struct Share {
@@ -31,7 +31,7 @@ typedef struct Share {
 /* JSON holds texts of UTF-8, and a script's lines no control characters. */
 static bool check_text(const char *text, Arena scratch, Error *err)
 {
-    return !strcmp(utf8_replace(text, &scratch), text) ||
+    return !strcmp(arena_printable(&scratch, text), text) ||
            error_set(err, ERROR_USAGE,
                      "'%.200s' cannot be kept in a job: wanted UTF-8 without control "
                      "characters",
@@ -161,15 +161,15 @@ static void print_lines(const Share *work, Arena *arena)
 {
     const SharedJob *job = &work->job;
     const char      *dir = escape_shell(work->request->dir, arena);
-    printf("%s: %d part%s of %s%s\n", work->request->dir, job->part_count,
-           job->part_count == 1 ? "" : "s", job->output,
-           work->was_there ? ", as before" : "");
+    print("%s: %d part%s of %s%s\n", work->request->dir, job->part_count,
+          job->part_count == 1 ? "" : "s", job->output,
+          work->was_there ? ", as before" : "");
     if (work->array_id)
-        printf("Slurm's job %s does them, %s merges them\n", work->array_id, work->merge_id);
+        print("Slurm's job %s does them, %s merges them\n", work->array_id, work->merge_id);
     else
-        printf("by Slurm: %s\n", job_scripts_by_hand(job, arena));
-    printf("here: xargs -L 1 -P 2 env <%s/" JOB_COMMANDS "\nthen: parhelion merge %s\n", dir,
-           dir);
+        print("by Slurm: %s\n", job_scripts_by_hand(job, arena));
+    print("here: xargs -L 1 -P 2 env <%s/" JOB_COMMANDS "\nthen: parhelion merge %s\n", dir,
+          dir);
 }
 
 bool job_share(const ShareRequest *request, const SharedJob *job, Arena *arena, json_t **answer,

@@ -210,8 +210,7 @@ static const char *failure_of(const SharedJob *job, int index, int *status, Aren
     *status = (int)strtol(line, &end, 10);
     end += *end == ' ';
     end[strcspn(end, "\n")] = '\0';
-    error_make_plain(end);
-    return end;
+    return arena_printable(arena, end);
 }
 
 JobPartReport job_part_report(const SharedJob *job, const Lines *folder, int index,

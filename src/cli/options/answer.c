@@ -6,13 +6,21 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "print/print.h"
 #include "text/json_text.h"
+
+#define DOCUMENT_BYTES ((size_t)1 << 32) /* address space: what is not touched costs nothing */
 
 bool cli_print_json(json_t *document, Error *err)
 {
-    bool done = !json_dumpf(document, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) &&
-                fputc('\n', stdout) != EOF && !fflush(stdout);
+    Arena arena = arena_reserve(DOCUMENT_BYTES);
+    Text  text = {.arena = &arena};
+    bool  is_whole = json_dump_text(&text, document, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
+    text_add(&text, "\n");
+    if (is_whole) print_own(stdout, text.data);
+    bool done = is_whole && !fflush(stdout) && !ferror(stdout);
     int  reason = errno;
+    arena_release(&arena);
     json_decref(document);
     return done || error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot be written: %s",
                             strerror(reason));
@@ -32,7 +40,7 @@ void cli_report_error(const Error *error, bool json)
 {
     char line[2048];
     cli_error_line(error, line, (int)sizeof line);
-    fprintf(stderr, "%s\n", line);
+    print_to(stderr, "%s\n", line);
     if (!json) return;
     json_t *document = json_pack(
         "{s:{s:i, s:o, s:o, s:o}}", "error", "status", error_exit_status(error->code), "file",
@@ -59,9 +67,9 @@ void cli_print_warnings(const Problems *problems)
     for (int i = 0; i < problems->count; i++) {
         const Problem *one = &problems->list[i];
         if (one->severity != SEVERITY_WARNING || is_repeated(problems, i)) continue;
-        fprintf(stderr, "parhelion: warning: %s%s%s%s%s%s\n", one->file,
-                one->file[0] ? ": " : "", one->message, one->path[0] ? " (" : "", one->path,
-                one->path[0] ? ")" : "");
+        print_to(stderr, "parhelion: warning: %s%s%s%s%s%s\n", one->file,
+                 one->file[0] ? ": " : "", one->message, one->path[0] ? " (" : "", one->path,
+                 one->path[0] ? ")" : "");
     }
 }
 

@@ -11,6 +11,7 @@
 #include "base/count.h"
 #include "base/file.h"
 #include "base/parallel.h"
+#include "print/print.h"
 #include "bvh/bvh.h"
 #include "cli/options/completion.h"
 #include "cli/options/guides.h"
@@ -285,34 +286,34 @@ static void print_options(const Option *options, int count)
         char          left[256];
         snprintf(left, sizeof left, "%s%s%s", option->name, option->value ? " " : "",
                  option->value ? option->value : "");
-        if (strlen(left) <= 30) printf("  %-30s", left);
-        else printf("  %s\n  %-30s", left, "");
-        printf("  %s%s\n", option->help, option_repeats(option));
+        if (strlen(left) <= 30) print("  %-30s", left);
+        else print("  %s\n  %-30s", left, "");
+        print("  %s%s\n", option->help, option_repeats(option));
     }
 }
 
 void cli_print_guide(const char *command)
 {
     const Guide *guide = guide_of_command(command);
-    if (guide) printf("\nguide: parhelion help %s\n", guide->name);
+    if (guide) print("\nguide: parhelion help %s\n", guide->name);
 }
 
 static void print_row(const char *name, const char *text)
 {
-    printf("  %-12s %s\n", name, text);
+    print("  %-12s %s\n", name, text);
 }
 
 static void print_text(const Parser *in)
 {
     const CliCommand *command = in->command;
-    printf("parhelion %s: %s\n\nusage: parhelion %s %s\n\n", command->name, command->summary,
-           command->name, command->usage);
+    print("parhelion %s: %s\n\nusage: parhelion %s %s\n\n", command->name, command->summary,
+          command->name, command->usage);
     print_options(command->options, command->option_count);
-    if (command->option_count) printf("\n");
+    if (command->option_count) print("\n");
     print_options(in->common, in->common_count);
-    printf("\nexample:\n  %s\n", command->example);
+    print("\nexample:\n  %s\n", command->example);
     if (command->each_row) {
-        printf("\n%s:\n", command->rows_title);
+        print("\n%s:\n", command->rows_title);
         command->each_row(print_row);
     }
     cli_print_guide(command->name);
@@ -419,7 +420,7 @@ void version_print(void)
     const Kernel *kernel;
     Error         err;
     bool          chosen = kernel_choose(NULL, &kernel, &err);
-    printf("parhelion %s\nsources: %s\ninstruction set: %s\nlibraries: %s, %s\n",
-           PARHELION_VERSION, SOURCES_HASH, chosen ? kernel->isa : "none", bvh_library(),
-           LIBRARY_VERSIONS);
+    print("parhelion %s\nsources: %s\ninstruction set: %s\nlibraries: %s, %s\n",
+          PARHELION_VERSION, SOURCES_HASH, chosen ? kernel->isa : "none", bvh_library(),
+          LIBRARY_VERSIONS);
 }

@@ -69,5 +69,5 @@ typedef struct CliCommand {
     int           option_count;
     int           min_arguments, max_arguments; /* max -1: any number */
     const char   *rows_title; /* of what the help lists besides: "formats"; NULL: nothing */
-    void        (*each_row)(void (*print)(const char *name, const char *text));
+    void        (*each_row)(void (*row)(const char *name, const char *text));
 } CliCommand;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* panel -- measured displays: the table of its own sub-commands. */
-#include <stdio.h>
 #include <string.h>
 
 #include "base/count.h"
+#include "print/print.h"
 #include "cli/options/cli.h"
 #include "cli/options/completion.h"
 #include "cli/options/man_page.h"
@@ -23,10 +23,10 @@ enum { COMMAND_COUNT = COUNT_OF(commands) };
 
 static void print_text(void)
 {
-    printf("parhelion panel COMMAND ... -- measured display panels\n\ncommands:\n");
+    print("parhelion panel COMMAND ... -- measured display panels\n\ncommands:\n");
     for (int i = 0; i < COMMAND_COUNT; i++)
-        printf("  %-10s %s\n", commands[i]->name, commands[i]->summary);
-    printf("\nexample: parhelion panel info assets/panels/ips_cluster.panel\n");
+        print("  %-10s %s\n", commands[i]->name, commands[i]->summary);
+    print("\nexample: parhelion panel info assets/panels/ips_cluster.panel\n");
     cli_print_guide("panel");
 }
 

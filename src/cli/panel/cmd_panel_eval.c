@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/count.h"
+#include "print/print.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
@@ -89,12 +90,12 @@ static bool panel_grid_parse(const char *text, PanelGrid *out, Error *err)
 static void print_comment(const PanelQuestion *q)
 {
     if (q->is_brdf)
-        printf("# reflection in sr^-1, the cosine not included, mirror part left out; light "
-               "at theta %g, phi %g; angles in degrees, columns in nm\n", q->incidence,
-               q->incidence_phi);
+        print("# reflection in sr^-1, the cosine not included, mirror part left out; light "
+              "at theta %g, phi %g; angles in degrees, columns in nm\n", q->incidence,
+              q->incidence_phi);
     else
-        printf("# emission at codes %g,%g,%g: CIE 1931 XYZ, Y in cd/m2; angles in degrees\n",
-               q->rgb[0], q->rgb[1], q->rgb[2]);
+        print("# emission at codes %g,%g,%g: CIE 1931 XYZ, Y in cd/m2; angles in degrees\n",
+              q->rgb[0], q->rgb[1], q->rgb[2]);
 }
 
 static void print_list_names(const Panel *panel, const PanelQuestion *q)
@@ -102,28 +103,28 @@ static void print_list_names(const Panel *panel, const PanelQuestion *q)
     PanelReflected r;
     print_comment(q);
     if (!q->is_brdf) {
-        printf("theta,phi,X,Y,Z\n");
+        print("theta,phi,X,Y,Z\n");
         return;
     }
     panel_ask_reflection(panel, q, &r);
-    printf("theta,phi");
-    for (int i = 0; i < r.count; i++) printf(",%.9g", (double)r.nm[i]);
-    printf("\n");
+    print("theta,phi");
+    for (int i = 0; i < r.count; i++) print(",%.9g", (double)r.nm[i]);
+    print("\n");
 }
 
 static void print_list_row(const Panel *panel, const PanelQuestion *q)
 {
-    printf("%.10g,%.10g", q->theta, q->phi);
+    print("%.10g,%.10g", q->theta, q->phi);
     if (q->is_brdf) {
         PanelReflected r;
         panel_ask_reflection(panel, q, &r);
-        for (int i = 0; i < r.count; i++) printf(",%.9g", (double)r.brdf[i]);
+        for (int i = 0; i < r.count; i++) print(",%.9g", (double)r.brdf[i]);
     } else {
         float xyz[3];
         panel_ask_emission(panel, q, xyz);
-        for (int j = 0; j < 3; j++) printf(",%.9g", (double)xyz[j]);
+        for (int j = 0; j < 3; j++) print(",%.9g", (double)xyz[j]);
     }
-    printf("\n");
+    print("\n");
 }
 
 static void print_list(const Panel *panel, const PanelQuestion *question, const PanelGrid *grid)
@@ -168,20 +169,20 @@ static void print_matrix(const Panel *panel, const PanelQuestion *question,
                                         "u' (CIE 1976)", "v' (CIE 1976)", "BRDF, sr^-1"};
     PanelQuestion q = *question;
     print_comment(&q);
-    printf("# %s", names[q.is_brdf ? QUANTITY_BRDF : quantity]);
-    if (q.is_brdf) printf(" at %g nm", q.wavelength_nm);
-    printf("; theta down, phi across\ntheta\\phi");
+    print("# %s", names[q.is_brdf ? QUANTITY_BRDF : quantity]);
+    if (q.is_brdf) print(" at %g nm", q.wavelength_nm);
+    print("; theta down, phi across\ntheta\\phi");
     for (int p = 0; p < range_count(&grid->phi); p++)
-        printf(",%.10g", range_at(&grid->phi, p));
+        print(",%.10g", range_at(&grid->phi, p));
     for (int t = 0; t < range_count(&grid->theta); t++) {
         q.theta = range_at(&grid->theta, t);
-        printf("\n%.10g", q.theta);
+        print("\n%.10g", q.theta);
         for (int p = 0; p < range_count(&grid->phi); p++) {
             q.phi = range_at(&grid->phi, p);
-            printf(",%.9g", quantity_at(panel, &q, quantity));
+            print(",%.9g", quantity_at(panel, &q, quantity));
         }
     }
-    printf("\n");
+    print("\n");
 }
 
 /* ---- JSON ------------------------------------------------------------------------------ */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/count.h"
+#include "print/print.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
@@ -52,7 +53,7 @@ static bool print_done(const ExportRequest *request, const Cli *cli, Error *err)
         return cli_print_json(done, err);
     }
     if (cli->quiet) return true;
-    printf("%s%s\n", request->output, request->table ? "" : "/MANIFEST.json");
+    print("%s%s\n", request->output, request->table ? "" : "/MANIFEST.json");
     panel_level_print(&request->level, stdout);
     return true;
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/count.h"
+#include "print/print.h"
 #include "base/reference.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
@@ -63,16 +64,16 @@ static json_t *summary(const ImportSet *set, const char *manifest, Arena *arena)
 static void print_summary(const ImportSet *set, const char *manifest, Arena *arena)
 {
     double rows = 0, masked = 0;
-    printf("%-32s %10s %9s %7s  %s\n", "table", "directions", "values", "masked", "from");
+    print("%-32s %10s %9s %7s  %s\n", "table", "directions", "values", "masked", "from");
     for (int i = 0; i < set->count; i++) {
         const ImportTable *table = &set->table[i];
-        printf("%-32s %10d %9.0f %7d  %s\n", import_table_file(set, table, arena), table->rows,
-               (double)table->rows * table->channels, table->masked, table->file);
+        print("%-32s %10d %9.0f %7d  %s\n", import_table_file(set, table, arena), table->rows,
+              (double)table->rows * table->channels, table->masked, table->file);
         rows += table->rows;
         masked += table->masked;
     }
-    for (int i = 0; i < set->note_count; i++) printf("note: %s\n", set->note[i]);
-    printf("%s: %d tables, %.0f directions, %.0f masked\n", manifest, set->count, rows, masked);
+    for (int i = 0; i < set->note_count; i++) print("note: %s\n", set->note[i]);
+    print("%s: %d tables, %.0f directions, %.0f masked\n", manifest, set->count, rows, masked);
 }
 
 /* ---- options ----------------------------------------------------------------------------- */
@@ -241,9 +242,9 @@ static bool make_request(const Words *words, Arena *arena, ImportRequest *reques
 
 /* ---- the command ------------------------------------------------------------------------- */
 
-static void each_format(void (*print)(const char *name, const char *text))
+static void each_format(void (*row)(const char *name, const char *text))
 {
-    for (int i = 0; importers[i]; i++) print(importers[i]->name, importers[i]->summary);
+    for (int i = 0; importers[i]; i++) row(importers[i]->name, importers[i]->summary);
 }
 
 static bool run(const Cli *cli, const Words *words, Arena *arena, Error *err)

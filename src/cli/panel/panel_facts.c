@@ -3,8 +3,8 @@
 
 #include <math.h>
 #include <stdbool.h>
-#include <stdio.h>
 
+#include "print/print.h"
 #include "base/units.h"
 #include "cli/options/answer.h"
 #include "cli/panel/panel_question.h"
@@ -296,68 +296,68 @@ static void print_cone(const json_t *facts, const char *key, const char *label)
     static const char *const side[] = {"right", "up", "left", "down"};
     const json_t *list = json_object_get(facts, key);
     if (!list) return;
-    printf("%s", label);
+    print("%s", label);
     for (size_t i = 0; i < 4; i++) {
-        printf("%s %s ", i ? "," : "", side[i]);
-        if (json_is_null(json_array_get(list, i))) printf("beyond what was measured");
-        else printf("%.1f", item(list, i));
+        print("%s %s ", i ? "," : "", side[i]);
+        if (json_is_null(json_array_get(list, i))) print("beyond what was measured");
+        else print("%.1f", item(list, i));
     }
-    printf(" degrees\n");
+    print(" degrees\n");
 }
 
 static void print_gamut(const json_t *facts)
 {
     const json_t *xy = json_object_get(facts, "primaries_xy"), *gamma;
     if (!xy) return;
-    printf("gamut      red %.3f %.3f, green %.3f %.3f, blue %.3f %.3f (xy); covers %.1f %% of "
-           "sRGB, %.1f %% of DCI-P3 by area in xy\n", item(json_array_get(xy, 0), 0),
-           item(json_array_get(xy, 0), 1), item(json_array_get(xy, 1), 0),
-           item(json_array_get(xy, 1), 1), item(json_array_get(xy, 2), 0),
-           item(json_array_get(xy, 2), 1), 100 * number(facts, "srgb_coverage"),
-           100 * number(facts, "dci_p3_coverage"));
+    print("gamut      red %.3f %.3f, green %.3f %.3f, blue %.3f %.3f (xy); covers %.1f %% of "
+          "sRGB, %.1f %% of DCI-P3 by area in xy\n", item(json_array_get(xy, 0), 0),
+          item(json_array_get(xy, 0), 1), item(json_array_get(xy, 1), 0),
+          item(json_array_get(xy, 1), 1), item(json_array_get(xy, 2), 0),
+          item(json_array_get(xy, 2), 1), 100 * number(facts, "srgb_coverage"),
+          100 * number(facts, "dci_p3_coverage"));
     gamma = json_object_get(facts, "gamma");
     if (json_is_number(json_array_get(gamma, 0)))
-        printf("gamma      red %.2f, green %.2f, blue %.2f\n", item(gamma, 0), item(gamma, 1),
-               item(gamma, 2));
+        print("gamma      red %.2f, green %.2f, blue %.2f\n", item(gamma, 0), item(gamma, 1),
+              item(gamma, 2));
 }
 
 static void print_polarisation(const json_t *polarisation)
 {
     if (!polarisation) return;
-    printf("polarised  %.4g %%, linearly, along azimuth %.6g degrees\n",
-           100 * number(polarisation, "degree"), number(polarisation, "azimuth_deg"));
+    print("polarised  %.4g %%, linearly, along azimuth %.6g degrees\n",
+          100 * number(polarisation, "degree"), number(polarisation, "azimuth_deg"));
 }
 
 static void print_subpixels(const json_t *stated)
 {
     if (!stated) return;
-    printf("sub-pixels %s, %.4g %% of the area shines",
-           json_string_value(json_object_get(stated, "layout")), 100 * number(stated, "fill"));
+    print("sub-pixels %s, %.4g %% of the area shines",
+          json_string_value(json_object_get(stated, "layout")), 100 * number(stated, "fill"));
     if (json_object_get(stated, "columns"))
-        printf(", %.0f x %.0f pixels", number(stated, "columns"), number(stated, "rows"));
-    printf("\n");
+        print(", %.0f x %.0f pixels", number(stated, "columns"), number(stated, "rows"));
+    print("\n");
 }
 
 static void print_reflection(const json_t *facts)
 {
     if (!json_object_get(facts, "mirror_reflectance")) return;
-    printf("reflects   %.3g %% like a mirror, %.3g %% diffusely (haze and floor, into the "
-           "hemisphere), light from %g degrees\n", 100 * number(facts, "mirror_reflectance"),
-           100 * number(facts, "diffuse_reflectance"),
-           number(facts, "reflectance_incidence_deg"));
-    printf("haze       %.4g sr^-1 in the mirror direction", number(facts, "haze_peak_sr"));
+    print("reflects   %.3g %% like a mirror, %.3g %% diffusely (haze and floor, into the "
+          "hemisphere), light from %g degrees\n", 100 * number(facts, "mirror_reflectance"),
+          100 * number(facts, "diffuse_reflectance"),
+          number(facts, "reflectance_incidence_deg"));
+    print("haze       %.4g sr^-1 in the mirror direction", number(facts, "haze_peak_sr"));
     if (json_object_get(facts, "haze_fwhm_deg"))
-        printf(", %.3g degrees wide at half of it", number(facts, "haze_fwhm_deg"));
-    printf("\n");
+        print(", %.3g degrees wide at half of it", number(facts, "haze_fwhm_deg"));
+    print("\n");
 }
 
 static void print_evenness(const char *label, const json_t *e)
 {
     if (!e) return;
-    printf("%-10s nine points %.4g to %.4g cd/m2, mean %.4g, non-uniformity %.3g %%; anywhere "
-           "%.4g to %.4g, mean %.4g\n", label, number(e, "nine_least"), number(e, "nine_most"),
-           number(e, "nine_mean"), 100 * number(e, "nine_non_uniformity"), number(e, "least"),
-           number(e, "most"), number(e, "mean"));
+    print("%-10s nine points %.4g to %.4g cd/m2, mean %.4g, non-uniformity %.3g %%; anywhere "
+          "%.4g to %.4g, mean %.4g\n", label, number(e, "nine_least"), number(e, "nine_most"),
+          number(e, "nine_mean"), 100 * number(e, "nine_non_uniformity"), number(e, "least"),
+          number(e, "most"), number(e, "mean"));
 }
 
 static void print_places(const json_t *facts, const json_t *report)
@@ -367,17 +367,17 @@ static void print_places(const json_t *facts, const json_t *report)
     const json_t *map = json_object_get(places, "map");
     size_t        i;
     if (!places) return;
-    if (map) printf("uniformity map of %.0f x %.0f pixels\n", item(map, 0), item(map, 1));
+    if (map) print("uniformity map of %.0f x %.0f pixels\n", item(map, 0), item(map, 1));
     json_array_foreach((json_t *)spots, i, spot)
-        printf("%s%.4g,%.4g", i ? "; " : "spots at   ", item(spot, 0), item(spot, 1));
-    if (json_array_size(spots)) printf(" (right, down; of the active area)\n");
+        print("%s%.4g,%.4g", i ? "; " : "spots at   ", item(spot, 0), item(spot, 1));
+    if (json_array_size(spots)) print(" (right, down; of the active area)\n");
     print_evenness("white", json_object_get(places, "white"));
     print_evenness("black", json_object_get(places, "black"));
     json_array_foreach(json_object_get(report, "spots"), i, spot) {
         const json_t *at = json_object_get(spot, "position");
-        printf("spot       %.4g,%.4g: %.0f bytes, largest error %.2g%%, %s\n", item(at, 0),
-               item(at, 1), number(spot, "bytes"), 100 * number(spot, "max_error"),
-               json_string_value(json_object_get(spot, "verdict")));
+        print("spot       %.4g,%.4g: %.0f bytes, largest error %.2g%%, %s\n", item(at, 0),
+              item(at, 1), number(spot, "bytes"), 100 * number(spot, "max_error"),
+              json_string_value(json_object_get(spot, "verdict")));
     }
 }
 
@@ -386,10 +386,10 @@ static void print_facts(const json_t *report)
     const json_t *facts = json_object_get(report, "display");
     const json_t *xy = json_object_get(facts, "white_xy");
     if (xy) {
-        printf("white      %.4g cd/m2, xy %.4f %.4f; ", number(facts, "white_cd_m2"),
-               item(xy, 0), item(xy, 1));
-        if (json_is_null(json_object_get(facts, "contrast"))) printf("black not measured\n");
-        else printf("contrast %.4g : 1\n", number(facts, "contrast"));
+        print("white      %.4g cd/m2, xy %.4f %.4f; ", number(facts, "white_cd_m2"),
+              item(xy, 0), item(xy, 1));
+        if (json_is_null(json_object_get(facts, "contrast"))) print("black not measured\n");
+        else print("contrast %.4g : 1\n", number(facts, "contrast"));
     }
     print_gamut(facts);
     print_polarisation(json_object_get(facts, "polarisation"));
@@ -404,17 +404,17 @@ static void print_facts(const json_t *report)
 
 static void print_table(const json_t *table)
 {
-    printf("%-16s %10.0f %12.0f %9.0f %8.1f %8.3g%% %8.2g%% %8.2g%% %8.2g%% %6.2f%%\n",
-           json_string_value(json_object_get(table, "name")),
-           json_number_value(json_object_get(table, "source_bytes_text")),
-           json_number_value(json_object_get(table, "stored_values")),
-           json_number_value(json_object_get(table, "bytes")),
-           json_number_value(json_object_get(table, "ratio")),
-           100 * json_number_value(json_object_get(table, "max_error")),
-           100 * json_number_value(json_object_get(table, "rms_error")),
-           100 * json_number_value(json_object_get(table, "integral_error")),
-           100 * json_number_value(json_object_get(table, "noise")),
-           100 * json_number_value(json_object_get(table, "extrapolated_share")));
+    print("%-16s %10.0f %12.0f %9.0f %8.1f %8.3g%% %8.2g%% %8.2g%% %8.2g%% %6.2f%%\n",
+          json_string_value(json_object_get(table, "name")),
+          json_number_value(json_object_get(table, "source_bytes_text")),
+          json_number_value(json_object_get(table, "stored_values")),
+          json_number_value(json_object_get(table, "bytes")),
+          json_number_value(json_object_get(table, "ratio")),
+          100 * json_number_value(json_object_get(table, "max_error")),
+          100 * json_number_value(json_object_get(table, "rms_error")),
+          100 * json_number_value(json_object_get(table, "integral_error")),
+          100 * json_number_value(json_object_get(table, "noise")),
+          100 * json_number_value(json_object_get(table, "extrapolated_share")));
 }
 
 static void print_numbers(const char *key, const json_t *list)
@@ -422,10 +422,10 @@ static void print_numbers(const char *key, const json_t *list)
     size_t  i;
     json_t *value;
     if (!json_is_number(json_array_get(list, 0))) return;
-    printf(" %s", key);
+    print(" %s", key);
     json_array_foreach((json_t *)list, i, value)
-        printf("%s%.6g", i ? "," : " ", json_number_value(value));
-    printf(";");
+        print("%s%.6g", i ? "," : " ", json_number_value(value));
+    print(";");
 }
 
 /* "a name": its text or numbers behind the line's label, for everything a fit has chosen. */
@@ -434,14 +434,14 @@ static void print_choices(const char *label, const json_t *choices)
     const char *key;
     json_t     *value;
     if (!choices) return;
-    printf("%-10s", label);
+    print("%-10s", label);
     json_object_foreach((json_t *)choices, key, value) {
-        if (json_is_string(value)) printf(" %s %s;", key, json_string_value(value));
-        if (json_is_number(value)) printf(" %s %.4g;", key, json_number_value(value));
-        if (json_is_boolean(value)) printf(" %s %s;", key, json_is_true(value) ? "yes" : "no");
+        if (json_is_string(value)) print(" %s %s;", key, json_string_value(value));
+        if (json_is_number(value)) print(" %s %.4g;", key, json_number_value(value));
+        if (json_is_boolean(value)) print(" %s %s;", key, json_is_true(value) ? "yes" : "no");
         print_numbers(key, value);
     }
-    printf("\n");
+    print("\n");
 }
 
 /* Samples that stand out, and directions that are missing: of a fit, not of a file. */
@@ -450,14 +450,14 @@ static void print_flags(const char *label, const json_t *flags)
     size_t  i;
     json_t *flag, *value;
     json_array_foreach((json_t *)flags, i, flag) {
-        printf("%-10s %s, theta %.6g, phi %.6g", label,
-               json_string_value(json_object_get(flag, "table")),
-               json_number_value(json_object_get(flag, "theta_deg")),
-               json_number_value(json_object_get(flag, "phi_deg")));
+        print("%-10s %s, theta %.6g, phi %.6g", label,
+              json_string_value(json_object_get(flag, "table")),
+              json_number_value(json_object_get(flag, "theta_deg")),
+              json_number_value(json_object_get(flag, "phi_deg")));
         if ((value = json_object_get(flag, "value")))
-            printf(": %.5g cd/m2, expected %.5g", json_number_value(value),
-                   json_number_value(json_object_get(flag, "expected")));
-        printf("\n");
+            print(": %.5g cd/m2, expected %.5g", json_number_value(value),
+                  json_number_value(json_object_get(flag, "expected")));
+        print("\n");
     }
 }
 
@@ -467,40 +467,40 @@ static void print_verdict(const json_t *report)
     size_t      i;
     json_t     *reason;
     const char *verdict = json_string_value(json_object_get(report, "verdict"));
-    printf("verdict    %s\n", verdict ? verdict : "none in this file: fit the set again");
+    print("verdict    %s\n", verdict ? verdict : "none in this file: fit the set again");
     json_array_foreach(json_object_get(report, "reasons"), i, reason)
-        printf("reason     %s\n", json_string_value(reason));
+        print("reason     %s\n", json_string_value(reason));
 }
 
 static void print_text(const json_t *report)
 {
     size_t  i;
     json_t *value;
-    printf("panel      %s\nsource     %s (%s)\n",
-           json_string_value(json_object_get(report, "panel")),
-           json_string_value(json_object_get(report, "source")),
-           json_string_value(json_object_get(report, "instrument")));
+    print("panel      %s\nsource     %s (%s)\n",
+          json_string_value(json_object_get(report, "panel")),
+          json_string_value(json_object_get(report, "source")),
+          json_string_value(json_object_get(report, "instrument")));
     print_verdict(report);
     print_facts(report);
     print_choices("emission", json_object_get(report, "emission"));
     print_choices("reflection", json_object_get(report, "reflection"));
     json_array_foreach(json_object_get(report, "notes"), i, value)
-        printf("note       %s\n", json_string_value(value));
+        print("note       %s\n", json_string_value(value));
     print_flags("outlier", json_object_get(report, "outliers"));
     print_flags("hole", json_object_get(report, "holes"));
-    printf("each table: bytes of its text; numbers and bytes that the panel keeps of it (an "
-           "even share of what all share); how many times smaller than 32-bit numbers that "
-           "is;\nerrors relative to the measured values: the largest, the root of the mean "
-           "square, that of the hemispherical integral; the table's own noise; share of the "
-           "hemisphere that was not measured\n%-16s %10s %12s %9s %8s %9s %9s %9s %9s %7s\n",
-           "table", "text", "values", "bytes", "ratio", "max err", "rms err", "integral",
-           "noise", "extrap.");
+    print("each table: bytes of its text; numbers and bytes that the panel keeps of it (an "
+          "even share of what all share); how many times smaller than 32-bit numbers that "
+          "is;\nerrors relative to the measured values: the largest, the root of the mean "
+          "square, that of the hemispherical integral; the table's own noise; share of the "
+          "hemisphere that was not measured\n%-16s %10s %12s %9s %8s %9s %9s %9s %9s %7s\n",
+          "table", "text", "values", "bytes", "ratio", "max err", "rms err", "integral",
+          "noise", "extrap.");
     json_array_foreach(json_object_get(report, "tables"), i, value) print_table(value);
     print_table(json_object_get(report, "total"));
     if ((value = json_object_get(report, "peak_memory_bytes")))
-        printf("took       %.1f s of processor time, %.0f MB at most\n",
-               json_number_value(json_object_get(report, "cpu_seconds")),
-               1e-6 * json_number_value(value));
+        print("took       %.1f s of processor time, %.0f MB at most\n",
+              json_number_value(json_object_get(report, "cpu_seconds")),
+              1e-6 * json_number_value(value));
 }
 
 bool panel_print_report(json_t *report, bool as_json, Error *err)

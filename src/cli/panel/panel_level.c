@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/panel/panel_level.h"
 
+#include "print/print.h"
 #include "panel/query/panel_open.h"
 
 static bool refuse(const char *path, const PanelLevel *level, int finest, Error *err)
@@ -52,10 +53,10 @@ static void print_part(const PanelCoarsePart *part, const char *name, FILE *to)
 {
     if (!part->is_asked) return;
     if (part->level == part->finest)
-        fprintf(to, "level %d: %s is whole, its tree ends there\n", part->level, name);
+        print_to(to, "level %d: %s is whole, its tree ends there\n", part->level, name);
     else
-        fprintf(to, "level %d of %d: %s at most %.3g %% off the whole panel's, rms %.3g %%\n",
-                part->level, part->finest, name, 100 * part->max, 100 * part->rms);
+        print_to(to, "level %d of %d: %s at most %.3g %% off the whole panel's, rms %.3g %%\n",
+                 part->level, part->finest, name, 100 * part->max, 100 * part->rms);
 }
 
 void panel_level_print(const PanelLevel *level, FILE *to)
@@ -103,24 +104,24 @@ static void print_column(const json_t *row, const char *part, const char *key)
 {
     const json_t *value = json_object_get(json_object_get(row, part), key);
     if (value)
-        printf(" %13.3g %%", 100 * json_number_value(value));
+        print(" %13.3g %%", 100 * json_number_value(value));
     else
-        printf(" %15s", "-");
+        print(" %15s", "-");
 }
 
 void panel_level_print_list(const json_t *list)
 {
     size_t  i;
     json_t *row;
-    printf("each level (--level of eval, export and plot): relative differences to the whole "
-           "panel, at any direction\n%-5s %15s %15s %15s %15s\n", "level", "emission, most",
-           "rms", "reflection, most", "rms");
+    print("each level (--level of eval, export and plot): relative differences to the whole "
+          "panel, at any direction\n%-5s %15s %15s %15s %15s\n", "level", "emission, most",
+          "rms", "reflection, most", "rms");
     json_array_foreach(list, i, row) {
-        printf("%-5zu", i);
+        print("%-5zu", i);
         print_column(row, "emission", "max_error");
         print_column(row, "emission", "rms_error");
         print_column(row, "reflection", "max_error");
         print_column(row, "reflection", "rms_error");
-        printf("\n");
+        print("\n");
     }
 }

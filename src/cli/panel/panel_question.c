@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "base/count.h"
+#include "print/print.h"
 #include "cli/panel/panel_question.h"
 
 #include <math.h>
@@ -143,8 +144,8 @@ static void print_emission(const Panel *panel, const PanelQuestion *q)
     float  xyz[3];
     bool   measured = panel_ask_emission(panel, q, xyz);
     double x = (double)xyz[0], y = (double)xyz[1], z = (double)xyz[2], d = x + 15 * y + 3 * z;
-    printf("%.6g cd/m2  XYZ %.6g %.6g %.6g  u'v' %.4f %.4f%s\n", y, x, y, z,
-           d > 0 ? 4 * x / d : 0, d > 0 ? 9 * y / d : 0, measured ? "" : "  (extrapolated)");
+    print("%.6g cd/m2  XYZ %.6g %.6g %.6g  u'v' %.4f %.4f%s\n", y, x, y, z,
+          d > 0 ? 4 * x / d : 0, d > 0 ? 9 * y / d : 0, measured ? "" : "  (extrapolated)");
 }
 
 static void print_reflection(const Panel *panel, const PanelQuestion *q)
@@ -152,8 +153,8 @@ static void print_reflection(const Panel *panel, const PanelQuestion *q)
     PanelReflected r;
     panel_ask_reflection(panel, q, &r);
     for (int i = 0; i < r.count; i++)
-        printf("%g nm  %.6g sr^-1  mirror %.6g%s\n", (double)r.nm[i], (double)r.brdf[i],
-               (double)r.mirror[i], r.is_measured ? "" : "  (extrapolated)");
+        print("%g nm  %.6g sr^-1  mirror %.6g%s\n", (double)r.nm[i], (double)r.brdf[i],
+              (double)r.mirror[i], r.is_measured ? "" : "  (extrapolated)");
 }
 
 void panel_answer_print(const Panel *panel, const PanelQuestion *q)
@@ -170,29 +171,29 @@ void panel_answer_csv_header(const Panel *panel, const PanelQuestion *q, FILE *o
 {
     float nm[PANEL_INFO_WAVELENGTHS_MAX];
     if (!q->is_brdf) {
-        fputs("theta,phi,r,g,b,X,Y,Z,measured\n", out);
+        print_to(out, "theta,phi,r,g,b,X,Y,Z,measured\n");
         return;
     }
-    fputs("theta,phi,incidence,incidence_phi,measured", out);
+    print_to(out, "theta,phi,incidence,incidence_phi,measured");
     int count = panel_info_wavelengths(panel, nm);
     for (int i = 0; i < count && !(q->wavelength_nm > 0); i++)
-        fprintf(out, ",%.9g", (double)nm[i]);
-    fputs(q->wavelength_nm > 0 ? ",wavelength,brdf,mirror\n" : "\n", out);
+        print_to(out, ",%.9g", (double)nm[i]);
+    print_to(out, "%s", q->wavelength_nm > 0 ? ",wavelength,brdf,mirror\n" : "\n");
 }
 
 static void csv_reflection(const Panel *panel, const PanelQuestion *q, FILE *out)
 {
     PanelReflected r;
     panel_ask_reflection(panel, q, &r);
-    fprintf(out, "%.10g,%.10g,%.10g,%.10g,%d", q->theta, q->phi, q->incidence,
-            q->incidence_phi, (int)r.is_measured);
+    print_to(out, "%.10g,%.10g,%.10g,%.10g,%d", q->theta, q->phi, q->incidence,
+             q->incidence_phi, (int)r.is_measured);
     if (q->wavelength_nm > 0) {
-        fprintf(out, ",%.10g,%.9g,%.9g\n", q->wavelength_nm, (double)r.brdf[0],
-                (double)r.mirror[0]);
+        print_to(out, ",%.10g,%.9g,%.9g\n", q->wavelength_nm, (double)r.brdf[0],
+                 (double)r.mirror[0]);
         return;
     }
-    for (int i = 0; i < r.count; i++) fprintf(out, ",%.9g", (double)r.brdf[i]);
-    fputc('\n', out);
+    for (int i = 0; i < r.count; i++) print_to(out, ",%.9g", (double)r.brdf[i]);
+    print_to(out, "\n");
 }
 
 void panel_answer_csv(const Panel *panel, const PanelQuestion *q, FILE *out)
@@ -203,7 +204,7 @@ void panel_answer_csv(const Panel *panel, const PanelQuestion *q, FILE *out)
         return;
     }
     bool measured = panel_ask_emission(panel, q, xyz);
-    fprintf(out, "%.10g,%.10g,%g,%g,%g,%.9g,%.9g,%.9g,%d\n", q->theta, q->phi, q->rgb[0],
-            q->rgb[1], q->rgb[2], (double)xyz[0], (double)xyz[1], (double)xyz[2],
-            (int)measured);
+    print_to(out, "%.10g,%.10g,%g,%g,%g,%.9g,%.9g,%.9g,%d\n", q->theta, q->phi, q->rgb[0],
+             q->rgb[1], q->rgb[2], (double)xyz[0], (double)xyz[1], (double)xyz[2],
+             (int)measured);
 }

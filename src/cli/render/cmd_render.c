@@ -8,6 +8,7 @@
 
 #include "base/file_write.h"
 #include "base/machine.h"
+#include "print/print.h"
 #include "cli/options/answer.h"
 #include "cli/options/look_options.h"
 #include "cli/render/noise_goal.h"
@@ -92,7 +93,7 @@ static bool find_lights(RenderRun *work, Error *err)
     work->lights = light_groups_build(work->scene, work->setup.context.lights, work->arena,
                                       &work->problems);
     for (; reported < work->problems.count; reported++)
-        fprintf(stderr, "parhelion: warning: %s\n", work->problems.list[reported].message);
+        print_to(stderr, "parhelion: warning: %s\n", work->problems.list[reported].message);
     if (work->lights.count > FILM_LIGHTS_MAX)
         return error_set(err, ERROR_USAGE,
                          "--layers light: the lights of the scene have %d names, at most %d "
@@ -231,8 +232,8 @@ static void write_snapshot(void *user, const RenderResult *so_far)
     const RenderRun *work = user;
     Error       err;
     if (write_frame(work, so_far, &err))
-        fprintf(stderr, "parhelion: %s: snapshot after %u samples a pixel\n",
-                work->request.output, so_far->samples);
+        print_to(stderr, "parhelion: %s: snapshot after %u samples a pixel\n",
+                 work->request.output, so_far->samples);
     else
         cli_report_error(&err, false);
 }
@@ -240,7 +241,7 @@ static void write_snapshot(void *user, const RenderResult *so_far)
 /* On stderr at once, and among the answer's warnings. */
 static void warn(RenderRun *work, const char *text)
 {
-    fprintf(stderr, "parhelion: warning: %s\n", text);
+    print_to(stderr, "parhelion: warning: %s\n", text);
     problems_add(&work->problems, SEVERITY_WARNING, "", "", "%s", text);
 }
 
@@ -382,13 +383,13 @@ static void print_interruption(const RenderRun *work, const RenderResult *result
     const RenderOptions *options = &work->request.render;
     const RenderTask    *task = work->task;
     const char          *line = task ? task->resume_line : work->request.resume_line;
-    fprintf(stderr,
-            "parhelion: %s: stopped by %s after %u of %u samples a pixel%s — %s%s\n",
-            task ? task->name : work->request.output, signal_name, result->samples,
-            options->end_sample - options->first_sample,
-            task ? "" : "; the frame is marked incomplete",
-            is_kept ? "go on with: " : "run the same command again for the whole",
-            is_kept ? line : "");
+    print_to(stderr,
+             "parhelion: %s: stopped by %s after %u of %u samples a pixel%s — %s%s\n",
+             task ? task->name : work->request.output, signal_name, result->samples,
+             options->end_sample - options->first_sample,
+             task ? "" : "; the frame is marked incomplete",
+             is_kept ? "go on with: " : "run the same command again for the whole",
+             is_kept ? line : "");
 }
 
 /* The partial frame is written and the answer given: only the line, which may be longer than
@@ -413,9 +414,9 @@ static bool develop(const RenderRun *work, const RenderResult *result, Error *er
                                  work->request.cli.threads};
     if (!look_options_develop(&request, scratch, &look, err)) return false;
     if (work->request.cli.json || !look.develop.is_developed) return true;
-    printf("%s: %s, %s, middle grey %.4g cd/m2, %s%s\n", work->request.png,
-           look.develop.display, look.develop.view, look.develop.grey_cd_m2,
-           look.develop.config, look_options_words(&look, &scratch));
+    print("%s: %s, %s, middle grey %.4g cd/m2, %s%s\n", work->request.png,
+          look.develop.display, look.develop.view, look.develop.grey_cd_m2,
+          look.develop.config, look_options_words(&look, &scratch));
     return true;
 }
 

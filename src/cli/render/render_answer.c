@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "base/machine.h"
+#include "print/print.h"
 #include "base/progress.h"
 #include "base/units.h"
 #include "cli/options/answer.h"
@@ -268,8 +269,8 @@ static void print_worst(const RenderRequest *request, const RenderResult *result
     if (result->samples < WORST_LEAST_SAMPLES) return;
     if (!film_worst_pixels(result->film, 1, &worst)) return;
     if (!(worst.error > WORST_RATIO * result->error.frame)) return;
-    printf("%s: pixel %d,%d is the noisiest: %.4g cd/m2 with a relative error of %.0f%%\n",
-           request->output, worst.x, worst.y, worst.luminance, 100 * worst.error);
+    print("%s: pixel %d,%d is the noisiest: %.4g cd/m2 with a relative error of %.0f%%\n",
+          request->output, worst.x, worst.y, worst.luminance, 100 * worst.error);
 }
 
 /* Whose samples a pixel has, behind their number. */
@@ -293,11 +294,11 @@ static void print_fisheye(const RenderRequest *request, const RenderResult *resu
 {
     if (!request->camera.projection) return;
     if (result->statistics.samples)
-        printf("%s: a fisheye of 180 degrees: pixels outside its circle are black and have no "
-               "samples\n", request->output);
+        print("%s: a fisheye of 180 degrees: pixels outside its circle are black and have no "
+              "samples\n", request->output);
     else
-        printf("%s: a fisheye of 180 degrees: all pixels rendered lie outside its circle, they "
-               "are black and have no samples\n", request->output);
+        print("%s: a fisheye of 180 degrees: all pixels rendered lie outside its circle, they "
+              "are black and have no samples\n", request->output);
 }
 
 static void print_line(const RenderRequest *request, const RenderResult *result)
@@ -307,19 +308,19 @@ static void print_line(const RenderRequest *request, const RenderResult *result)
     rate_text(per_second((double)counts->samples, result->seconds), samples,
               (int)sizeof samples);
     rate_text(per_second(ray_count(counts), result->seconds), rays, (int)sizeof rays);
-    printf("%s: %dx%d, %u samples a pixel%s%s, %.1f s, %ssamples/s, %srays/s, "
-           "relative error %s, peak memory %.0f MB (%.0f while building)\n",
-           request->output, request->render.width, request->render.height,
-           result->samples, favour_words(request, result, favour, sizeof favour),
-           result->complete ? "" : " (incomplete)",
-           result->seconds, samples, rays,
-           cli_relative_error(result->error.frame, error, sizeof error),
-           machine_peak_bytes() / 1e6, result->build_peak_bytes / 1e6);
+    print("%s: %dx%d, %u samples a pixel%s%s, %.1f s, %ssamples/s, %srays/s, "
+          "relative error %s, peak memory %.0f MB (%.0f while building)\n",
+          request->output, request->render.width, request->render.height,
+          result->samples, favour_words(request, result, favour, sizeof favour),
+          result->complete ? "" : " (incomplete)",
+          result->seconds, samples, rays,
+          cli_relative_error(result->error.frame, error, sizeof error),
+          machine_peak_bytes() / 1e6, result->build_peak_bytes / 1e6);
     print_fisheye(request, result);
     if (render_output_is_radiance(request))
-        printf("%s: W/m2/sr in Radiance's primaries: luminance is 179 (0.265 R + 0.670 G + "
-               "0.065 B); its codes are right within 0.4 %%, layers are only in .exr\n",
-               request->output);
+        print("%s: W/m2/sr in Radiance's primaries: luminance is 179 (0.265 R + 0.670 G + "
+              "0.065 B); its codes are right within 0.4 %%, layers are only in .exr\n",
+              request->output);
     print_worst(request, result);
 }
 
@@ -377,17 +378,17 @@ bool render_print_replay(const RenderRequest *request, const Scene *scene,
                       json_figure(value_of(&frame, "depth.Z")), "part",
                       json_text_or_null(part), "display", json_text_or_null(display)),
             err);
-    printf("pixel %d,%d sample %u: ", options->crop.x0, options->crop.y0,
-           options->first_sample);
+    print("pixel %d,%d sample %u: ", options->crop.x0, options->crop.y0,
+          options->first_sample);
     if (is_finite)
-        printf("XYZ %.9g %.9g %.9g cd/m2, RGB %.9g %.9g %.9g\n", value_of(&frame, "xyz.X"),
-               value_of(&frame, "xyz.Y"), value_of(&frame, "xyz.Z"), value_of(&frame, "R"),
-               value_of(&frame, "G"), value_of(&frame, "B"));
+        print("XYZ %.9g %.9g %.9g cd/m2, RGB %.9g %.9g %.9g\n", value_of(&frame, "xyz.X"),
+              value_of(&frame, "xyz.Y"), value_of(&frame, "xyz.Z"), value_of(&frame, "R"),
+              value_of(&frame, "G"), value_of(&frame, "B"));
     else
-        printf("not finite\n");
+        print("not finite\n");
     if (part)
-        printf("first surface: %s%s%s at %.6g m\n", part, display ? ", display " : "",
-               display ? display : "", value_of(&frame, "depth.Z"));
+        print("first surface: %s%s%s at %.6g m\n", part, display ? ", display " : "",
+              display ? display : "", value_of(&frame, "depth.Z"));
     return true;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/file.h"
 #include "base/file_write.h"
+#include "print/print.h"
 #include "render/identity.h"
 
 /* Hours of rendering must not end at a checkpoint that cannot be written, and a slip of the
@@ -28,7 +29,7 @@ bool render_check_checkpoint(const RenderRequest *request, Error *err)
 static void say(const RenderRequest *request, const char *text)
 {
     if (!request->cli.quiet)
-        fprintf(stderr, "parhelion: %s: %s\n", request->checkpoint, text);
+        print_to(stderr, "parhelion: %s: %s\n", request->checkpoint, text);
 }
 
 static bool open_and_check(const RenderRequest *request, const char *identity, Arena *arena,

@@ -8,9 +8,11 @@
 #include "base/count.h"
 #include "base/file.h"
 #include "base/machine.h"
+#include "print/print.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/options/scene_options.h"
+#include "cli/review/review_files.h"
 #include "cli/review/review_folder.h"
 #include "cli/review/review_job.h"
 #include "cli/review/review_print.h"
@@ -119,11 +121,11 @@ static bool print_plan(const Cli *cli, const ReviewRequest *r, const ReviewPlan 
                                         r->condition_count - moments, "responses",
                                         plan->responses, "responses_reused",
                                         plan->responses_kept), err);
-    printf("eyes      %d\nsymbols   %d (a rectangle of text counts as one here)\n"
-           "gazes     %d (eyes that look elsewhere, in each moment)\n"
-           "moments   %d\nsweeps    %d\nresponses %d (%d of them there already)\n",
-           r->eye_count, r->symbol_count, review_look_count(r), moments,
-           r->condition_count - moments, plan->responses, plan->responses_kept);
+    print("eyes      %d\nsymbols   %d (a rectangle of text counts as one here)\n"
+          "gazes     %d (eyes that look elsewhere, in each moment)\n"
+          "moments   %d\nsweeps    %d\nresponses %d (%d of them there already)\n",
+          r->eye_count, r->symbol_count, review_look_count(r), moments,
+          r->condition_count - moments, plan->responses, plan->responses_kept);
     return true;
 }
 
@@ -132,8 +134,8 @@ static void print_unfinished(const ReviewFolder *folder, Arena *arena)
 {
     const char *journal = arena_format(arena, "%s/unfinished/journal", folder->target);
     if (file_exists(journal))
-        printf("%s/unfinished holds what is done of a review that was stopped: it goes on "
-               "there\n", folder->target);
+        print("%s/unfinished holds what is done of a review that was stopped: it goes on "
+              "there\n", folder->target);
 }
 
 static bool plan(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run, Arena *arena,
@@ -175,11 +177,11 @@ static bool start(const ReviewWords *words, Arena *arena, Error *err)
 static void report_stopped(const ReviewFolder *folder, Error *err, Arena *arena)
 {
     const char *name = signals_name((int)err->code - 128);
-    fprintf(stderr,
-            "parhelion: %s: stopped by %s; what is done is kept in %s — the same command goes "
-            "on: %s\n",
-            folder->target, name, folder->draft.unfinished,
-            review_folder_command(folder, arena));
+    print_to(stderr,
+             "parhelion: %s: stopped by %s; what is done is kept in %s — the same command goes "
+             "on: %s\n",
+             folder->target, name, folder->draft.unfinished,
+             review_folder_command(folder, arena));
     err->text[0] = '\0';
 }
 
@@ -436,7 +438,9 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
         request.is_compared = words->mend != NULL;
     }
     if (words->summary && !check_symbol(&request, words->summary, *arena, err)) return false;
-    if (!review_check(&request, *arena, err)) return false;
+    if (!review_check(&request, *arena, err) ||
+        (folder.target && !review_files_check(folder.target, &request, *arena, err)))
+        return false;
     Progress work = progress_start(words->cli.progress, "review", "steps",
                                    work_of_review(&request, folder.mend != NULL));
     work.expected_s = PACE_KNOWN_S;
@@ -492,10 +496,10 @@ static bool watch(ReviewWords *words, Error *err)
     bool goes_on = review_once(words, err);
     signals_watch();
     while (goes_on) {
-        fprintf(stderr, "parhelion: files that are watched: %d — Ctrl-C ends\n", files.count);
+        print_to(stderr, "parhelion: files that are watched: %d — Ctrl-C ends\n", files.count);
         if (!review_watch_wait(&files, &changed)) break;
-        fprintf(stderr, "parhelion: %s was saved: what it changes is reviewed again\n",
-                changed);
+        print_to(stderr, "parhelion: %s was saved: what it changes is reviewed again\n",
+                 changed);
         goes_on = review_once(words, err);
     }
     review_watch_end(&files);

@@ -1,19 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/review/review_draft.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
 #include "base/lines.h"
-#include "review/output/review_card.h"
-#include "review/output/review_json.h"
+#include "cli/review/review_files.h"
 
 /* ---- folders ----------------------------------------------------------------------------- */
 
@@ -44,12 +41,9 @@ void review_draft_close(ReviewDraft *draft)
 /* Known before the work: a file that cannot take its place would end the review half moved. */
 static bool check_files(const char *target, Arena scratch, Error *err)
 {
-    static const char *const files[] = {"review.json", "index.html",     "cases.csv",
-                                        "gazes.csv",   "false_suns.csv", "junit.xml",
-                                        "diff.json",   "run.json",       "live.js",
-                                        REVIEW_PAGE_BESIDE};
-    for (int i = 0; i < COUNT_OF(files); i++)
-        if (!file_check_writable(arena_format(&scratch, "%s/%s", target, files[i]), err))
+    for (int i = 0; i < REVIEW_FILES_FIXED; i++)
+        if (!file_check_writable(arena_format(&scratch, "%s/%s", target, review_files_fixed[i]),
+                                 err))
             return false;
     return true;
 }
@@ -79,24 +73,6 @@ bool review_draft_open(const char *target, Arena *arena, Problems *problems, Rev
 
 /* ---- files of a draft -------------------------------------------------------------------- */
 
-/* Names within the folder, "index.html", "sweeps/a.csv". prefix: "" or "sweeps/". */
-static void list_files(Lines *files, const char *folder, const char *prefix)
-{
-    DIR *open = opendir(arena_format(files->arena, "%s/%s", folder, prefix));
-    if (!open) return;
-    for (struct dirent *entry; (entry = readdir(open));) {
-        struct stat info;
-        const char *name = arena_format(files->arena, "%s%s", prefix, entry->d_name);
-        if (!strcmp(entry->d_name, ".") || !strcmp(entry->d_name, "..") ||
-            lstat(arena_format(files->arena, "%s/%s", folder, name), &info) != 0)
-            continue;
-        if (!S_ISDIR(info.st_mode)) lines_put(files, name);
-        else if (!*prefix)
-            list_files(files, folder, arena_format(files->arena, "%s/", name));
-    }
-    closedir(open);
-}
-
 static bool has_ending(const char *name, const char *ending)
 {
     return !strcmp(path_ending(name), ending);
@@ -113,29 +89,6 @@ static bool starts_with(const char *text, const char *start)
     return !strncmp(text, start, strlen(start));
 }
 
-/* ---- what a review names ----------------------------------------------------------------- */
-
-/* A frame is named by its picture: NAME.png stands for NAME.exr and NAME-outlook.png, too. */
-static bool is_of_frame(const char *name, const char *frame)
-{
-    size_t length = frame ? (size_t)(path_ending(frame) - frame) : 0;
-    return frame && !strncmp(name, frame, length) &&
-           (name[length] == '.' || name[length] == '-');
-}
-
-static bool is_named(const Review *review, const char *name)
-{
-    for (int i = 0; i < review->case_count; i++)
-        if (is_of_frame(name, review->cases[i].frame)) return true;
-    for (int i = 0; i < review->sweep_count; i++) {
-        const ReviewSweep *sweep = &review->sweeps[i];
-        if (is_of_frame(name, sweep->worst.frame) ||
-            (sweep->table && !strcmp(name, sweep->table)))
-            return true;
-    }
-    return false;
-}
-
 /* ---- taking their places ----------------------------------------------------------------- */
 
 static bool move(const ReviewDraft *draft, const char *name, Arena scratch, Error *err)
@@ -150,72 +103,69 @@ static bool move(const ReviewDraft *draft, const char *name, Arena scratch, Erro
            error_at(err, ERROR_OUTPUT, to, "", "cannot be written: %s", strerror(errno));
 }
 
-static bool is_among(const Lines *files, const char *name)
+/* What moves now: all but frames that the review does not name, review.json last. */
+static Lines to_publish(const ReviewDraft *draft, const Review *review, Arena *arena)
 {
-    for (int i = 0; i < files->count; i++)
-        if (!strcmp(files->list[i], name)) return true;
-    return false;
+    Lines drafted = {.arena = arena}, files = {.arena = arena};
+    review_files_list(&drafted, draft->folder, "");
+    for (int i = 0; i < drafted.count; i++) {
+        const char *name = drafted.list[i];
+        bool is_other_frame =
+            starts_with(name, "frames/") && !review_files_is_named(review, name);
+        if (review_files_may_have(name) && strcmp(name, "review.json") != 0 && !is_other_frame)
+            lines_put(&files, name);
+    }
+    lines_put(&files, "review.json");
+    return files;
 }
 
-/* Removes an earlier review's tables and frames, as it names them, and what not every review
- * has, unless published. A damaged one names nothing. */
-static void remove_earlier(const ReviewDraft *draft, const Review *review,
-                           const Lines *published)
+/* Removes what reviews made here and this one does not have. The page asks for a frame's layers
+ * only if they are published with it. Returns what stays. */
+static Lines remove_earlier(const ReviewDraft *draft, const Review *review, const Lines *made,
+                            const Lines *published, Arena *arena)
 {
-    static const char *const seldom[] = {"diff.json", "false_suns.csv", "gazes.csv",
-                                         "cases.csv", "junit.xml",      "run.json",
-                                         "live.js",   REVIEW_PAGE_BESIDE};
-    Arena       scratch = *published->arena;
-    Lines  files = {.arena = &scratch};
-    Review      earlier;
-    Error       err;
-    const char *old = arena_format(&scratch, "%s/review.json", draft->target);
-    if (!file_exists(old) || !review_json_read(old, &scratch, &earlier, &err)) return;
-    for (int i = 0; i < COUNT_OF(seldom); i++)
-        if (!is_among(published, seldom[i]))
-            unlink(arena_format(&scratch, "%s/%s", draft->target, seldom[i]));
-    list_files(&files, draft->target, "");
-    for (int i = 0; i < files.count; i++)
-        if (starts_with(files.list[i], "summary-") && !is_among(published, files.list[i]))
-            unlink(arena_format(&scratch, "%s/%s", draft->target, files.list[i]));
-    files.count = 0;
-    list_files(&files, draft->target, "sweeps/");
-    list_files(&files, draft->target, "frames/");
-    for (int i = 0; i < files.count; i++)
-        if (is_named(&earlier, files.list[i]) &&
-            (!is_named(review, files.list[i]) ||
-             (has_ending(files.list[i], ".js") && !is_among(published, files.list[i]))))
-            unlink(arena_format(&scratch, "%s/%s", draft->target, files.list[i]));
+    Lines stays = {.arena = arena};
+    for (int i = 0; i < made->count; i++) {
+        const char *name = made->list[i];
+        bool        is_kept = review_files_is_named(review, name) && !has_ending(name, ".js");
+        if (is_kept || review_files_has(published, name)) lines_put(&stays, name);
+        else unlink(arena_format(arena, "%s/%s", draft->target, name));
+    }
+    return stays;
 }
 
+/* The list is never behind: it holds a file before that has its place, and until it is gone. */
 bool review_draft_publish(const ReviewDraft *draft, const Review *review, Arena scratch,
                           Error *err)
 {
-    Lines files = {.arena = &scratch};
-    list_files(&files, draft->folder, "");
+    Lines files = to_publish(draft, review, &scratch);
+    Lines made = review_files_read(draft->target, &scratch);
     for (int i = 0; i < files.count; i++) {
-        const char *name = files.list[i];
-        if (!strcmp(name, "review.json") || is_leftover(name) ||
-            (starts_with(name, "frames/") && !is_named(review, name)))
-            continue;
-        if (!move(draft, name, scratch, err)) return false;
+        const char *to = arena_format(&scratch, "%s/%s", draft->target, files.list[i]);
+        if (!review_files_has(&made, files.list[i]) && file_exists(to))
+            return review_files_refuse(to, err);
     }
-    remove_earlier(draft, review, &files);
-    return move(draft, "review.json", scratch, err);
+    for (int i = 0; i < files.count; i++) review_files_add(&made, files.list[i]);
+    if (!review_files_write(draft->target, &made, scratch, err)) return false;
+    for (int i = 0; i < files.count - 1; i++)
+        if (!move(draft, files.list[i], scratch, err)) return false;
+    Lines stays = remove_earlier(draft, review, &made, &files, &scratch);
+    return move(draft, "review.json", scratch, err) &&
+           review_files_write(draft->target, &stays, scratch, err);
 }
 
 void review_draft_finish(ReviewDraft *draft)
 {
     Arena      scratch = *draft->arena;
     Lines files = {.arena = &scratch};
-    list_files(&files, draft->unfinished, "new/sweeps/");
-    list_files(&files, draft->unfinished, "new/frames/");
-    list_files(&files, draft->unfinished, "new/");
-    list_files(&files, draft->unfinished, "");
+    review_files_list(&files, draft->unfinished, "new/sweeps/");
+    review_files_list(&files, draft->unfinished, "new/frames/");
+    review_files_list(&files, draft->unfinished, "");
     for (int i = 0; i < files.count; i++) {
         const char *name = files.list[i];
-        if (starts_with(name, "new/") || has_ending(name, ".checkpoint") ||
-            has_ending(name, ".lesson") || is_leftover(name))
+        bool is_drafted = starts_with(name, "new/") && review_files_may_have(name + 4);
+        if (is_drafted || has_ending(name, ".checkpoint") || has_ending(name, ".lesson") ||
+            is_leftover(name))
             unlink(arena_format(&scratch, "%s/%s", draft->unfinished, name));
     }
     unlink(arena_format(&scratch, "%s/journal", draft->unfinished));

@@ -342,7 +342,7 @@ static bool write_diff(const ReviewFolder *folder, const ReviewOutcome *outcome,
                              arena_format(arena, "%s/diff.json", folder->name), err);
 }
 
-/* One a symbol; --summary: that one alone. Where two names are one file's the first has it. */
+/* One a symbol; --summary: that one alone. */
 static bool write_summaries(const ReviewFolder *folder, const ReviewPage *page, Arena *arena,
                             Error *err)
 {
@@ -353,11 +353,10 @@ static bool write_summaries(const ReviewFolder *folder, const ReviewPage *page, 
         const char *symbol = ranked[i]->symbol;
         bool        is_listed = folder->summary && strcmp(folder->summary, symbol) != 0;
         for (int k = 0; k < i && !is_listed; k++)
-            is_listed = !strcmp(review_summary_name(ranked[k]->symbol, arena),
-                              review_summary_name(symbol, arena));
+            is_listed = !strcmp(ranked[k]->symbol, symbol);
         if (is_listed) continue;
-        const char *path =
-            arena_format(arena, "%s/%s", folder->name, review_summary_name(symbol, arena));
+        const char *path = arena_format(arena, "%s/%s", folder->name,
+                                        review_summary_name(review, symbol, arena));
         if (!review_page_write_summary(page, symbol, path, err)) return false;
     }
     return true;

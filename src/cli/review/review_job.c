@@ -9,6 +9,7 @@
 #include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
+#include "print/print.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "kernel/kernel.h"
@@ -60,8 +61,8 @@ static bool answer(ReviewRun *run, const ReviewTask *task, Arena *arena, Error *
 
 static void report_stopped(const ReviewTask *task, Error *err)
 {
-    fprintf(stderr, "parhelion: %s: stopped by %s; what is done is kept — go on with: %s\n",
-            task->name, signals_name((int)err->code - 128), task->resume_line);
+    print_to(stderr, "parhelion: %s: stopped by %s; what is done is kept — go on with: %s\n",
+             task->name, signals_name((int)err->code - 128), task->resume_line);
     err->text[0] = '\0';
 }
 

@@ -2,8 +2,8 @@
 #include "cli/review/review_print.h"
 
 #include <math.h>
-#include <stdio.h>
 
+#include "print/print.h"
 #include "cli/options/answer.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_gaze.h"
@@ -16,71 +16,71 @@ static void print_judged(const ReviewCase *c, Arena *scratch)
 {
     const LimitVerdict *limit = case_worst_limit(c);
     if (c->unjudged && c->unjudged != UNJUDGED_PANEL && c->unjudged != UNJUDGED_DATA) {
-        printf(": %s", words_unjudged(c, scratch));
+        print(": %s", words_unjudged(c, scratch));
         return;
     }
     if (!limit) return;
-    printf(": %s %s", words_kind(limit), words_measured(limit, scratch));
-    printf(", required %s", words_required(limit, scratch));
-    if (c->unjudged) printf("; %s", words_unjudged(c, scratch));
+    print(": %s %s", words_kind(limit), words_measured(limit, scratch));
+    print(", required %s", words_required(limit, scratch));
+    if (c->unjudged) print("; %s", words_unjudged(c, scratch));
 }
 
 static void print_case(const ReviewCase *c, Arena scratch)
 {
-    printf("%-16s %s, %s, %s", verdict_names[c->verdict], c->condition, c->eye, c->symbol);
+    print("%-16s %s, %s, %s", verdict_names[c->verdict], c->condition, c->eye, c->symbol);
     print_judged(c, &scratch);
     if (c->visible_share > 0)
-        printf(", reflected %s cd/m2",
-               interval_text(c->luminance_cd_m2.reflected, c->reflected_range.low,
-                             c->reflected_range.high, &scratch));
-    fputs(words_precision(c, &scratch), stdout);
+        print(", reflected %s cd/m2",
+              interval_text(c->luminance_cd_m2.reflected, c->reflected_range.low,
+                            c->reflected_range.high, &scratch));
+    print("%s", words_precision(c, &scratch));
     if (c->minutes_to_decide > 0 && isfinite(c->minutes_to_decide))
-        printf("; about %.2g minutes more would decide it", fmax(c->minutes_to_decide, 0.1));
-    putchar('\n');
+        print("; about %.2g minutes more would decide it", fmax(c->minutes_to_decide, 0.1));
+    print("\n");
 }
 
 static void print_sweep(const ReviewSweep *s, Arena scratch)
 {
     bool is_sure = sweep_verdict(s) == VERDICT_FAIL || !(s->failed_share > 0);
-    printf("%-16s %s, %s, %s: %.3g %% of %ld suns fail%s", verdict_names[sweep_verdict(s)],
-           s->condition, s->eye, s->symbol, 100 * s->failed_share, s->cases,
-           is_sure ? "" : " by their steps alone, none that was read again");
+    print("%-16s %s, %s, %s: %.3g %% of %ld suns fail%s", verdict_names[sweep_verdict(s)],
+          s->condition, s->eye, s->symbol, 100 * s->failed_share, s->cases,
+          is_sure ? "" : " by their steps alone, none that was read again");
     if (s->longest_failure_minutes > 0)
-        printf(", %.4g minutes at a stretch", s->longest_failure_minutes);
+        print(", %.4g minutes at a stretch", s->longest_failure_minutes);
     if (s->worst.has_sun)
-        printf("; worst at azimuth %.1f, elevation %.1f", s->worst.sun_azimuth_deg,
-               s->worst.sun_elevation_deg);
+        print("; worst at azimuth %.1f, elevation %.1f", s->worst.sun_azimuth_deg,
+              s->worst.sun_elevation_deg);
     print_judged(&s->worst, &scratch);
-    fputs(words_precision(&s->worst, &scratch), stdout);
-    putchar('\n');
+    print("%s", words_precision(&s->worst, &scratch));
+    print("\n");
 }
 
 /* Prints a gaze that keeps less than half of the contrast. */
 static void print_gaze(const GazeFinding *g, Arena scratch)
 {
     if (!(g->contrast_left < GAZE_POOR)) return;
-    printf("%-16s %s, %s, looking at %s: %.3g %% of a distant object's contrast left; seen "
-           "%.4g cd/m2, mirrored by glass %s, veil in the eye %s\n", "veiled", g->condition,
-           g->eye, g->gaze, 100 * g->contrast_left, g->through,
-           review_gaze_mirrored(g, &scratch), review_gaze_veil(g, &scratch));
+    print("%-16s %s, %s, looking at %s: %.3g %% of a distant object's contrast left; seen "
+          "%.4g cd/m2, mirrored by glass %s, veil in the eye %s\n", "veiled", g->condition,
+          g->eye, g->gaze, 100 * g->contrast_left, g->through,
+          review_gaze_mirrored(g, &scratch), review_gaze_veil(g, &scratch));
 }
 
 /* Its least margin beside the review's own, in percent of the limit. */
 static void print_variant(const ReviewVariantFound *v)
 {
     const ReviewDifference *d = &v->worst;
-    printf("%-16s variant %s", verdict_names[review_verdict(v->review)], v->name);
+    print("%-16s variant %s", verdict_names[review_verdict(v->review)], v->name);
     if (d->after && d->before)
-        printf(": least margin %+.3g %%, %+.2g %% (%+.2g to %+.2g) from the review's: %s, %s, "
-               "%s", 100 * d->after->margin, 100 * d->margin, 100 * d->margin_range.low,
-               100 * d->margin_range.high, d->after->condition, d->after->eye,
-               d->after->symbol);
-    putchar('\n');
+        print(": least margin %+.3g %%, %+.2g %% (%+.2g to %+.2g) from the review's: %s, %s, "
+              "%s", 100 * d->after->margin, 100 * d->margin, 100 * d->margin_range.low,
+              100 * d->margin_range.high, d->after->condition, d->after->eye,
+              d->after->symbol);
+    print("\n");
 }
 
 static void print_mend(const ReviewMend *m, Arena *scratch)
 {
-    printf("%-16s %s\n", m->is_found ? "mended" : "not mended", words_mend(m, scratch));
+    print("%-16s %s\n", m->is_found ? "mended" : "not mended", words_mend(m, scratch));
 }
 
 static void print_review(const Review *review, Arena scratch)
@@ -90,16 +90,16 @@ static void print_review(const Review *review, Arena scratch)
     for (int i = 0; i < review->gaze_count; i++) print_gaze(&review->gazes[i], scratch);
     const ReviewCase *worst = review_worst(review, scratch);
     if (review->without_data_count)
-        printf("%-16s %d material%s taken as perfectly white: %s; of the light on the worst "
-               "case %.3g %% came via them\n", "no data", review->without_data_count,
-               review->without_data_count == 1 ? "" : "s", review->without_data,
-               worst ? 100 * worst->without_data_share : 0);
+        print("%-16s %d material%s taken as perfectly white: %s; of the light on the worst "
+              "case %.3g %% came via them\n", "no data", review->without_data_count,
+              review->without_data_count == 1 ? "" : "s", review->without_data,
+              worst ? 100 * worst->without_data_share : 0);
     for (int i = 0; i < review->variant_count; i++) print_variant(&review->variants[i]);
     for (int i = 0; i < review->mend_count; i++) print_mend(&review->mends[i], &scratch);
     const char *rests_on = words_rests_on(review, &scratch);
-    if (rests_on[0]) printf("%-16s %s\n", "rests on", rests_on);
+    if (rests_on[0]) print("%-16s %s\n", "rests on", rests_on);
     static const char *const LAST[4] = {"pass", "FAIL", "too close to call", "cannot be judged"};
-    printf("%s\n", LAST[review_verdict(review)]);
+    print("%s\n", LAST[review_verdict(review)]);
 }
 
 bool review_print(const Cli *cli, const Review *review, Arena scratch, Error *err)

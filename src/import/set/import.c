@@ -39,9 +39,8 @@ void import_note(ImportSet *set, const char *format, ...)
 {
     va_list list;
     va_start(list, format);
-    char *text = arena_format_list(set->arena, 1023, format, list);
+    char *text = arena_printable(set->arena, arena_format_list(set->arena, 1023, format, list));
     va_end(list);
-    error_make_plain(text);
     for (int i = 0; i < set->note_count; i++)
         if (!strcmp(set->note[i], text)) return;
     if (set->note_count == IMPORT_NOTES_MAX) {

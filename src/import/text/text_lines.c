@@ -9,8 +9,8 @@
 #include <strings.h>
 
 #include "base/file.h"
+#include "print/utf8.h"
 #include "import/set/import.h"
-#include "text/utf8.h"
 
 #define CELL_DIGITS_MAX 60
 #define DEGREE_SIGN "\xC2\xB0"

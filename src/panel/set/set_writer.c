@@ -10,6 +10,7 @@
 
 #include "base/file.h"
 #include "base/file_write.h"
+#include "text/json_text.h"
 
 typedef struct SetFile {
     struct SetFile *next;
@@ -94,12 +95,10 @@ bool set_writer_add(SetWriter *writer, const char *name, const Text *text)
 
 bool set_writer_add_manifest(SetWriter *writer, const json_t *root, int digits)
 {
-    Text  text = {.arena = &writer->arena};
-    char *json = json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION((size_t)digits));
-    if (!json) return error_set(writer->err, ERROR_MEMORY, "no memory for the manifest");
-    text_add(&text, json);
+    Text text = {.arena = &writer->arena};
+    if (!json_dump_text(&text, root, JSON_INDENT(2) | JSON_REAL_PRECISION((size_t)digits)))
+        return error_set(writer->err, ERROR_MEMORY, "no memory for the manifest");
     text_add(&text, "\n");
-    free(json);
     return set_writer_add(writer, path_name(writer->manifest), &text);
 }
 

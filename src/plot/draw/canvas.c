@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/units.h"
-#include "text/utf8.h"
+#include "print/utf8.h"
 
 #define FACE "DejaVu Sans"
 #define FACE_WIDTH 0.92 /* the face is drawn a little narrower than it is cut */

@@ -10,7 +10,6 @@
 #include "panel/query/panel_reflection.h"
 #include "panel/query/panel_sampling.h"
 #include "spectrum/photometry.h"
-#include "text/utf8.h"
 
 #define SIDE 301 /* grid of the maps: 0.6 degrees a step */
 
@@ -166,8 +165,8 @@ PlotData *plot_data_new(const PlotSource *source, Arena *arena)
     const char *name = json_string_value(json_object_get(source->report, "panel"));
     s->source = *source;
     s->arena = arena;
-    s->file_name = utf8_replace(path_name(source->file), arena);
-    s->name = name && *name ? utf8_replace(name, arena) : s->file_name;
+    s->file_name = arena_printable(arena, path_name(source->file));
+    s->name = name && *name ? arena_printable(arena, name) : s->file_name;
     if (source->reading)
         s->file_name = arena_format(arena, "%s, %s", s->file_name, source->reading);
     const json_t *emission = json_object_get(source->report, "emission");

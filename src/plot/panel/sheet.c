@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "base/units.h"
-#include "text/utf8.h"
 
 #define MARGIN 40.0
 #define GUTTER 34.0
@@ -97,7 +96,7 @@ static void draw_heading(Canvas *canvas, const SheetSpec *spec, const Layout *l)
                                     instrument ? instrument : "");
     canvas_text(canvas, MARGIN, MARGIN + 27, (Letters){.size = SIZE_TEXT, .ink = t->soft},
                 canvas_fit_text(canvas, SIZE_TEXT, false, width,
-                                utf8_replace(line, canvas->arena)));
+                                arena_printable(canvas->arena, line)));
     canvas_line(canvas, MARGIN, MARGIN + 46, l->width - MARGIN, MARGIN + 46,
                 (Stroke){t->faint, 0.7, DASH_NONE});
 }

@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "base/file_write.h"
+#include "print/print.h"
 
 #define FILE_BYTES_MOST ((size_t)1 << 32)
 #define CHECKPOINT_S 20 /* between two */
@@ -70,7 +71,7 @@ static void report(const Error *err, const char *then)
 {
     char line[2048];
     error_line(err, line, (int)sizeof line);
-    fprintf(stderr, "parhelion: warning: %s — %s\n", line, then);
+    print_to(stderr, "parhelion: warning: %s — %s\n", line, then);
 }
 
 /* Meanwhile: the frame is worth more than its checkpoint. */

@@ -247,10 +247,8 @@ bool ray_file_write(const ReviewCase *c, const char *path, Error *err)
     } else {
         set_buffer(document, &bin, !is_binary(path), &arena);
     }
-    char *text = json_dumps(document, JSON_INDENT(1) | JSON_REAL_PRECISION(9));
+    json_dump_text(&json, document, JSON_INDENT(1) | JSON_REAL_PRECISION(9));
     json_decref(document);
-    text_add(&json, text);
-    free(text);
     if (is_binary(path)) add_container(&file, &json, &bin);
     else file = json;
     bool ok = ray_file_check(path, err) && text_write(&file, path, err);

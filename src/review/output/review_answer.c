@@ -2,6 +2,7 @@
 #include "review/output/review_answer.h"
 
 #include <math.h>
+#include <strings.h>
 
 #include "page/page.h"
 #include "review/output/review_bar.h"
@@ -25,10 +26,24 @@ const char *const *review_answer_directions(const ReviewAnswer *answer, const Re
     return NULL;
 }
 
-const char *review_summary_name(const char *symbol, Arena *arena)
+/* Symbols of other names whose files would have this one's, with large letters for small ones
+ * too, are numbered in the review's order; the point stands in no name that has no number. */
+const char *review_summary_name(const Review *review, const char *symbol, Arena *arena)
 {
-    return arena_format(arena, "summary-%s.html",
-                        words_file_name(symbol ? symbol : "", arena));
+    const char *name = words_file_name(symbol ? symbol : "", arena);
+    int         all = review->case_count + review->sweep_count;
+    WordList    alike = words_list(all, arena);
+    for (int i = 0; i < all; i++) {
+        const char *other = i < review->case_count
+                                ? review->cases[i].symbol
+                                : review->sweeps[i - review->case_count].symbol;
+        Arena scratch = *arena;
+        if (words_same(other, symbol)) break;
+        if (!strcasecmp(words_file_name(other ? other : "", &scratch), name))
+            words_list_add(&alike, other);
+    }
+    if (!alike.count) return arena_format(arena, "summary-%s.html", name);
+    return arena_format(arena, "summary-%s.%d.html", name, alike.count + 1);
 }
 
 /* ---- the line --------------------------------------------------------------------------- */
@@ -120,7 +135,7 @@ static void add_symbol(Text *html, const Review *review, const char *symbol, Are
         return;
     }
     text_format(html, "<td><a class=\"symbol\" href=\"%s\">",
-                review_summary_name(symbol, arena));
+                review_summary_name(review, symbol, arena));
     escape_markup(html, symbol);
     text_add(html, "</a></td>");
 }

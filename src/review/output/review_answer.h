@@ -25,5 +25,5 @@ bool review_answer_add(Text *html, const ReviewAnswer *answer, Arena *arena, Err
 const char *const *review_answer_directions(const ReviewAnswer *answer, const ReviewCase *c,
                                             Arena *arena);
 
-/* File of the page on one symbol alone: "summary-speed.html". */
-const char *review_summary_name(const char *symbol, Arena *arena);
+/* File of the page on one symbol alone, no other symbol's: "summary-speed.html". */
+const char *review_summary_name(const Review *review, const char *symbol, Arena *arena);

@@ -9,14 +9,17 @@
 
 /* ---- cells ------------------------------------------------------------------------------- */
 
-/* RFC 4180: a cell with a comma, a quote or a line's end stands in quotes, quotes doubled. */
+/* RFC 4180: a cell with a comma or a quote stands in quotes, quotes doubled. No text has a
+ * line's end as it may be shown. */
 static void add_text(Text *csv, const char *text)
 {
-    bool quoted = text && text[strcspn(text, ",\"\r\n")];
+    bool quoted = text && strpbrk(text, ",\"");
     if (quoted) text_add(csv, "\"");
-    for (const char *c = text ? text : ""; *c; c++) {
-        if (*c == '"') text_add(csv, "\"");
-        text_add_bytes(csv, c, 1);
+    for (size_t plain; text && *text; text += plain) {
+        plain = strcspn(text, "\"");
+        text_add_printable(csv, text, plain);
+        if (text[plain]) text_add(csv, "\"\"");
+        plain += text[plain] != '\0';
     }
     if (quoted) text_add(csv, "\"");
     text_add(csv, ",");

@@ -2,11 +2,9 @@
 #include "review/output/review_json.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/count.h"
-#include "base/file_write.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_members.h"
 #include "text/json_text.h"
@@ -14,6 +12,7 @@
 #include "text/nearest_word.h"
 
 #define DIGITS 6
+#define DOCUMENT_BYTES ((size_t)1 << 32) /* address space: what is not touched costs nothing */
 #define PLACES_BYTES ((size_t)1 << 26)
 
 /* ---- which keys hold which members ------------------------------------------------------- */
@@ -418,13 +417,14 @@ json_t *review_json(const Review *review)
 
 bool review_json_write(json_t *document, const char *path, Error *err)
 {
-    char *text = json_dumps(document, JSON_INDENT(2) | JSON_REAL_PRECISION(DIGITS));
+    Arena arena = arena_reserve(DOCUMENT_BYTES);
+    Text  text = {.arena = &arena};
+    bool  ok = json_dump_text(&text, document, JSON_INDENT(2) | JSON_REAL_PRECISION(DIGITS)) ||
+              error_set(err, ERROR_MEMORY, "out of memory for %s", path);
     json_decref(document);
-    if (!text) return error_set(err, ERROR_MEMORY, "out of memory for %s", path);
-    size_t size = strlen(text);
-    text[size] = '\n';
-    bool ok = file_write(path, text, size + 1, err);
-    free(text);
+    text_add(&text, "\n");
+    ok = ok && text_write(&text, path, err);
+    arena_release(&arena);
     return ok;
 }
 

@@ -31,13 +31,22 @@ static ReviewAnswer answer_of(const ReviewPage *page)
                           page->map_count};
 }
 
-/* Returns its title. */
+/* What a page about one symbol alone is about; NULL: it is about all. */
+static const char *only_symbol(const Review *review)
+{
+    if (!review->whole) return NULL;
+    return review->case_count ? review->cases[0].symbol
+           : review->sweep_count ? review->sweeps[0].symbol : NULL;
+}
+
+/* Returns the review's title. */
 static const char *begin_page(Text *html, const ReviewPage *page, int renewed_s, Arena *arena)
 {
     const char *given = page->review->title;
     const char *title = given && given[0] ? given : "Glare review";
-    page_begin(html, &(PageHead){title, arena_format(arena, "%s%s", REVIEW_STYLE, LIVE_STYLE),
-                               page->is_dark, renewed_s});
+    const char *symbol = only_symbol(page->review);
+    const char *style = arena_format(arena, "%s%s", REVIEW_STYLE, LIVE_STYLE);
+    page_begin(html, &(PageHead){symbol ? symbol : title, style, page->is_dark, renewed_s});
     return title;
 }
 

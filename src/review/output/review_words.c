@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "print/utf8.h"
 #include "plot/draw/ticks.h"
 #include "review/output/review_decide.h"
 #include "review/quantity.h"
@@ -32,11 +33,11 @@ void words_list_add(WordList *names, const char *name)
 
 const char *words_file_name(const char *text, Arena *arena)
 {
-    char *name = arena_string(arena, text, strlen(text));
-    for (char *c = name; *c; c++) {
-        bool is_plain = (*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') ||
-                        (*c >= '0' && *c <= '9') || *c == '_';
-        if (!is_plain) *c = '-';
+    char *name = ARENA_NEW(arena, char, WORDS_FILE_NAME_MOST + 1);
+    for (int length = 0; *text && length < WORDS_FILE_NAME_MOST; text++) {
+        bool is_plain = (*text >= 'a' && *text <= 'z') || (*text >= 'A' && *text <= 'Z') ||
+                        (*text >= '0' && *text <= '9') || *text == '_';
+        if (!utf8_continues(*text)) name[length++] = is_plain ? *text : '-';
     }
     return name;
 }

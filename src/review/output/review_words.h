@@ -19,7 +19,9 @@ typedef struct WordList {
 WordList words_list(int most, Arena *arena);
 void     words_list_add(WordList *names, const char *name);
 
-/* A file's name from texts of any kind: letters and digits stay, all else becomes '-'. */
+/* A part of a file's name from texts of any kind: letters and digits stay, each other character
+ * becomes '-', and what is longer is cut. Texts that differ may give the same. */
+#define WORDS_FILE_NAME_MOST 80
 const char *words_file_name(const char *text, Arena *arena);
 
 /* Three significant digits; "–" for NaN, "∞". */

@@ -51,7 +51,7 @@ static void name_file(const ReviewRun *run, const Setup *setup, ResponseAsk *ask
 {
     const char *identity = identity_of(setup, ask, arena);
     uint64_t    hash = XXH3_64bits(identity, strlen(identity));
-    const char *name = arena_format(arena, "%.80s-%016llx.response",
+    const char *name = arena_format(arena, "%s-%016llx.response",
                                     words_file_name(ask->name, arena),
                                     (unsigned long long)hash);
     ask->file = (ResponseFile){.path = arena_format(arena, "%s/%s", run->responses, name),

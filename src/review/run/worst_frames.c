@@ -230,8 +230,8 @@ static bool make_pair(const FrameWork *before, int number, ReviewVariantFound *v
     FrameWork work = *before;
     own.request = &request;
     work.run = &own;
-    work.name = words_file_name(arena_format(arena, "%s-variant-%d-%s", name, number + 1,
-                                          variant->name), arena);
+    work.name = arena_format(arena, "%s-variant-%d-%s", name, number + 1,
+                             words_file_name(variant->name, arena));
     if (!make_frame(&work, NULL, arena, &variant->frame, err))
         return err->code > 128 ? false
                                : error_prefix(err, "variant '%.100s'", variant->name);

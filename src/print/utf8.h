@@ -1,14 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* utf8.h -- characters of UTF-8 (RFC 3629).
  *
- * Memory   what is returned lies in the arena that is passed in.
  * Threads  no shared state. Fails: never.
  */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>
-
-#include "base/arena.h"
 
 #define UTF8_BYTES_MAX 4 /* of one character */
 
@@ -25,7 +22,3 @@ static inline bool utf8_continues(char byte)
 {
     return ((unsigned char)byte & 0xc0) == 0x80;
 }
-
-/* A copy in which every byte that is no UTF-8, and every control character, is a '?': names of
- * files may hold anything. */
-char *utf8_replace(const char *text, Arena *arena);

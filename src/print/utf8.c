@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "text/utf8.h"
-
-#include <string.h>
+#include "print/utf8.h"
 
 int utf8_decode(const char *at, size_t left, unsigned *code)
 {
@@ -26,16 +24,4 @@ int utf8_encode(unsigned code, char to[UTF8_BYTES_MAX])
     for (int i = length - 1; i > 0; i--, code >>= 6) to[i] = (char)(0x80 | (code & 0x3f));
     to[0] = (char)(MARK[length] | code);
     return length;
-}
-
-char *utf8_replace(const char *text, Arena *arena)
-{
-    char *copy = arena_string(arena, text, strlen(text));
-    for (char *c = copy; *c;) {
-        unsigned code = 0;
-        int      length = utf8_decode(c, UTF8_BYTES_MAX, &code);
-        if (!length || code < 0x20 || code == 0x7f) *c = '?';
-        c += length ? length : 1;
-    }
-    return copy;
 }
