@@ -68,6 +68,7 @@ start 'the command line' cli python3 tests/hostile/cli.py $program
 start 'options given twice' options python3 tests/hostile/options.py $program
 start 'what is not known is no pass' unjudged python3 tests/hostile/unjudged.py $program
 start 'one judged quantity a row' judged python3 tests/hostile/judged.py $program
+start 'settings that cannot be meant' settings python3 tests/hostile/settings.py $program
 start 'reviews that ask wrongly' review-request python3 tests/hostile/review_request.py $program
 start 'names give a terminal no commands' printed python3 tests/hostile/printed.py $program
 start "a review's folder is the user's too" review-files \

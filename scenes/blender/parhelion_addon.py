@@ -88,7 +88,7 @@ class ParhelionMaterial(bpy.types.PropertyGroup):
     content: StringProperty(name="Content", subtype="FILE_PATH",
                             description="PNG or JPEG of the codes that the panel receives; "
                             "empty: full white")
-    level: FloatProperty(name="Level", default=1, min=0, soft_max=1, precision=3,
+    level: FloatProperty(name="Level", default=1, min=0, max=1, precision=3,
                          description="Backlight; multiplies all that the display emits")
     uv_map: IntProperty(name="UV map", default=0, min=0, max=7,
                         description="Place of the content's UV map in the mesh's list")

@@ -6,19 +6,8 @@ import random
 import cairo
 
 from pens import (
-    AMBER,
-    BLUE,
-    DIM,
-    GREEN,
-    GREY,
-    RED,
-    WHITE,
-    glow_disc,
-    polygon,
-    ring,
-    rounded,
-    text,
-    turn_arrow,
+    AMBER, BLUE, DIM, GREEN, GREY, RED, WHITE, glow_disc, note_word, polygon, ring, rounded,
+    save, text, turn_arrow,
 )
 
 LAND = (0.118, 0.137, 0.165)
@@ -155,6 +144,7 @@ def street_label(ctx, i, j, string, along_x, size=27):
     ctx.select_font_face("Inter Medium", cairo.FONT_SLANT_NORMAL, cairo.FONT_WEIGHT_NORMAL)
     ctx.set_font_size(size)
     ctx.move_to(-ctx.text_extents(string).x_advance / 2, size * 0.34)
+    note_word(ctx, string, -ctx.text_extents(string).x_advance / 2, size * 0.34)
     ctx.text_path(string)
     ctx.set_source_rgb(0.07, 0.08, 0.10)
     ctx.set_line_width(8)
@@ -324,4 +314,4 @@ def draw_centre(path):
     draw_side_bar(ctx)
     draw_status(ctx)
     draw_climate(ctx)
-    surface.write_to_png(path)
+    save(surface, path)

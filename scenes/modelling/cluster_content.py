@@ -5,20 +5,8 @@ import math
 import cairo
 
 from pens import (
-    AMBER,
-    BLUE,
-    DIM,
-    GREEN,
-    GREY,
-    RED,
-    WHITE,
-    glow_disc,
-    polar,
-    polygon,
-    ring,
-    rounded,
-    text,
-    turn_arrow,
+    AMBER, BLUE, DIM, GREEN, GREY, RED, WHITE, glow_disc, polar, polygon, ring, rounded,
+    save, text, turn_arrow,
 )
 
 DIAL_FROM, DIAL_TO = 140.0, 400.0  # degrees: lower left, over the top, to lower right
@@ -301,4 +289,4 @@ def draw_cluster(path):
     draw_gear(ctx)
     draw_telltales(ctx)
     draw_cluster_status(ctx)
-    surface.write_to_png(path)
+    save(surface, path)

@@ -4,7 +4,7 @@ import math
 
 import cairo
 
-from pens import polar, polygon, ring, text
+from pens import polar, polygon, ring, save, text
 
 WHITE = (0.96, 0.97, 0.98)
 GREY = (0.58, 0.61, 0.64)
@@ -333,7 +333,7 @@ def draw_pfd(path):
     vertical_speed(ctx)
     heading_tape(ctx)
     mode_annunciator(ctx)
-    surface.write_to_png(path)
+    save(surface, path)
 
 
 # --- navigation display -------------------------------------------------------------------
@@ -534,4 +534,4 @@ def draw_nav(path):
     traffic(ctx)
     own_aircraft(ctx)
     nav_texts(ctx)
-    surface.write_to_png(path)
+    save(surface, path)

@@ -29,9 +29,33 @@ def text(ctx, string, x, y, size, color=WHITE, face="Inter", bold=False, align="
     advance = ctx.text_extents(string).x_advance
     shift = {"left": 0.0, "centre": 0.5, "right": 1.0}[align]
     ctx.set_source_rgb(*color)
+    note_word(ctx, string, x - shift * advance, y)
     ctx.move_to(x - shift * advance, y)
     ctx.show_text(string)
     return advance
+
+
+WORDS = []  # of the picture that is being drawn: its box in pixels, and what it says
+
+
+def note_word(ctx, string, x, y):
+    left, top, width, height, *_ = ctx.text_extents(string)
+    corners = [ctx.user_to_device(x + left + s * width, y + top + t * height)
+               for s in (0, 1) for t in (0, 1)]
+    xs, ys = zip(*corners)
+    WORDS.append((min(xs), min(ys), max(xs), max(ys), string))
+
+
+def save(surface, path):
+    """The picture, and beside it what is written in it: NAME.words, a line a word, its left,
+    top, right and bottom as shares of the picture."""
+    surface.write_to_png(path)
+    size = (surface.get_width(), surface.get_height()) * 2
+    with open(path.rsplit(".", 1)[0] + ".words", "w", encoding="utf-8") as file:
+        for *box, string in WORDS:
+            shares = " ".join(f"{v / s:.4f}" for v, s in zip(box, size))
+            file.write(f"{shares} {string}\n")
+    WORDS.clear()
 
 
 def rounded(ctx, x, y, width, height, radius):

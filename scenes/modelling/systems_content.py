@@ -20,7 +20,7 @@ from flight_content import (
     line,
     page,
 )
-from pens import polar, polygon, ring, text
+from pens import polar, polygon, ring, save, text
 
 ENGINE_SIZE = (1024, 1280)
 
@@ -135,7 +135,7 @@ def draw_engine(path):
     engines(ctx)
     flaps(ctx)
     alerts(ctx)
-    surface.write_to_png(path)
+    save(surface, path)
 
 
 def draw_standby(path):
@@ -186,7 +186,7 @@ def draw_standby(path):
     box(ctx, 92, 464, 328, 48, (0.0, 0.0, 0.0))
     text(ctx, "STD", 256, 500, 34, CYAN, FACE)
     text(ctx, "M .784", 150, 500, 26, GREEN, FACE)
-    surface.write_to_png(path)
+    save(surface, path)
 
 
 CDU_LINES = (
@@ -219,7 +219,7 @@ def draw_cdu(path):
     line(ctx, [(10, 402), (630, 402)], GREY, 2)
     box(ctx, 10, 446, 620, 34, DARK)
     text(ctx, "GPS PRIMARY", 20, 474, 29, AMBER, FACE, align="left")
-    surface.write_to_png(path)
+    save(surface, path)
 
 
 SEGMENTS = {
@@ -272,7 +272,7 @@ def draw_windows(path):
         for letter in string:
             digit(ctx, x, 144 * k + 36, 42, 74, letter, color)
             x += 22 if letter == "." else advance
-    surface.write_to_png(path)
+    save(surface, path)
 
 
 LAND, WATER, PAPER = (0.115, 0.125, 0.130), (0.055, 0.085, 0.115), (0.030, 0.034, 0.040)
@@ -318,7 +318,7 @@ def draw_tablet(path):
     box(ctx, 0, 738, 600, 62, PAPER)
     for k, name in enumerate(("CHARTS", "PERF", "DOCS", "MSG")):
         text(ctx, name, 75 + 150 * k, 778, 25, CYAN if k == 0 else GREY, FACE)
-    surface.write_to_png(path)
+    save(surface, path)
 
 
 def draw_systems(folder):

@@ -12,6 +12,7 @@
 #include "cli/options/cli.h"
 #include "cli/options/scene_warnings.h"
 #include "cli/options/scene_options.h"
+#include "scene/check/display_frame.h"
 #include "scene/load/scene_load.h"
 #include "spectrum/photometry.h"
 #include "text/json_text.h"
@@ -434,6 +435,7 @@ static bool run_check(int argc, char **argv, Arena *arena, Error *err)
     bool   done = true;
     hdri_warn(&scene->environment, &problems);
     data_warn(scene, is_strict ? SEVERITY_ERROR : SEVERITY_WARNING, &problems);
+    forward_doubt(scene, &problems);
     panels_warn(scene, is_strict ? SEVERITY_ERROR : SEVERITY_WARNING, &problems);
     if (cli.json)
         done = print_json(scene, &problems, arena, err);

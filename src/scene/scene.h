@@ -168,6 +168,7 @@ typedef struct Display {
     int   material_id;
     TextureSlot content;    /* NO_ID: full white is shown, with a warning */
     float level;            /* multiplies all emission, >= 0 */
+    bool  any_size;         /* however large it is: it is meant (check/display_frame.h) */
     DisplayFinish finish;
     float place_from_uv[4]; /* of a panel that varies: a place of its active area
                                (panel_place.h) is {u [0] + [1], v [2] + [3]} of the content's */

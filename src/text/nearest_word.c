@@ -51,6 +51,15 @@ const char *nearest_word_meant(const char *word, const char *const *known, int c
     return letters ? nearest_word_within(word, known, count, (int)letters / 3 + 1) : NULL;
 }
 
+const char *nearest_key(const char *key, const char *const *known, int count, int limit)
+{
+    const char *near = nearest_word_within(key, known, count, limit), *same = NULL;
+    size_t      stem = strcspn(key, "_");
+    for (int i = 0; i < count && !near && !same && stem; i++)
+        if (stem == strcspn(known[i], "_") && !strncmp(key, known[i], stem)) same = known[i];
+    return near ? near : same;
+}
+
 /* ---- what would be right ----------------------------------------------------------------- */
 
 static const char *quote_of(const char *name)

@@ -20,6 +20,11 @@ const char *nearest_word_within(const char *word, const char *const *known, int 
  * that length. NULL when none is. */
 const char *nearest_word_meant(const char *word, const char *const *known, int count);
 
+/* The known key of the same quantity: all before the first '_' of the two is the same, as in
+ * "luminance_cd_m2" and "luminance", "width_mm" and "width_m". Else within `limit` letters, or
+ * NULL. */
+const char *nearest_key(const char *key, const char *const *known, int count, int limit);
+
 /* Advice on an unknown `word`, for an error's text: the name that may be meant, then all in the
  * order given, as far as they fit:
  *     did you mean cluster? There are cluster, "leather black" and 41 more

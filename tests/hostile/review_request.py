@@ -57,6 +57,7 @@ GOOD = {
     "levels": {"night": {"*": 0.04, "screen": 0.1},
                "auto": {"sensor": {"position_m": [0, 0.2, 0.2], "normal": [0, 3, 4]},
                         "table_lx": [[0, 0.02], [100, 0.1], [10000, 1]]}},
+    "max_level": 2,
     "precision": {"contrast": 0.02, "clear": 0.05, "paths": 65536, "seed": 3},
     "frames": {"size": [64, 36], "noise": 0.1, "worst": 2},
     "variants": {

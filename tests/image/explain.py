@@ -120,6 +120,7 @@ def check_remedies(report, reviewer):
 
     brighter = remedies["brightness"]
     document["levels"] = {"more": {"*": brighter["level"]}}
+    document["max_level"] = 100
     document["conditions"][0]["level"] = "more"
     _, review = reviewer.review(document, "brighter")
     judged("brighter", brighter["contrast_ratio"], review["cases"][0])

@@ -5,8 +5,11 @@
 
 #include "cli/equip/equip_apply.h"
 #include "cli/equip/equip_page.h"
+#include "cli/equip/equip_shipped.h"
 #include "cli/equip/usual_material.h"
+#include "scene/check/display_frame.h"
 #include "scene/load/scene_load.h"
+#include "text/text.h"
 
 #define OFF 1e-5 /* m, and of unit vectors */
 
@@ -234,6 +237,132 @@ ARENA_TEST(without_content_there_is_no_review)
     assert_false(file_exists(in_folder("bare.review.json")));
 }
 
+/* The figures of scenes/occupant.gltf: its head's top is 1.434 m up and its toes are 0.75 m
+ * ahead of its node, above which its eyes are, at 1.3 m. */
+ARENA_TEST(an_occupant_sits_where_the_eye_is)
+{
+    static const struct { const char *forward; double x, z; } ways[] = {
+        {"[1, 0, 0]", 1, 0}, {"[0, 0, -1]", 0, -1}, {"[-1, 0, 0]", -1, 0}, {"[0, 0, 1]", 0, 1}};
+    EquipResult result;
+    const char *model = write_glb("m.glb");
+    for (int i = 0; i < 4; i++) {
+        Arena scratch = arena;
+        write_changed("\"forward\": [1, 0, 0]",
+                      arena_format(&scratch, "\"forward\": %s, \"occupant\": {\"eye\": "
+                                   "\"driver\", \"shirt\": \"black\"}", ways[i].forward),
+                      &scratch);
+        assert_done(apply(model, in_folder("o.gltf"), true, &scratch, &result, &err));
+        assert_text_has(result.occupant, "o.occupant.gltf");
+        Scene *scene = load(result.occupant, &scratch);
+        Vec3   low = scene->bounds_min, high = scene->bounds_max;
+        double ahead = ways[i].x > 0 ? high.x + 0.37 : ways[i].x < 0 ? -0.37 - low.x
+                       : ways[i].z > 0 ? high.z - 0.11 : 0.11 - low.z;
+        assert_near(high.y, 1.21 - 1.3 + 1.4339, 1e-3);
+        assert_near(ahead, 0.7495, 1e-3);
+        scene_close(scene);
+        const char *review = read_text(result.review, &scratch);
+        assert_text_has(review, "\"driver in black\": [\"o.occupant.gltf\"]");
+        assert_text_has(review, "\"with\": \"driver in black\"");
+    }
+    assert_true(file_exists(in_folder("occupant.bin")));
+}
+
+ARENA_TEST(a_folder_can_be_sent_to_somebody)
+{
+    EquipResult result;
+    FileBytes   bytes;
+    const char *panel;
+    mkdir(in_folder("mine"), 0777);
+    mkdir(in_folder("sent"), 0777);
+    assert_done(equip_shipped_find(&shipped_panels, "ips_cluster", &arena, &panel, &err));
+    assert_done(file_read(panel, 1 << 26, &arena, &bytes, &err));
+    write_bytes(in_folder("mine/own.panel"), bytes.data, bytes.size);
+    const char *model = write_glb("mine/m.glb");
+    write_changed("\"ips_cluster\"", "\"own.panel\"", &arena);
+    assert_done(apply(model, in_folder("sent/n.gltf"), false, &arena, &result, &err));
+    assert_true(file_exists(in_folder("sent/own.panel")));
+    assert_true(file_exists(in_folder("sent/cluster.png")));
+    assert_null(strstr(read_text(in_folder("sent/n.gltf"), &arena), "../"));
+}
+
+/* An eighth of a cylinder of radius 0.4 m about the Y axis, seen from its axis: corners by sine
+ * and cosine, normals towards the axis. */
+static const char *cylinder(Arena *arena)
+{
+    enum { STRIPS = 12 };
+    Text text = {.arena = arena};
+    text_add(&text, "\"mesh\": {\"positions_m\": [");
+    for (int i = 0; i <= STRIPS; i++)
+        for (int y = 0; y < 2; y++) {
+            double angle = M_PI / 4 * ((double)i / STRIPS - 0.5);
+            text_format(&text, "%s%.9g, %.9g, %.9g", i || y ? ", " : "", 0.4 * sin(angle),
+                        0.2 * y, -0.4 * cos(angle));
+        }
+    text_add(&text, "], \"uv\": [");
+    for (int i = 0; i <= STRIPS; i++)
+        text_format(&text, "%s%.9g, 1, %.9g, 0", i ? ", " : "", (double)i / STRIPS,
+                    (double)i / STRIPS);
+    text_add(&text, "], \"triangles\": [");
+    for (int i = 0; i < STRIPS; i++)
+        text_format(&text, "%s%d, %d, %d, %d, %d, %d", i ? ", " : "", 2 * i, 2 * i + 2,
+                    2 * i + 3, 2 * i, 2 * i + 3, 2 * i + 1);
+    text_add(&text, "]}, \"panel\"");
+    return text.data;
+}
+
+ARENA_TEST(a_curved_face_is_a_display)
+{
+    EquipResult  result;
+    DisplayFrame frame;
+    const char  *model = write_glb("m.glb");
+    write_changed("\"panel\"", cylinder(&arena), &arena);
+    assert_done(apply(model, in_folder("c.gltf"), true, &arena, &result, &err));
+    Scene      *scene = load(in_folder("c.gltf"), &arena);
+    const Part *part = part_named(scene, "speed");
+    assert_int_equal(part->triangle_count, 24);
+    assert_true(display_frame_of(scene, part, &frame));
+    assert_near(frame.width_m, 0.4 * 24 * sin(M_PI / 96), 1e-5); /* 12 chords */
+    assert_near(frame.height_m, 0.2, 1e-5);
+    assert_vec(frame.normal, 0, 0, 1);
+    for (uint32_t v = 2; v < 24; v++) { /* all but the rims see both strips */
+        Vec3 n = part->normals[v], p = scene->positions[part->first_vertex + v];
+        assert_near(n.x, -p.x / 0.4, 1e-5);
+        assert_near(n.z, -p.z / 0.4, 1e-5);
+    }
+    scene_close(scene);
+}
+
+ARENA_TEST(what_is_read_stands_in_the_review)
+{
+    EquipResult result;
+    const char *model = write_glb("m.glb");
+    write_changed("\"level\": 0.5", "\"symbols\": [{\"name\": \"48\", \"uv\": [0.1, 0.2, 0.3, "
+                  "0.4], \"polarity\": \"light-on-dark\"}, {\"name\": \"km/h\", \"uv\": [0, 0, "
+                  "1, 0.5]}]", &arena);
+    assert_done(apply(model, in_folder("s.gltf"), true, &arena, &result, &err));
+    const char *review = read_text(result.review, &arena);
+    assert_text_has(review, "\"48\": {");
+    assert_text_has(review, "[0.1, 0.2, 0.3, 0.4]");
+    assert_text_has(review, "\"light-on-dark\"");
+    assert_text_has(review, "\"km/h\": {");
+    assert_null(strstr(review, "\"find\""));
+    assert_text_has(review, "\"an ordinary day\"");
+    assert_text_has(review, "\"an ordinary night\"");
+    write_changed("\"level\": 0.5", "\"symbols\": []", &arena);
+    assert_done(apply(model, in_folder("s.gltf"), true, &arena, &result, &err));
+    assert_null(result.review);
+}
+
+ARENA_TEST(forward_is_proposed_from_the_first_eye)
+{
+    EquipResult result;
+    const char *model = write_glb("m.glb");
+    write_changed("\"forward\": [1, 0, 0],", "", &arena); /* it looks along (0.67, , -0.61) */
+    assert_done(apply(model, in_folder("f.gltf"), true, &arena, &result, &err));
+    assert_true(result.forward_is_proposed && result.forward[0] == 1 && result.forward[2] == 0);
+    assert_null(result.occupant);
+}
+
 /* ---- what is refused --------------------------------------------------------------------- */
 
 static const struct {
@@ -243,6 +372,24 @@ static const struct {
     {"\"model\"", "\"modle\"", "/modle", "the nearest known one is 'model'"},
     {"\"width_m\": 0.3", "\"width_mm\": 300", "/displays/0/width_mm", "'width_m'"},
     {"\"width_m\": 0.3", "\"width_m\": 0", "/displays/0/width_m", "from 0.001 to 100"},
+    {"\"width_m\": 0.3", "\"width_m\": 1.75", "/displays/0/width_m", "required 0.005 to 1.5 m"},
+    {"\"level\": 0.5", "\"level\": 50", "/displays/0/level", "required a level from 0 to 1"},
+    {"\"level\": 0.5", "\"symbols\": [{\"name\": \"a\", \"uv\": [0.3, 0, 0.2, 1]}]",
+     "/displays/0/symbols/0/uv", "required left < right"},
+    {"\"level\": 0.5", "\"symbols\": [{\"name\": \"a\", \"uv\": [0, 0, 1, 1]}, {\"name\": "
+     "\"a\", \"uv\": [0, 0, 1, 1]}]", "/displays/0/symbols/1/name", "is 'a' once more"},
+    {"\"level\": 0.5", "\"mesh\": {\"positions_m\": [0, 0, 0, 1], \"uv\": [0, 0], "
+     "\"triangles\": [0, 0, 0]}", "/displays/0/mesh/positions_m", "required a multiple of 3"},
+    {"\"level\": 0.5", "\"mesh\": {\"positions_m\": [0, 0, 0, 1, 0, 0, 0, 1, 0], "
+     "\"uv\": [0, 0], \"triangles\": [0, 1, 2]}", "/displays/0/mesh/uv",
+     "required one of each of 3"},
+    {"\"level\": 0.5", "\"mesh\": {\"positions_m\": [0, 0, 0, 1, 0, 0, 0, 1, 0], "
+     "\"uv\": [0, 0, 1, 0, 0, 1], \"triangles\": [0, 1, 3]}", "/displays/0/mesh/triangles",
+     "below 3"},
+    {"\"profile\"", "\"occupant\": {\"eye\": \"drver\"}, \"profile\"", "/occupant/eye",
+     "did you mean driver?"},
+    {"\"profile\"", "\"occupant\": {\"eye\": \"down\", \"shirt\": \"red\"}, \"profile\"",
+     "/occupant/shirt", "white"},
     {"[0.36, 0.8, 0.48]", "[1, 1, 0]", "/displays/0/up", "degrees to \"right\", wanted 90"},
     {"[0.36, 0.8, 0.48]", "[0, 0, 0]", "/displays/0/up", "is the zero vector"},
     {"ips_cluster", "ips_clustr", "/displays/0/panel", "did you mean ips_cluster?"},

@@ -23,6 +23,7 @@ static void show_a_corner(Scene *scene, Arena *arena)
 {
     static const Vec2 uv[3] = {{0.5f, 0}, {1, 0}, {1, 0.5f}};
     Part *part = &scene->parts[3];
+    scene->positions = ARENA_NEW(arena, Vec3, 3); /* of no size: nothing can be odd of it */
     scene->triangles = ARENA_NEW(arena, Triangle, 1);
     scene->triangles[0] = (Triangle){{0, 1, 2}, 3};
     scene->triangle_count = part->triangle_count = 1;

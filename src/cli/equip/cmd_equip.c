@@ -93,16 +93,24 @@ static bool print_result(const EquipWords *words, const EquipResult *r, Arena *a
 {
     if (words->cli.json)
         return cli_print_json(
-            json_pack("{s:o, s:o, s:o, s:o, s:i, s:i, s:i, s:i}", "scene", json_text(r->scene),
+            json_pack("{s:o, s:o, s:o, s:o, s:i, s:i, s:i, s:i, s:[f,f,f], s:b, s:o}", "scene",
+                      json_text(r->scene),
                       "bin", json_text_or_null(r->bin), "review",
                       json_text_or_null(r->review), "copies",
                       json_texts(r->copies, r->copy_count), "displays", r->display_count,
                       "eyes", r->eye_count, "materials", r->material_count, "without_data",
-                      r->without_data),
+                      r->without_data, "forward", r->forward[0], r->forward[1], r->forward[2],
+                      "forward_is_proposed", r->forward_is_proposed, "occupant",
+                      json_text_or_null(r->occupant)),
             err);
     print("scene        %s: displays %d, eyes %d, materials %d\n", r->scene, r->display_count,
           r->eye_count, r->material_count);
+    print("ahead        (%g, %g, %g)%s\n", r->forward[0] + 0.0, r->forward[1] + 0.0,
+          r->forward[2] + 0.0,
+          r->forward_is_proposed ? ": proposed from where the first eye looks" : "");
     if (r->bin) print("bytes        %s\n", r->bin);
+    if (r->occupant) print("occupant     %s\n", r->occupant);
+    else print("occupant     none: nobody sits in the driver's seat\n");
     for (int i = 0; i < r->copy_count; i++) print("copy         %s\n", r->copies[i]);
     if (r->review) print("review       %s\n", r->review);
     else print("review       none: no display shows content that could be read\n");

@@ -2,199 +2,12 @@
 /* The steps of `parhelion equip`'s page: displays, eyes, materials, the review, and the file
    that all of it goes into (assets/schemas/equip.schema.json). */
 (function(){
-var view=equipView,data=view.data;
-/* kept: materials as a file that was opened has them, with figures of its own. */
-var state={displays:[],eyes:[],as:{},kept:{},mode:'display',chosen:null,
-  lit:null};
-var proposals=[],pictures={},OWN='figures of its own';
-function $(id){return document.getElementById(id);}
-/* A name as it may be shown (print/printable.h); what is typed and saved stays as it is. */
-function shown(text){
-  return String(text).replace(
-    /[\u0000-\u001f\u007f-\u009f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]/g,function(c){
-      return '\\u'+c.charCodeAt(0).toString(16).toUpperCase().padStart(4,'0');});
-}
-function make(tag,attributes,text){
-  var e=document.createElement(tag);
-  for(var key in attributes||{})
-    if(key in e&&typeof attributes[key]!=='string')e[key]=attributes[key];
-    else e.setAttribute(key,key==='value'?attributes[key]:shown(attributes[key]));
-  if(text!==undefined)e.textContent=shown(text);
-  return e;
-}
-function say(text,isBad){
-  $('hint').textContent=shown(text);
-  $('hint').classList.toggle('bad',!!isBad);
-}
-function round(v){return Math.round(v*1e6)/1e6+0;}
-function list(v){return v.isVector3?[round(v.x),round(v.y),round(v.z)]:v.map(round);}
-function vector(p){return new THREE.Vector3(p[0],p[1],p[2]);}
-/* The page is in the scene's coordinates, its file in the world's. */
-function inWorld(p){return list(p).map(function(x,a){return round(x+data.origin[a]);});}
-function fromWorld(p){return p.map(function(x,a){return x-data.origin[a];});}
-
-/* ---- names: each means one thing ---- */
-function isTaken(name,but){
-  return state.displays.concat(state.eyes).some(function(x){return x!==but&&x.name===name;})||
-    data.parts.some(function(p){return p.name===name;})||
-    data.materials.some(function(m){return m.name===name;})||
-    data.cameras.some(function(c){return c.name===name;});
-}
-function freeName(wish){
-  var name=wish;
-  for(var i=2;isTaken(name);i++)name=wish+' '+i;
-  return name;
-}
-function nameField(item,after){
-  var field=make('input',{type:'text','aria-label':'Name',value:item.name});
-  field.addEventListener('input',function(){
-    var name=field.value.trim(),bad=!name?'a name is wanted':isTaken(name,item)?
-      'the model has that name already':'';
-    field.setCustomValidity(bad);
-    item.bad=bad&&'"'+name+'": '+bad;
-    item.name=name;
-    after();
-  });
-  return field;
-}
-
-/* ---- small controls ---- */
-function numberField(label,get,set,step){
-  var box=make('label',{},label+' '),field=make('input',{type:'number',step:'any'});
-  field.value=get();
-  field.dataset.step=step;
-  field.addEventListener('input',function(){
-    if(!isFinite(field.valueAsNumber))return;
-    set(field.valueAsNumber);
-    changed();
-  });
-  field.addEventListener('keydown',function(e){
-    if(e.key!=='ArrowUp'&&e.key!=='ArrowDown')return;
-    e.preventDefault();
-    field.value=+((field.valueAsNumber||0)+(e.key==='ArrowUp'?step:-step)).toFixed(6);
-    field.dispatchEvent(new Event('input'));
-  });
-  box.append(field);
-  return box;
-}
-function choice(label,words,value,set){
-  var box=make('label',{},label+' '),select=make('select');
-  words.forEach(function(w){select.append(make('option',{value:w[0]},w[1]));});
-  select.value=value;
-  select.addEventListener('change',function(){set(select.value);changed();});
-  box.append(select);
-  return box;
-}
-/* One of those that ship, or a path beside the model. */
-function fileChoice(label,names,none,item,key){
-  var words=names.map(function(n){return [n,n];}).concat(none?[['',none]]:[],
-    [['*','a file of your own ...']]);
-  var isOwn=item[key]&&!names.includes(item[key]);
-  var box=choice(label,words,isOwn?'*':item[key],function(v){
-    own.hidden=v!=='*';
-    item[key]=v==='*'?own.value:v;
-  });
-  var own=make('input',{type:'text',placeholder:'path, as seen from the model',
-    'aria-label':label+': path',hidden:!isOwn,value:isOwn?item[key]:''});
-  own.addEventListener('input',function(){item[key]=own.value.trim();changed();});
-  box.append(own);
-  return box;
-}
-function card(item,title,from){
-  var box=make('div',{'class':'card'}),top=make('div',{'class':'top'});
-  var away=make('button',{type:'button','class':'plain','aria-label':'Remove '+title},'Remove');
-  box.classList.toggle('chosen',state.chosen===item);
-  top.append(nameField(item,changed),away);
-  away.addEventListener('click',function(){
-    state.displays=state.displays.filter(function(x){return x!==item;});
-    state.eyes=state.eyes.filter(function(x){return x!==item;});
-    state.eyes.forEach(function(e){if(e.looks===item)e.looks=state.displays[0]||null;});
-    rebuild();
-  });
-  box.append(top,make('p',{'class':'from'},from));
-  return box;
-}
-
-/* ---- displays ---- */
-/* The rectangle as it was fitted, moved and turned by the numbers. */
-function frameOf(d){
-  var a=d.turn_deg*Math.PI/180,n=d.right.clone().cross(d.up);
-  return {normal:n,
-    right:d.right.clone().multiplyScalar(Math.cos(a)).addScaledVector(d.up,Math.sin(a)),
-    up:d.up.clone().multiplyScalar(Math.cos(a)).addScaledVector(d.right,-Math.sin(a)),
-    centre:d.centre.clone().addScaledVector(d.right,d.dx).addScaledVector(d.up,d.dy)};
-}
-function defaultContent(){
-  var used=state.displays.map(function(d){return d.content;});
-  return ['cluster','centre','pfd','nav','engine'].find(function(n){
-    return pictures[n]&&!used.includes(n);
-  })||(data.contents[0]||{name:''}).name;
-}
-function addDisplay(fit){
-  var same=state.displays.find(function(d){
-    return d.on===fit.on&&d.centre.distanceTo(fit.centre)<0.001;
-  });
-  if(same){
-    state.chosen=same;
-    rebuild();
-    say('"'+same.name+'" is there already.');
-    return;
-  }
-  var content=defaultContent();
-  var d={name:freeName(content||'display'),on:fit.on,centre:fit.centre,right:fit.right,
-    up:fit.up,width:fit.width,height:fit.height,dx:0,dy:0,turn_deg:0,before_mm:0.5,level:1,
-    inside:fit.inside,
-    panel:data.panels.find(function(p){return /ips|oled/.test(p);})||data.panels[0]||'',
-    content:content};
-  state.displays.push(d);
-  state.eyes.forEach(function(e){if(!e.looks)e.looks=d;});
-  state.chosen=d;
-  rebuild();
-  say('"'+d.name+'" on '+d.on+': '+size(d)+'. Another click, another display.');
-}
-function size(d){
-  return Math.round(1000*d.width)+' × '+Math.round(1000*d.height)+' mm';
-}
-function keepShape(d){
-  var c=pictures[d.content];
-  if(!c||!c.width)return;
-  var shape=c.width/c.height;
-  if(d.width>d.height*shape)d.width=d.height*shape;
-  else d.height=d.width/shape;
-  rebuild();
-}
-function goInside(d){
-  var within=d.inside();
-  if(!within){say('No upright rectangle fits into that face.',true);return;}
-  Object.assign(d,within,{turn_deg:0});
-  rebuild();
-}
-function mm(d,key){
-  return [function(){return +(1000*d[key]).toFixed(3);},
-    function(v){d[key]=v/1000;}];
-}
-function plain(d,key){return [function(){return d[key];},function(v){d[key]=v;}];}
-function displayCard(d){
-  var box=card(d,d.name,'on '+d.on);
-  var fields=make('div',{'class':'fields'}),more=make('details',{'class':'more'});
-  fields.append(fileChoice('Panel',data.panels,'',d,'panel'),
-    fileChoice('Content',data.contents.map(function(c){return c.name;}),'none: full white',d,
-      'content'),
-    numberField('Width, mm',...mm(d,'width'),1),numberField('Height, mm',...mm(d,'height'),1));
-  var fine=make('div',{'class':'fields'});
-  fine.append(numberField('To the right, mm',...mm(d,'dx'),1),
-    numberField('Up, mm',...mm(d,'dy'),1),
-    numberField('Turn, °',...plain(d,'turn_deg'),1),
-    numberField('Before the face, mm',...plain(d,'before_mm'),0.5),
-    numberField('Level, 1 is full',...plain(d,'level'),0.1));
-  var shape=make('button',{type:'button','class':'plain'},"The content's shape");
-  var within=make('button',{type:'button','class':'plain',hidden:!d.inside},'Inside the face');
-  shape.addEventListener('click',function(){keepShape(d);});
-  within.addEventListener('click',function(){goInside(d);});
-  more.append(make('summary',{},'Place it finely'),fine);
-  box.append(fields,within,shape,more);
-  return box;
-}
+var view=equipView,data=view.data,base=equipBase,state=base.state,pictures=base.pictures;
+var $=base.$,make=base.make,say=base.say,round=base.round,list=base.list,vector=base.vector,
+  inWorld=base.inWorld,fromWorld=base.fromWorld,freeName=base.freeName,
+  numberField=base.numberField,choice=base.choice,card=base.card,shown=base.shown;
+var frameOf=equipDisplay.frame;
+var proposals=[],OWN='figures of its own',MODES=['display','draw','eye','hide'];
 
 /* ---- eyes ---- */
 function addEye(p){
@@ -202,8 +15,29 @@ function addEye(p){
     looks:state.displays[0]||null,gaze:p.gaze||null,ahead:p.ahead||null};
   state.eyes.push(eye);
   state.chosen=eye;
-  if(p.ahead)$('forward').value=p.ahead.join(',');
   rebuild();
+}
+/* Until somebody chooses it himself: the axis nearest to where the first eye looks. */
+function proposeForward(){
+  var eye=state.eyes[0];
+  if(state.forwardIsChosen||!eye)return;
+  var d=targetOf(eye).sub(vector(eye.position)),isX=Math.abs(d.x)>Math.abs(d.z);
+  $('forward').value=(isX?[Math.sign(d.x),0,0]:[0,0,d.z>0?1:-1]).join(',');
+}
+/* Between it and where an eye looks, seen from above; null: that one looks straight down. */
+function offForward(eye){
+  var d=targetOf(eye).sub(vector(eye.position)),a=ahead(),level=Math.hypot(d.x,d.z);
+  if(level<0.001*d.length())return null;
+  var cosine=(d.x*a[0]+d.z*a[2])/(level*Math.hypot(a[0],a[2]));
+  return Math.acos(Math.max(-1,Math.min(1,cosine)))*180/Math.PI;
+}
+/* How far a display's picture is turned for an eye, to the left; null: not seen from the front. */
+function turnFor(eye,d){
+  var f=frameOf(d),way=f.centre.clone().sub(vector(eye.position)).normalize();
+  var across=way.clone().cross(new THREE.Vector3(0,1,0));
+  if(-way.dot(f.normal)<0.5||across.length()<0.05)return null;
+  var above=across.normalize().clone().cross(way);
+  return Math.atan2(-f.up.dot(across),f.up.dot(above))*180/Math.PI;
 }
 function ahead(){return $('forward').value.split(',').map(Number);}
 /* While there is no display an eye looks ahead. */
@@ -304,19 +138,6 @@ function showMaterials(){
 }
 
 /* ---- what stands in the model ---- */
-function rectangle(d){
-  var f=frameOf(d),group=new THREE.Group(),c=pictures[d.content];
-  var geometry=new THREE.PlaneGeometry(d.width,d.height);
-  var plane=new THREE.Mesh(geometry,new THREE.MeshBasicMaterial(
-    c&&c.texture?{map:c.texture}:{color:0xffffff}));
-  var edge=new THREE.LineSegments(new THREE.EdgesGeometry(geometry),
-    new THREE.LineBasicMaterial({color:state.chosen===d?0xff8a1f:0x2f8fff}));
-  group.add(plane,edge);
-  group.matrixAutoUpdate=false;
-  group.matrix.makeBasis(f.right,f.up,f.normal)
-    .setPosition(f.centre.clone().addScaledVector(f.normal,d.before_mm/1000));
-  return group;
-}
 function eyeMark(eye){
   var group=new THREE.Group(),at=vector(eye.position);
   var ball=new THREE.Mesh(new THREE.SphereGeometry(0.025,20,14),
@@ -330,7 +151,10 @@ function eyeMark(eye){
 }
 function mark(){
   view.marks.remove(...view.marks.children);
-  state.displays.forEach(function(d){view.marks.add(rectangle(d));});
+  state.displays.forEach(function(d){
+    view.marks.add(equipDisplay.mark(d));
+    if(state.chosen===d&&!d.mesh)view.marks.add(equipDisplay.handleMarks(d));
+  });
   state.eyes.forEach(function(e){view.marks.add(eyeMark(e));});
   view.draw();
 }
@@ -341,14 +165,6 @@ view.onlook=function(camera){
 };
 
 /* ---- the file ---- */
-function displayOf(d){
-  var f=frameOf(d),out={name:d.name,on:d.on,centre_m:inWorld(f.centre),right:list(f.right),
-    up:list(f.up),width_m:round(d.width),height_m:round(d.height),before_mm:round(d.before_mm),
-    panel:d.panel};
-  if(d.content)out.content=d.content;
-  out.level=round(d.level);
-  return out;
-}
 function eyeOf(e){
   var out={name:e.name,position_m:inWorld(e.position)};
   if(e.looks)out.looks_at=e.looks.name;
@@ -361,7 +177,7 @@ function numbersOf(text){
 }
 function equipOf(){
   var out={equip:1,model:data.model};
-  if(state.displays.length)out.displays=state.displays.map(displayOf);
+  if(state.displays.length)out.displays=state.displays.map(equipDisplay.saved);
   out.eyes=state.eyes.map(eyeOf);
   var ids=Object.keys(state.as).filter(function(id){return state.as[id];});
   if(ids.length)out.materials=ids.map(function(id){
@@ -369,6 +185,8 @@ function equipOf(){
   });
   out.profile=$('profile').value;
   out.forward=ahead();
+  if($('occupant').value&&state.eyes.length)
+    out.occupant={eye:state.eyes[0].name,shirt:$('occupant').value};
   if($('has-place').checked)out.place={where:['lat','lon','alt'].map(function(id){
     return $(id).valueAsNumber;
   }),year:$('year').valueAsNumber,headings_deg:numbersOf($('headings').value)};
@@ -379,10 +197,14 @@ function lacks(){
   state.displays.concat(state.eyes).forEach(function(x){if(x.bad)out.push(x.bad);});
   if(!state.displays.length)out.push('no display yet: click a face');
   if(!state.eyes.length)out.push('no eye yet');
-  state.displays.forEach(function(d){
-    if(!d.panel)out.push('"'+d.name+'" has no panel');
-    if(!d.content)out.push('"'+d.name+'" shows no content: there is nothing to read');
-    if(!(d.width>=0.001&&d.height>=0.001))out.push('"'+d.name+'" is less than 1 mm wide');
+  state.displays.forEach(function(d){out.push(...equipDisplay.lacks(d));});
+  state.eyes.forEach(function(eye){
+    var off=offForward(eye),turn=eye.looks&&!eye.looks.mesh?turnFor(eye,eye.looks):null;
+    if(off>45)out.push('ahead is '+$('forward').selectedOptions[0].textContent+', "'+eye.name+
+      '" looks '+off.toFixed(0)+'° off it: does the vehicle point there?');
+    if(Math.abs(turn)>60)out.push('"'+eye.looks.name+'" stands '+(Math.abs(turn)>120?
+      'upside down':'on its side')+' for "'+eye.name+'": turned by '+
+      Math.abs(turn).toFixed(0)+'°');
   });
   if($('has-place').checked&&(!headings.length||headings.some(function(h){
     return !(h>=0&&h<=360);
@@ -405,12 +227,7 @@ function quoted(word){return /^[\w.,\/-]+$/.test(word)?word:"'"+word.replace(/'/
 
 /* A file that was saved is taken up again. */
 function take(saved){
-  state.displays=(saved.displays||[]).map(function(d){
-    return {name:d.name,on:d.on||'the model',centre:vector(fromWorld(d.centre_m)),right:vector(d.right),
-      up:vector(d.up),width:d.width_m,height:d.height_m,dx:0,dy:0,turn_deg:0,
-      before_mm:d.before_mm||0.5,level:'level' in d?d.level:1,panel:d.panel,
-      content:d.content||''};
-  });
+  state.displays=(saved.displays||[]).map(equipDisplay.taken);
   state.eyes=saved.eyes.map(function(e){
     var gaze=e.target_m?vector(e.target_m).sub(vector(e.position_m)).normalize():null;
     return {name:e.name,position:fromWorld(e.position_m),why:e.proposed_from||'as it was saved',
@@ -424,6 +241,8 @@ function take(saved){
     state.as[m.index]=m.as||OWN;
     state.kept[m.index]=m;
   });
+  $('occupant').value=saved.occupant?saved.occupant.shirt||'white':'';
+  state.forwardIsChosen=!!saved.forward;
   $('profile').value=saved.profile||'iso-15008';
   var way=(saved.forward||[0,0,-1]).join(',');
   if(![...$('forward').options].some(function(o){return o.value===way;}))
@@ -442,10 +261,13 @@ function take(saved){
 
 /* ---- all of it ---- */
 function changed(){
+  proposeForward();
   var missing=lacks(),left=data.materials.filter(function(m,id){
     return m.missing&&!state.as[id];
   }).length;
   $('lacks').replaceChildren(...missing.map(function(t){return make('li',{},t);}));
+  $('seat').textContent=$('occupant').value?'':'Nobody sits in the driver\'s seat: displays '+
+    'reflect the empty seat back, no shirt.';
   $('place').hidden=!$('has-place').checked;
   $('step-displays').classList.toggle('done',state.displays.length>0);
   $('step-eyes').classList.toggle('done',state.eyes.length>0);
@@ -457,26 +279,30 @@ function changed(){
   mark();
 }
 function rebuild(){
-  $('displays').replaceChildren(...state.displays.map(displayCard));
+  $('displays').replaceChildren(...state.displays.map(equipDisplay.card));
   $('eyes').replaceChildren(...state.eyes.map(eyeCard));
   changed();
 }
 function setMode(mode){
   state.mode=mode;
-  ['display','eye'].forEach(function(m){
+  MODES.forEach(function(m){
     $('mode-'+m).setAttribute('aria-pressed',String(m===mode));
   });
-  say(mode==='eye'?'Click a headrest, a cushion or a place before which the eye is.':
-    'Click a face that is a display.');
+  say({eye:'Click a headrest, a cushion or a place before which the eye is.',
+    draw:'Press on a face and drag: the rectangle becomes a display.',
+    hide:'Click what is in the way: it is hidden here, the scene keeps it.',
+    display:'Click a face that is a display.'}[mode]);
+}
+function hide(hit){
+  var part=view.partOf[hit.triangle];
+  view.hide(part);
+  $('show-all').hidden=false;
+  say('"'+data.parts[part].name+'" is hidden here; the scene keeps it.');
 }
 view.onclick=function(hit){
   if(!hit){say('There is nothing under that place.',true);return;}
-  if(state.mode==='display'){
-    var fit=equipFace.fit(hit);
-    if(fit.width<0.001||fit.height<0.001)say(fit.on+': that face is no area.',true);
-    else addDisplay(fit);
-    return;
-  }
+  if(state.mode==='hide'){hide(hit);return;}
+  if(state.mode!=='eye'){equipDisplay.click(hit);return;}
   var p=equipEye.before(hit),eye=state.eyes.includes(state.chosen)?state.chosen:state.eyes[0];
   if(eye){eye.position=p.position;eye.why=p.why;state.chosen=eye;rebuild();}
   else addEye(p);
@@ -515,10 +341,19 @@ function fill(){
   });
 }
 function connect(){
-  ['display','eye'].forEach(function(m){
+  MODES.forEach(function(m){
     $('mode-'+m).addEventListener('click',function(){setMode(m);});
   });
-  ['profile','has-place','lat','lon','alt','year','headings','forward'].forEach(function(id){
+  $('forward').addEventListener('input',function(){state.forwardIsChosen=true;});
+  $('show-all').addEventListener('click',function(){
+    view.hide(null);
+    $('show-all').hidden=true;
+  });
+  $('x-ray').addEventListener('click',function(){
+    view.clear(!view.isClear);
+    $('x-ray').setAttribute('aria-pressed',String(view.isClear));
+  });
+  ['profile','has-place','lat','lon','alt','year','headings','forward','occupant'].forEach(function(id){
     $(id).addEventListener('input',changed);
   });
   $('mark').addEventListener('input',function(){view.paint(colourOf);showMaterials();});
@@ -543,6 +378,8 @@ function connect(){
   });
 }
 async function start(){
+  base.changed=changed;
+  base.rebuild=rebuild;
   try{await view.start();}
   catch(fault){
     say('The model cannot be shown here: '+fault.message+'. A browser with WebGL is wanted.',
@@ -558,7 +395,11 @@ async function start(){
   showMaterials();
   rebuild();
   setMode('display');
-  window.parhelionEquip={ready:true,project:view.project,equip:equipOf};
+  window.parhelionEquip={ready:true,project:view.project,equip:equipOf,lacks:lacks,
+    handles:function(){
+      return state.displays.includes(state.chosen)?equipDisplay.handlesOf(state.chosen)
+        .map(function(h){return {kind:h.kind,x:h.x,y:h.y,at:list(h.at)};}):[];
+    }};
 }
 start();
 })();

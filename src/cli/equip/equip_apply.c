@@ -6,12 +6,15 @@
 #include <string.h>
 #include <jansson.h>
 
+#include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
 #include "base/reference.h"
 #include "cli/equip/equip_files.h"
+#include "cli/equip/equip_occupant.h"
 #include "cli/equip/equip_patch.h"
 #include "cli/equip/equip_shipped.h"
+#include "scene/check/display_frame.h"
 #include "scene/load/material_data.h"
 #include "scene/load/scene_load.h"
 #include "text/json_text.h"
@@ -36,7 +39,7 @@ static bool name_file(const EquipOrder *order, EquipFiles *files, const ShippedK
 {
     const char *path;
     return find_file(order, kind, text, files->arena, &path, err) &&
-           equip_files_uri(files, path, uri, err);
+           equip_files_take(files, path, uri, err);
 }
 
 /* A fault of a name in the equip file, at its place there. */
@@ -97,6 +100,23 @@ static bool check_names(const Equip *equip, const Scene *scene, Error *err)
         if (!check_name(equip, scene, equip->eyes[i].name, equip->eyes[i].place, err))
             return false;
     return true;
+}
+
+static void doubt_forward(const Equip *equip, Problems *problems)
+{
+    const double *f = equip->forward;
+    for (int i = 0; i < equip->eye_count; i++) {
+        const EquipEye *eye = &equip->eyes[i];
+        double          degrees, way[3];
+        for (int k = 0; k < 3; k++) way[k] = eye->target_m[k] - eye->position_m[k];
+        if (forward_angle_deg(f, way, &degrees) && degrees > FORWARD_MOST_DEG)
+            problems_add(problems, SEVERITY_WARNING, equip->file, "/forward",
+                         "(%.3g, %.3g, %.3g) is %.0f degrees off where \"%.60s\" looks, "
+                         "(%.3g, %.3g, %.3g) m away, expected within %g: does the vehicle "
+                         "point there?",
+                         f[0], f[1], f[2], degrees, eye->name, way[0], way[1], way[2],
+                         FORWARD_MOST_DEG);
+    }
 }
 
 static bool check_output(const EquipOrder *order, const char *path, Error *err)
@@ -224,11 +244,42 @@ static bool make_document(Applying *at, Error *err)
 /* ---- writing ----------------------------------------------------------------------------- */
 
 /* Without content there is nothing for a review to read. */
+static bool is_read(const EquipDisplay *display)
+{
+    return display->content && (!display->has_symbols || display->symbol_count);
+}
+
 static bool has_content(const Equip *equip)
 {
     bool found = false;
-    for (int i = 0; i < equip->display_count; i++) found |= equip->displays[i].content != NULL;
+    for (int i = 0; i < equip->display_count; i++) found |= is_read(&equip->displays[i]);
     return found;
+}
+
+/* Displays whose text a review finds itself, and what is read of the others. */
+static void share_displays(const Equip *e, Arena *arena, ReviewWishes *wishes)
+{
+    int          total = 0;
+    const char **found = ARENA_NEW(arena, const char *, e->display_count);
+    for (int i = 0; i < e->display_count; i++) total += e->displays[i].symbol_count;
+    ReviewRead *reads = ARENA_NEW(arena, ReviewRead, total);
+    for (int i = 0; i < e->display_count; i++) {
+        const EquipDisplay *d = &e->displays[i];
+        if (!d->has_symbols) found[wishes->display_count++] = d->name;
+        for (int k = 0; k < d->symbol_count; k++)
+            reads[wishes->read_count++] = (ReviewRead){d->name, d->symbols[k].name,
+                                                       d->symbols[k].polarity,
+                                                       d->symbols[k].uv};
+    }
+    wishes->displays = found;
+    wishes->reads = reads;
+}
+
+static const char *occupant_uri(const Applying *at)
+{
+    if (!at->result.occupant) return NULL;
+    const char *name = arena_format(at->arena, "/%s", path_name(at->result.occupant));
+    return uri_between("/", name, at->arena);
 }
 
 static bool start_review(const Applying *at, const Scene *scene, Error *err)
@@ -236,14 +287,15 @@ static bool start_review(const Applying *at, const Scene *scene, Error *err)
     const Equip *e = &at->equip;
     const char **eyes = ARENA_NEW(at->arena, const char *, e->eye_count);
     const char **eyes_from = ARENA_NEW(at->arena, const char *, e->eye_count);
-    const char **displays = ARENA_NEW(at->arena, const char *, e->display_count);
     for (int i = 0; i < e->eye_count; i++) eyes[i] = e->eyes[i].name;
     for (int i = 0; i < e->eye_count; i++) eyes_from[i] = e->eyes[i].proposed_from;
-    for (int i = 0; i < e->display_count; i++) displays[i] = e->displays[i].name;
-    const ReviewWishes wishes = {
+    ReviewWishes wishes = {
         .profile = e->profile, .forward = {e->forward[0], e->forward[1], e->forward[2]},
-        .eyes = eyes, .eyes_from = eyes_from, .eye_count = e->eye_count, .displays = displays,
-        .display_count = e->display_count, .place = e->has_place ? &e->place : NULL};
+        .eyes = eyes, .eyes_from = eyes_from, .eye_count = e->eye_count,
+        .place = e->has_place ? &e->place : NULL,
+        .occupant = at->result.occupant ? e->occupant.name : NULL,
+        .occupant_uri = occupant_uri(at)};
+    share_displays(e, at->arena, &wishes);
     const ReviewStart start = {&at->order->output, 1, at->result.review, NULL, &wishes,
                                at->order->overwrites};
     return review_request_start(&start, scene, at->arena, err);
@@ -285,13 +337,32 @@ static void report_copies(Applying *at)
     for (int i = 0; i < files->count; i++) at->result.copies[i] = files->copies[i].name;
 }
 
+/* Before the copies: it may name more of them. */
+static bool write_occupant(Applying *at, Error *err)
+{
+    const char *path = equip_files_beside(&at->files, ".occupant.gltf");
+    if (at->equip.occupant.eye_id == NO_ID) return true;
+    if (!check_output(at->order, path, err) ||
+        !equip_occupant_write(&at->equip, &at->files, path, err))
+        return false;
+    at->result.occupant = path;
+    return true;
+}
+
+static void take_back(const Applying *at)
+{
+    const char *const written[] = {at->result.bin, at->result.occupant};
+    equip_files_undo(&at->files);
+    for (int i = 0; i < COUNT_OF(written); i++)
+        if (written[i] && !at->order->overwrites) file_remove(written[i]);
+}
+
 static bool write_all(Applying *at, Error *err)
 {
     Scene *scene;
-    if (!equip_files_write(&at->files, err) || !name_bin(at, err) ||
-        !write_scene(at, &scene, err)) {
-        equip_files_undo(&at->files);
-        if (at->result.bin && !at->order->overwrites) file_remove(at->result.bin);
+    if (!write_occupant(at, err) || !equip_files_write(&at->files, err) ||
+        !name_bin(at, err) || !write_scene(at, &scene, err)) {
+        take_back(at);
         return false;
     }
     scene_without_data(scene, &at->result.without_data, at->arena);
@@ -320,11 +391,14 @@ static bool prepare(Applying *at, Error *err)
     if (!equip_file_read(order->with, at->arena, &at->equip, err) ||
         !equip_files_open(order->model, order->output, order->root, at->arena, &at->files, err))
         return false;
+    doubt_forward(&at->equip, at->problems);
     at->result.scene = order->output;
     at->result.review = equip_files_beside(&at->files, ".review.json");
     at->result.display_count = at->equip.display_count;
     at->result.eye_count = at->equip.eye_count;
     at->result.material_count = at->equip.material_count;
+    at->result.forward_is_proposed = at->equip.forward_is_proposed;
+    memcpy(at->result.forward, at->equip.forward, sizeof at->result.forward);
     return check_output(order, at->result.scene, err) &&
            check_output(order, at->result.review, err) && check_model(at, err);
 }

@@ -21,9 +21,12 @@ typedef struct EquipOrder {
 
 typedef struct EquipResult {
     const char  *scene, *bin, *review; /* NULL: no .bin; no display shows content to read */
+    const char  *occupant;             /* NULL: nobody sits there */
     const char **copies;               /* beside the scene */
     int          copy_count;
     int          display_count, eye_count, material_count;
+    double       forward[3]; /* where the vehicle points */
+    bool         forward_is_proposed;  /* from where the first eye looks */
     int          without_data; /* materials that still have none */
 } EquipResult;
 

@@ -6,11 +6,14 @@
 
 #include "cli/equip/usual_material.h"
 #include "review/profile.h"
+#include "review/request/request_eyes.h"
 #include "review/request/request_fields.h"
+#include "scene/check/display_frame.h"
 
 #define METRES_MAX 1e6
-#define LEAST_M 0.001   /* a display's side */
+#define LEAST_M 0.001   /* a display's side of any size */
 #define MOST_M 100.0
+#define LEVEL_MAX 100.0
 #define NEAR_M 0.001    /* an eye that is nearer looks nowhere */
 #define SQUARE 1e-3     /* of two unit vectors' product */
 #define MATERIALS_MAX 10000
@@ -53,28 +56,155 @@ static bool square(const JsonView *view, EquipDisplay *display, Error *err)
     return true;
 }
 
+/* 25 is meant as 25 %: a level above what was measured has to say so. */
+static bool read_level(const JsonView *view, EquipDisplay *out, Error *err)
+{
+    out->level = out->max_level = 1;
+    return json_view_number(view, "max_level", 1, LEVEL_MAX, &out->max_level, err) &&
+           json_view_number(view, "level", 0, LEVEL_MAX, &out->level, err) &&
+           (out->level <= out->max_level ||
+            field_fails(view, "level", err,
+                        "is %g, required a level from 0 to %g: 1 is as measured, 0.25 a "
+                        "quarter of it; \"max_level\" beside it allows a panel driven above "
+                        "that",
+                        out->level, out->max_level));
+}
+
+static bool check_side(const JsonView *view, const EquipDisplay *display, const char *key,
+                       double m, Error *err)
+{
+    return display->any_size || display_side_is_plausible(m) ||
+           field_fails(view, key, err,
+                       "is %.4g m, required %g to %g m: is the model in metres? If it is "
+                       "meant: \"any_size\": true beside it",
+                       m, DISPLAY_LEAST_M, DISPLAY_MOST_M);
+}
+
+static bool read_size(const JsonView *view, EquipDisplay *out, Error *err)
+{
+    const double side[2] = {LEAST_M, MOST_M};
+    return field_boolean(view, "any_size", &out->any_size, err) &&
+           wanted_number(view, "width_m", side, &out->width_m, err) &&
+           wanted_number(view, "height_m", side, &out->height_m, err) &&
+           check_side(view, out, "width_m", out->width_m, err) &&
+           check_side(view, out, "height_m", out->height_m, err);
+}
+
 /* Absent: full white. */
 static bool read_content(const JsonView *view, const char **out, Error *err)
 {
     return !json_object_get(view->object, "content") || field_name(view, "content", out, err);
 }
 
+static bool read_symbol(const JsonView *view, int i, EquipSymbol *out, Error *err)
+{
+    static const char *const keys[] = {"name", "uv", "polarity"};
+    JsonView       item;
+    ReviewPolarity any;
+    if (!field_item(view, "symbols", i, (FieldWords){keys, COUNT_OF(keys)}, &item, err) ||
+        !field_name(&item, "name", &out->name, err) || !field_wanted(&item, "uv", err) ||
+        !field_numbers(&item, "uv", (JsonRange){0, 1, 4}, out->uv, NULL, err) ||
+        !request_polarity_read(&item, "polarity", &any, err) ||
+        !json_view_text(&item, "polarity", &out->polarity, err))
+        return false;
+    return (out->uv[0] < out->uv[2] && out->uv[1] < out->uv[3]) ||
+           field_fails(&item, "uv", err,
+                       "is [%g, %g, %g, %g], required left < right and top < bottom",
+                       out->uv[0], out->uv[1], out->uv[2], out->uv[3]);
+}
+
+/* An empty list: nothing of it is read. */
+static bool read_symbols(const JsonView *view, EquipDisplay *out, Error *err)
+{
+    const json_t *list = json_object_get(view->object, "symbols");
+    out->has_symbols = list != NULL;
+    if (!list || (json_is_array(list) && !json_array_size(list))) return true;
+    if (!field_list(view, "symbols", EQUIP_SYMBOLS_MAX, &out->symbol_count, err)) return false;
+    EquipSymbol *symbols = ARENA_NEW(view->arena, EquipSymbol, out->symbol_count);
+    for (int i = 0; i < out->symbol_count; i++) {
+        if (!read_symbol(view, i, &symbols[i], err)) return false;
+        for (int k = 0; k < i; k++)
+            if (!strcmp(symbols[k].name, symbols[i].name))
+                return field_fails(view, arena_format(view->arena, "symbols/%d/name", i), err,
+                                   "is '%.60s' once more, required a new name",
+                                   symbols[i].name);
+    }
+    out->symbols = symbols;
+    return true;
+}
+
+/* A list of numbers of a mesh, so many an item. */
+typedef struct MeshColumn {
+    const char    *key;
+    JsonRange      range;
+    int            each;
+    const double **out;
+    int           *count; /* of items */
+} MeshColumn;
+
+static bool read_column(const JsonView *view, const MeshColumn *c, Error *err)
+{
+    double *list = ARENA_NEW(view->arena, double, c->range.capacity);
+    *c->out = list;
+    if (!field_wanted(view, c->key, err) ||
+        !json_view_numbers(view, c->key, c->range, list, c->count, err))
+        return false;
+    if (*c->count % c->each)
+        return field_fails(view, c->key, err, "has %d numbers, required a multiple of %d",
+                           *c->count, c->each);
+    *c->count /= c->each;
+    return true;
+}
+
+static bool check_mesh(const JsonView *view, const EquipMesh *mesh, int uv_count, Error *err)
+{
+    if (uv_count != mesh->vertex_count)
+        return field_fails(view, "uv", err,
+                           "has %d pairs, required one of each of %d positions", uv_count,
+                           mesh->vertex_count);
+    for (int i = 0; i < 3 * mesh->triangle_count; i++) {
+        double vertex = mesh->triangles[i];
+        if (vertex != floor(vertex) || vertex >= mesh->vertex_count)
+            return field_fails(view, "triangles", err,
+                               "holds %g, required whole numbers below %d", vertex,
+                               mesh->vertex_count);
+    }
+    return true;
+}
+
+static bool read_mesh(const JsonView *view, EquipMesh *out, Error *err)
+{
+    static const char *const keys[] = {"positions_m", "uv", "triangles"};
+    JsonView mesh;
+    int      uv_count = 0;
+    const MeshColumn columns[] = {
+        {"positions_m", {-METRES_MAX, METRES_MAX, 3 * EQUIP_VERTICES_MAX}, 3,
+         &out->positions_m, &out->vertex_count},
+        {"uv", {0, 1, 2 * EQUIP_VERTICES_MAX}, 2, &out->uv, &uv_count},
+        {"triangles", {0, EQUIP_VERTICES_MAX, 6 * EQUIP_VERTICES_MAX}, 3, &out->triangles,
+         &out->triangle_count}};
+    if (!json_view_child(view, "mesh", false, &mesh, err)) return false;
+    if (!mesh.object) return true;
+    if (!json_view_check_keys(&mesh, keys, COUNT_OF(keys), err)) return false;
+    for (int i = 0; i < COUNT_OF(columns); i++)
+        if (!read_column(&mesh, &columns[i], err)) return false;
+    return check_mesh(&mesh, out, uv_count, err);
+}
+
 static bool read_display(const JsonView *view, EquipDisplay *out, Error *err)
 {
-    const double side[2] = {LEAST_M, MOST_M};
-    double       before_mm = 0.5;
+    double before_mm = 0.5;
     out->place = view->path;
-    out->level = 1;
     bool ok = field_name(view, "name", &out->name, err) &&
               position(view, "centre_m", out->centre_m, err) &&
               direction(view, "right", out->right, err) &&
               direction(view, "up", out->up, err) && square(view, out, err) &&
-              wanted_number(view, "width_m", side, &out->width_m, err) &&
-              wanted_number(view, "height_m", side, &out->height_m, err) &&
+              read_size(view, out, err) &&
               json_view_number(view, "before_mm", 0.05, 1000, &before_mm, err) &&
               field_name(view, "panel", &out->panel, err) &&
               read_content(view, &out->content, err) &&
-              json_view_number(view, "level", 0, 100, &out->level, err);
+              read_level(view, out, err) && read_symbols(view, out, err) &&
+              read_mesh(view, &out->mesh, err);
     out->before_m = before_mm / 1000;
     return ok;
 }
@@ -91,7 +221,8 @@ static bool is_taken(const Equip *equip, int displays, int eyes, const char *nam
 static bool read_displays(const JsonView *root, Equip *out, Error *err)
 {
     static const char *const keys[] = {"name", "on", "centre_m", "right", "up", "width_m",
-                                       "height_m", "before_mm", "panel", "content", "level"};
+                                       "height_m", "before_mm", "panel", "content", "level",
+                                       "max_level", "any_size", "symbols", "mesh"};
     int count;
     if (!field_list(root, "displays", EQUIP_DISPLAYS_MAX, &count, err)) return false;
     EquipDisplay *list = ARENA_NEW(root->arena, EquipDisplay, count);
@@ -263,13 +394,50 @@ static bool read_place(const JsonView *root, Equip *out, Error *err)
                        where[0], where[1]);
 }
 
+/* The axis nearest to where the first eye looks; of one that looks straight down, -Z. */
+static void propose_forward(Equip *out)
+{
+    const EquipEye *eye = &out->eyes[0];
+    double          x = eye->target_m[0] - eye->position_m[0];
+    double          z = eye->target_m[2] - eye->position_m[2];
+    bool            is_x = fabs(x) > fabs(z);
+    out->forward[0] = is_x ? copysign(1, x) : 0;
+    out->forward[2] = is_x ? 0 : z > 0 ? 1 : -1;
+}
+
 static bool read_forward(const JsonView *root, Equip *out, Error *err)
 {
-    out->forward[2] = -1;
-    if (!field_unit_vector(root, "forward", out->forward, NULL, err)) return false;
+    bool is_given = false;
+    propose_forward(out);
+    if (!field_unit_vector(root, "forward", out->forward, &is_given, err)) return false;
+    out->forward_is_proposed = !is_given;
     return hypot(out->forward[0], out->forward[2]) > VERTICAL ||
            field_fails(root, "forward", err,
                        "is vertical, wanted where the vehicle points");
+}
+
+static bool read_occupant(const JsonView *root, Equip *out, Error *err)
+{
+    static const char *const keys[] = {"eye", "shirt"};
+    static const char *const shirts[] = {"white", "grey", "black"};
+    static const char *const scenes[] = {"occupant", "occupant_grey", "occupant_dark"};
+    JsonView    view;
+    const char *eyes[EQUIP_EYES_MAX];
+    int         shirt = 0;
+    out->occupant.eye_id = NO_ID;
+    if (!json_view_child(root, "occupant", false, &view, err)) return false;
+    if (!view.object) return true;
+    for (int i = 0; i < out->eye_count; i++) eyes[i] = out->eyes[i].name;
+    if (!json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
+        !field_wanted(&view, "eye", err) ||
+        !field_choice(&view, "eye", (FieldWords){eyes, out->eye_count}, &out->occupant.eye_id,
+                      err) ||
+        !field_choice(&view, "shirt", (FieldWords){shirts, COUNT_OF(shirts)}, &shirt, err))
+        return false;
+    out->occupant.shirt = shirts[shirt];
+    out->occupant.scene = scenes[shirt];
+    out->occupant.name = arena_format(root->arena, "driver in %s", shirts[shirt]);
+    return true;
 }
 
 static bool read_profile(const JsonView *root, Equip *out, Error *err)
@@ -296,13 +464,13 @@ static bool read_version(const JsonView *root, Error *err)
 static bool read_all(const JsonView *root, Equip *out, Error *err)
 {
     static const char *const keys[] = {"equip", "model", "displays", "eyes", "materials",
-                                       "profile", "forward", "place"};
+                                       "profile", "forward", "place", "occupant"};
     const char *model = "";
     return json_view_check_keys(root, keys, COUNT_OF(keys), err) && read_version(root, err) &&
            json_view_text(root, "model", &model, err) && read_displays(root, out, err) &&
            read_eyes(root, out, err) && read_materials(root, out, err) &&
            read_profile(root, out, err) && read_forward(root, out, err) &&
-           read_place(root, out, err);
+           read_occupant(root, out, err) && read_place(root, out, err);
 }
 
 bool equip_file_read(const char *file, Arena *arena, Equip *out, Error *err)

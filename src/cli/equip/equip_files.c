@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
 #include "base/reference.h"
@@ -46,11 +47,11 @@ static bool has_same_bytes(const char *a, const char *b, Arena scratch)
 /* A name that somebody has: another copy, or what is written besides. */
 static bool is_taken(const EquipFiles *files, const char *name)
 {
-    const char *const own[] = {".gltf", ".bin", ".review.json"};
+    const char *const own[] = {".gltf", ".bin", ".review.json", ".occupant.gltf"};
     bool found = false;
     for (int i = 0; i < files->count && !found; i++)
         found = !strcmp(files->copies[i].name, name);
-    for (int i = 0; i < 3 && !found; i++)
+    for (int i = 0; i < COUNT_OF(own) && !found; i++)
         found = !strcmp(path_name(equip_files_beside(files, own[i])), name);
     return found;
 }
@@ -88,14 +89,16 @@ static bool add_copy(EquipFiles *files, const char *source, const char **name, E
     return true;
 }
 
-bool equip_files_uri(EquipFiles *files, const char *path, const char **uri, Error *err)
+/* climb: of folders that the URI may leave; what lies farther off is copied. */
+static bool uri_within(EquipFiles *files, const char *path, int climb, const char **uri,
+                       Error *err)
 {
     char target[PATH_MAX];
     if (!realpath(path, target))
         return error_at(err, ERROR_INPUT, path, "", "cannot be found");
     const char *name = NULL;
     *uri = uri_between(files->folder, target, files->arena);
-    if (path_climb(*uri) <= 1) return true;
+    if (path_climb(*uri) <= climb) return true;
     for (int i = 0; i < files->count && !name; i++)
         if (!strcmp(files->copies[i].source, target)) name = files->copies[i].name;
     if (!name &&
@@ -103,6 +106,16 @@ bool equip_files_uri(EquipFiles *files, const char *path, const char **uri, Erro
         return false;
     *uri = uri_between("/", arena_format(files->arena, "/%s", name), files->arena);
     return true;
+}
+
+static bool uri_of(EquipFiles *files, const char *path, const char **uri, Error *err)
+{
+    return uri_within(files, path, files->takes_all ? 0 : 1, uri, err);
+}
+
+bool equip_files_take(EquipFiles *files, const char *path, const char **uri, Error *err)
+{
+    return uri_within(files, path, 0, uri, err);
 }
 
 bool equip_files_write(EquipFiles *files, Error *err)
@@ -154,7 +167,7 @@ static const char *named_file(const EquipFiles *files, const char *uri)
 static bool renamed(EquipFiles *files, json_t *text, json_t **out, Error *err)
 {
     const char *path = named_file(files, json_string_value(text)), *uri;
-    if (path && !equip_files_uri(files, path, &uri, err)) return false;
+    if (path && !uri_of(files, path, &uri, err)) return false;
     *out = path ? json_text(uri) : json_incref(text);
     return true;
 }

@@ -24,6 +24,7 @@ typedef struct EquipCopy {
 typedef struct EquipFiles {
     const char *model, *output, *root; /* root: --root, or NULL */
     const char *folder;                /* the new file's, absolute: "/a/b/" */
+    bool        takes_all;             /* what the document names is copied, too */
     EquipCopy  *copies;
     int         count, capacity;
     Arena      *arena;
@@ -36,8 +37,9 @@ bool equip_files_open(const char *model, const char *output, const char *root, A
 /* The new file's name without its ending, with another one: "car" + ".bin". */
 const char *equip_files_beside(const EquipFiles *files, const char *ending);
 
-/* The URI by which the new file names the file at `path`. */
-bool equip_files_uri(EquipFiles *files, const char *path, const char **uri, Error *err);
+/* The URI by which the new file names the file at `path`, one that goes with it when its folder
+ * is sent to somebody: it lies in that folder or is copied there. */
+bool equip_files_take(EquipFiles *files, const char *path, const char **uri, Error *err);
 
 /* Every file that the model's document names is called as the new file has to: those of buffers
  * and pictures, and what our extensions and EXT_lights_ies name, in extras too. */

@@ -6,74 +6,26 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "cli/equip/equip_content.h"
+#include "cli/equip/equip_picture.h"
 #include "cli/equip/equip_shipped.h"
 #include "cli/equip/usual_material.h"
 #include "cli/options/answer.h"
-#include "image/picture.h"
 #include "page/page.h"
 #include "review/profile_table.h"
 #include "scene/load/material_data.h"
-#include "text/base64.h"
 #include "text/json_text.h"
 
 /* Files beside this one, and Debian's three.js; the build embeds them. */
 extern const char EQUIP_STYLE[], EQUIP_BODY[], EQUIP_VIEW[], EQUIP_FACE[], EQUIP_EYE[],
-    EQUIP_SCRIPT[], THREE_NOTICE[], THREE_SCRIPT[];
+    EQUIP_BASE[], EQUIP_DISPLAY[], EQUIP_SCRIPT[], THREE_NOTICE[], THREE_SCRIPT[];
 
 #define STEPS 16777215.0 /* of a coordinate over the model's size: three bytes */
 #define DATA_BYTES ((size_t)1 << 32) /* address space: what is not touched costs nothing */
 #define GRID 12          /* of places where a texture is asked for its mean */
 #define GLASS_ALPHA 0.25 /* what lets light through is drawn so */
-#define THUMB_PIXELS 512 /* a picture's longer side */
 
 /* ---- pictures ---------------------------------------------------------------------------- */
-
-typedef struct PixelBox {
-    int left, top, right, bottom; /* right and bottom behind the last */
-} PixelBox;
-
-static void mean_codes(const Image *image, PixelBox box, float out[3])
-{
-    const uint8_t *codes = image->pixels;
-    double         sum[3] = {0};
-    for (int y = box.top; y < box.bottom; y++)
-        for (int x = box.left; x < box.right; x++)
-            for (int c = 0; c < 3; c++)
-                sum[c] += codes[4 * ((size_t)y * (size_t)image->width + (size_t)x) + (size_t)c];
-    double count = (double)(box.right - box.left) * (box.bottom - box.top);
-    for (int c = 0; c < 3; c++) out[c] = (float)(sum[c] / (255 * count));
-}
-
-/* Every pixel of the small one is the mean of those it covers. */
-static Picture shrink(const Image *image, int width, int height, Arena *arena)
-{
-    Picture small = picture_create(width, height, arena);
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++) {
-            const PixelBox box = {(int)((long)x * image->width / width),
-                                  (int)((long)y * image->height / height),
-                                  (int)((long)(x + 1) * image->width / width),
-                                  (int)((long)(y + 1) * image->height / height)};
-            mean_codes(image, box, picture_pixel(&small, x, y));
-        }
-    return small;
-}
-
-/* As a data: URI; NULL where it is no usual picture. */
-static json_t *picture_json(const Image *image, int width, int height, Arena scratch)
-{
-    FileBytes bytes;
-    Error     none;
-    if (image->format != IMAGE_RGBA8) return NULL;
-    Picture small = shrink(image, width, height, &scratch);
-    if (!picture_encode("a.jpg", &small, (PictureFile){.bits = 8, .is_srgb = true}, &scratch,
-                        &bytes, &none))
-        return NULL;
-    Text text = {.arena = &scratch};
-    text_add(&text, "data:image/jpeg;base64,");
-    base64_encode(&text, bytes.data, bytes.size);
-    return json_string(text.data);
-}
 
 /* The largest power of two that is no larger: what WebGL repeats. */
 static int power_of_two(int size)
@@ -98,8 +50,11 @@ static json_t *textures_json(const Scene *scene, Arena scratch)
     for (int i = 0; i < scene->texture_count; i++) {
         const Image *image = &scene->textures[i].image;
         json_t      *picture = is_worn(scene, i)
-                                   ? picture_json(image, power_of_two(image->width),
-                                                  power_of_two(image->height), scratch)
+                                   ? equip_picture_json(image, equip_picture_box(image),
+                                                        (PixelSize){
+                                                            power_of_two(image->width),
+                                                            power_of_two(image->height)},
+                                                        scratch)
                                    : NULL;
         json_array_append_new(list, picture ? picture : json_null());
     }
@@ -190,37 +145,6 @@ static json_t *cameras_json(const Scene *scene)
 
 /* ---- what lies with the program ---------------------------------------------------------- */
 
-/* A content that is no usual picture is offered without one. */
-static json_t *content_json(const char *name, Arena scratch)
-{
-    const char *path;
-    Image       image;
-    Error       none;
-    json_t     *out = json_pack("{s:o}", "name", json_text(name));
-    if (!equip_shipped_find(&shipped_contents, name, &scratch, &path, &none) ||
-        !image_read(path, &scratch, &image, &none))
-        return out;
-    int     longer = image.width > image.height ? image.width : image.height;
-    int     by = (longer + THUMB_PIXELS - 1) / THUMB_PIXELS;
-    json_t *picture = picture_json(&image, (image.width + by - 1) / by,
-                                   (image.height + by - 1) / by, scratch);
-    if (!picture) return out;
-    json_object_set_new(out, "picture", picture);
-    json_object_set_new(out, "width", json_integer(image.width));
-    json_object_set_new(out, "height", json_integer(image.height));
-    return out;
-}
-
-static json_t *contents_json(Arena *arena)
-{
-    int          count;
-    const char **names = equip_shipped_names(&shipped_contents, &count, arena);
-    json_t      *list = json_array();
-    for (int i = 0; i < count; i++)
-        json_array_append_new(list, content_json(names[i], *arena));
-    return list;
-}
-
 static json_t *profiles_json(void)
 {
     json_t *list = json_array();
@@ -252,7 +176,7 @@ static json_t *data_json(const Scene *scene, const char *model, const char *comm
     json_object_set_new(data, "textures", textures_json(scene, *arena));
     json_object_set_new(data, "cameras", cameras_json(scene));
     json_object_set_new(data, "panels", json_texts(panels, panel_count));
-    json_object_set_new(data, "contents", contents_json(arena));
+    json_object_set_new(data, "contents", equip_contents_json(arena));
     json_object_set_new(data, "profiles", profiles_json());
     json_object_set_new(data, "usual", usual_material_json());
     return data;
@@ -363,7 +287,8 @@ bool equip_page_write(const Scene *scene, const char *model, const char *command
                       const char *path, Arena *arena, Error *err)
 {
     static const char *const scripts[] = {THREE_NOTICE, THREE_SCRIPT, "\n", EQUIP_VIEW,
-                                          EQUIP_FACE, EQUIP_EYE, EQUIP_SCRIPT, NULL};
+                                          EQUIP_FACE, EQUIP_EYE, EQUIP_BASE, EQUIP_DISPLAY,
+                                          EQUIP_SCRIPT, NULL};
     if (!check_size(scene, model, err)) return false;
     json_t *data = data_json(scene, model, command, arena);
     Arena   own = arena_reserve((size_t)64 << 30);

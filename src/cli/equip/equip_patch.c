@@ -11,7 +11,7 @@
 #define EYE_ASPECT 1.7778
 #define STEEP 0.999       /* a direction that is hardly level: up is another axis */
 
-enum { FLOAT_KIND = 5126, SHORT_KIND = 5123, CORNERS = 4, INDICES = 6 };
+enum { FLOAT_KIND = 5126, SHORT_KIND = 5123, INT_KIND = 5125, CORNERS = 4, INDICES = 6 };
 
 /* ---- small things ------------------------------------------------------------------------ */
 
@@ -155,6 +155,9 @@ static int add_screen(json_t *document, const EquipDisplay *display, const Equip
 {
     json_t *own = json_pack("{s:o, s:f}", "panel", json_text(names->panel), "level",
                             display->level);
+    if (display->max_level > 1)
+        json_object_set_new(own, "max_level", json_real(display->max_level));
+    if (display->any_size) json_object_set_new(own, "any_size", json_true());
     json_t *material =
         json_pack("{s:o, s:{s:[i,i,i,i], s:i, s:f}}", "name", json_text(display->name),
                   "pbrMetallicRoughness", "baseColorFactor", 0, 0, 0, 1, "metallicFactor", 0,
@@ -170,6 +173,104 @@ static int add_screen(json_t *document, const EquipDisplay *display, const Equip
     json_object_set_new(material, "extensions", json_pack("{s:o}", "PARHELION_display", own));
     use_extension(document, "PARHELION_display");
     return add_to(document, "materials", material);
+}
+
+/* What a triangle adds to the normal of its corner k: its own by the angle there (Thuermer and
+ * Wuethrich 1998), so that it does not matter how a surface is cut into triangles. */
+static void add_normal(const double *const p[3], int k, float normal[3])
+{
+    double e[3], f[3], n[3], along = 0, length;
+    for (int i = 0; i < 3; i++) {
+        e[i] = p[(k + 1) % 3][i] - p[k][i];
+        f[i] = p[(k + 2) % 3][i] - p[k][i];
+        along += e[i] * f[i];
+    }
+    cross(e, f, n);
+    length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int i = 0; i < 3 && length > 0; i++)
+        normal[i] += (float)(n[i] / length * atan2(length, along));
+}
+
+static void add_normals(const EquipMesh *mesh, float *normals)
+{
+    for (int t = 0; t < mesh->triangle_count; t++) {
+        const double *p[3];
+        for (int k = 0; k < 3; k++)
+            p[k] = mesh->positions_m + 3 * (int)mesh->triangles[3 * t + k];
+        for (int k = 0; k < 3; k++)
+            add_normal(p, k, normals + 3 * (int)mesh->triangles[3 * t + k]);
+    }
+    for (int v = 0; v < mesh->vertex_count; v++) {
+        float *n = normals + 3 * v, length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        for (int i = 0; i < 3; i++) n[i] = length > 0 ? n[i] / length : i == 2;
+    }
+}
+
+/* Bytes of a list of a mesh, in a buffer of its own; returns its accessor. */
+static int add_list(json_t *document, const void *bytes, int count, int items, Arena scratch)
+{
+    static const char *const types[] = {"", "SCALAR", "VEC2", "VEC3"};
+    Text   text = {.arena = &scratch};
+    size_t size = 4 * (size_t)count * (size_t)items;
+    text_add(&text, "data:application/octet-stream;base64,");
+    base64_encode(&text, bytes, size);
+    int buffer = add_to(document, "buffers", json_pack("{s:I, s:s}", "byteLength",
+                                                       (json_int_t)size, "uri", text.data));
+    return add_accessor(document, add_view(document, buffer, 0, size),
+                        items == 1 ? INT_KIND : FLOAT_KIND, count, types[items]);
+}
+
+/* glTF wants the bounds of positions. */
+static void add_bounds(json_t *document, int accessor, const float *positions, int count)
+{
+    double low[3], high[3];
+    for (int i = 0; i < 3; i++) {
+        low[i] = high[i] = (double)positions[i];
+        for (int v = 1; v < count; v++) {
+            low[i] = fmin(low[i], (double)positions[3 * v + i]);
+            high[i] = fmax(high[i], (double)positions[3 * v + i]);
+        }
+    }
+    json_t *object = json_array_get(json_object_get(document, "accessors"), (size_t)accessor);
+    json_object_set_new(object, "min", numbers(low, 3));
+    json_object_set_new(object, "max", numbers(high, 3));
+}
+
+/* Its primitive without a material: the face as the file has it, from the display's centre on,
+ * where floats are fine however far off the model stands. */
+static json_t *add_face(json_t *document, const EquipDisplay *display, Arena scratch)
+{
+    const EquipMesh *mesh = &display->mesh;
+    int       count = mesh->vertex_count, corners = 3 * mesh->triangle_count;
+    float    *positions = ARENA_NEW(&scratch, float, 3 * (size_t)count);
+    float    *normals = ARENA_NEW(&scratch, float, 3 * (size_t)count);
+    float    *uv = ARENA_NEW(&scratch, float, 2 * (size_t)count);
+    uint32_t *index = ARENA_NEW(&scratch, uint32_t, corners);
+    for (int i = 0; i < 3 * count; i++)
+        positions[i] = (float)(mesh->positions_m[i] - display->centre_m[i % 3]);
+    for (int i = 0; i < 2 * count; i++) uv[i] = (float)mesh->uv[i];
+    for (int i = 0; i < corners; i++) index[i] = (uint32_t)mesh->triangles[i];
+    add_normals(mesh, normals);
+    int position = add_list(document, positions, count, 3, scratch);
+    add_bounds(document, position, positions, count);
+    int normal = add_list(document, normals, count, 3, scratch);
+    int picture = add_list(document, uv, count, 2, scratch);
+    int triangles = add_list(document, index, corners, 1, scratch);
+    return json_pack("{s:{s:i, s:i, s:i}, s:i}", "attributes", "POSITION", position, "NORMAL",
+                     normal, "TEXCOORD_0", picture, "indices", triangles);
+}
+
+static void add_face_display(json_t *document, const EquipDisplay *display,
+                             const EquipNames *names, Arena scratch)
+{
+    json_t *primitive = add_face(document, display, scratch);
+    json_object_set_new(primitive, "material",
+                        json_integer(add_screen(document, display, names)));
+    int mesh = add_to(document, "meshes", json_pack("{s:o, s:[o]}", "name",
+                                                    json_text(display->name), "primitives",
+                                                    primitive));
+    add_node(document, json_pack("{s:o, s:i, s:o}", "name", json_text(display->name), "mesh",
+                                 mesh, "translation", numbers(display->centre_m, 3)));
 }
 
 static void add_display(json_t *document, const EquipDisplay *display, const EquipNames *names,
@@ -290,7 +391,9 @@ bool equip_patch(json_t *document, const Equip *equip, const EquipNames *names, 
     if (!patch_materials(document, equip, err)) return false;
     json_t *rectangle = equip->display_count ? add_rectangle(document, scratch) : NULL;
     for (int i = 0; i < equip->display_count; i++)
-        add_display(document, &equip->displays[i], &names[i], rectangle);
+        if (equip->displays[i].mesh.vertex_count)
+            add_face_display(document, &equip->displays[i], &names[i], scratch);
+        else add_display(document, &equip->displays[i], &names[i], rectangle);
     for (int i = 0; i < equip->eye_count; i++)
         add_eye(document, &equip->eyes[i], equip->forward);
     json_decref(rectangle);

@@ -11,8 +11,9 @@
 
 #define NAMES_MAX 256
 
-const ShippedKind shipped_panels = {"panel", "panels", ".panel"};
-const ShippedKind shipped_contents = {"content", "content", ".png"};
+const ShippedKind shipped_panels = {"panel", "assets/panels", ".panel"};
+const ShippedKind shipped_contents = {"content", "assets/content", ".png"};
+const ShippedKind shipped_scenes = {"scene", "scenes", ".gltf"};
 
 bool equip_shipped_is_name(const char *text)
 {
@@ -24,8 +25,8 @@ static bool find_folder(const ShippedKind *kind, Arena *arena, const char **path
 {
     char              found[PATH_MAX];
     const ProgramPart part = {arena_format(arena, "the folder of %ss", kind->what),
-                              arena_format(arena, "../../assets/%s", kind->folder),
-                              arena_format(arena, INSTALLED_SHARE "/assets/%s", kind->folder)};
+                              arena_format(arena, "../../%s", kind->folder),
+                              arena_format(arena, INSTALLED_SHARE "/%s", kind->folder)};
     if (!program_find(&part, found, err)) return false;
     *path = arena_string(arena, found, strlen(found));
     return true;

@@ -11,10 +11,10 @@
 #include "base/error.h"
 
 typedef struct ShippedKind {
-    const char *what, *folder, *ending; /* "panel", "panels", ".panel" */
+    const char *what, *folder, *ending; /* "panel", "assets/panels", ".panel" */
 } ShippedKind;
 
-extern const ShippedKind shipped_panels, shipped_contents;
+extern const ShippedKind shipped_panels, shipped_contents, shipped_scenes;
 
 /* Whether a text is such a name: no path, no ending. */
 bool equip_shipped_is_name(const char *text);

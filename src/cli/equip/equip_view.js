@@ -5,7 +5,9 @@ var equipView=(function(){
 var data=JSON.parse(document.getElementById('equip-data').textContent);
 var canvas=document.getElementById('canvas');
 var MARK=[0.95,0.25,0.05],LIT=[0.1,0.45,1],CLICK_PIXELS=5,LEAST_M=0.02;
-var view={data:data,canvas:canvas,onclick:null,onlook:null};
+/* onpress says whether a drag from there is somebody's: ondrag and ondrop then hear of it. */
+var view={data:data,canvas:canvas,onclick:null,onlook:null,onpress:null,ondrag:null,ondrop:null,
+  hidden:new Set(),isClear:false};
 
 /* ---- the numbers (page_data.h) ---- */
 function bytesOf(text){
@@ -74,26 +76,52 @@ function addMaterials(){
       polygonOffset:true,polygonOffsetFactor:1,polygonOffsetUnits:1}));
   });
 }
-/* Glass is drawn clear, and a click goes through it to what is behind. */
-function addMesh(isGlass){
-  var parts=data.parts.filter(function(part){
-    return (data.materials[part.material].alpha<1)===isGlass;
+/* Its parts but the hidden ones. */
+function fillMesh(mesh){
+  var parts=data.parts.filter(function(part,p){
+    return (data.materials[part.material].alpha<1)===mesh.isGlass&&!view.hidden.has(p);
   }).sort(function(a,b){return a.material-b.material;});
-  var triangles=[],geometry=new THREE.BufferGeometry();
+  var triangles=[],geometry=mesh.geometry;
+  geometry.clearGroups();
   parts.forEach(function(part){
     geometry.addGroup(3*triangles.length,3*part.count,part.material);
     for(var t=part.first;t<part.first+part.count;t++)triangles.push(t);
   });
   var index=new Uint32Array(3*triangles.length);
   triangles.forEach(function(t,i){index.set(view.index.subarray(3*t,3*t+3),3*i);});
+  geometry.setIndex(new THREE.BufferAttribute(index,1));
+  mesh.triangles=triangles;
+  mesh.visible=triangles.length>0;
+}
+/* Glass is drawn clear, and a click goes through it to what is behind. */
+function addMesh(isGlass){
+  var geometry=new THREE.BufferGeometry(),mesh=new THREE.Mesh(geometry,materials);
   geometry.setAttribute('position',new THREE.BufferAttribute(view.position,3));
   geometry.setAttribute('uv',new THREE.BufferAttribute(view.uv,2));
-  geometry.setIndex(new THREE.BufferAttribute(index,1));
-  var mesh=new THREE.Mesh(geometry,materials);
-  mesh.triangles=triangles;
-  if(triangles.length)scene.add(mesh);
+  mesh.isGlass=isGlass;
+  fillMesh(mesh);
+  scene.add(mesh);
   meshes.push(mesh);
 }
+/* What is hidden is neither seen nor clicked. */
+view.hide=function(part){
+  if(part===null)view.hidden.clear();
+  else view.hidden.add(part);
+  meshes.forEach(fillMesh);
+  view.draw();
+};
+/* As if all were of glass; clicks still meet it. */
+view.clear=function(isClear){
+  view.isClear=isClear;
+  materials.forEach(function(m,id){
+    var alpha=isClear?Math.min(0.3,data.materials[id].alpha):data.materials[id].alpha;
+    m.opacity=alpha;
+    m.transparent=alpha<1;
+    m.depthWrite=alpha>=1;
+    m.needsUpdate=true;
+  });
+  view.draw();
+};
 /* colourOf: a material's colour where something else is said of it, null where it stays. */
 view.paint=function(colourOf){
   data.materials.forEach(function(m,id){
@@ -107,6 +135,15 @@ view.paint=function(colourOf){
 view.MARK=MARK;
 view.LIT=LIT;
 
+/* Corners of a rectangle that is being drawn; null: none is. */
+var outline=null;
+view.outline=function(corners){
+  if(outline)scene.remove(outline);
+  outline=corners&&new THREE.LineLoop(new THREE.BufferGeometry().setFromPoints(corners),
+    new THREE.LineBasicMaterial({color:0xff8a1f,depthTest:false}));
+  if(outline)scene.add(outline);
+  view.draw();
+};
 function addLights(){
   scene.add(new THREE.HemisphereLight(0xffffff,0x8a8f96,0.75));
   var lamp=new THREE.DirectionalLight(0xffffff,0.45);
@@ -188,11 +225,20 @@ function zoom(factor){
 
 /* ---- what is under a pixel ---- */
 var caster=new THREE.Raycaster();
-view.pick=function(x,y){
+view.ray=function(x,y){
   var box=canvas.getBoundingClientRect();
   place();
   caster.setFromCamera(new THREE.Vector2(2*(x-box.left)/box.width-1,
     1-2*(y-box.top)/box.height),camera);
+  return caster.ray;
+};
+/* Where a pixel's ray meets a plane; null: it does not. */
+view.onPlane=function(x,y,point,normal){
+  return view.ray(x,y).intersectPlane(
+    new THREE.Plane().setFromNormalAndCoplanarPoint(normal,point),new THREE.Vector3());
+};
+view.pick=function(x,y){
+  view.ray(x,y);
   for(var mesh of meshes){
     var hits=mesh.triangles.length?caster.intersectObject(mesh):[];
     if(!hits.length)continue;
@@ -211,14 +257,17 @@ view.project=function(point){
 };
 
 /* ---- hands ---- */
-var fingers=new Map(),moved=0;
+var fingers=new Map(),moved=0,isTheirs=false;
 function spread(){
   var f=[...fingers.values()];
   return {x:(f[0].x+f[1].x)/2,y:(f[0].y+f[1].y)/2,d:Math.hypot(f[0].x-f[1].x,f[0].y-f[1].y)};
 }
 canvas.addEventListener('pointerdown',function(e){
   canvas.setPointerCapture(e.pointerId);
-  if(!fingers.size)moved=0;
+  if(!fingers.size){
+    moved=0;
+    isTheirs=e.button===0&&!e.shiftKey&&!!view.onpress&&view.onpress(e.clientX,e.clientY);
+  }
   fingers.set(e.pointerId,{x:e.clientX,y:e.clientY});
 });
 canvas.addEventListener('pointermove',function(e){
@@ -228,6 +277,7 @@ canvas.addEventListener('pointermove',function(e){
   moved+=Math.abs(dx)+Math.abs(dy);
   fingers.set(e.pointerId,{x:e.clientX,y:e.clientY});
   if(moved<=CLICK_PIXELS)return;
+  if(isTheirs){view.ondrag(e.clientX,e.clientY);return;}
   if(before){
     var now=spread();
     pan(now.x-before.x,now.y-before.y);
@@ -236,7 +286,8 @@ canvas.addEventListener('pointermove',function(e){
   else spin(dx*0.006,dy*0.006);
 });
 function lift(e){
-  var was=fingers.delete(e.pointerId);
+  var was=fingers.delete(e.pointerId),held=isTheirs&&moved>CLICK_PIXELS;
+  if(was&&!fingers.size&&held)view.ondrop(e.clientX,e.clientY);
   if(was&&!fingers.size&&moved<=CLICK_PIXELS&&e.type==='pointerup'){
     var hit=view.pick(e.clientX,e.clientY);
     if(e.button===0&&view.onclick)view.onclick(hit);

@@ -6,6 +6,7 @@
 #include "base/count.h"
 #include "base/reference.h"
 #include "cli/options/scene_warnings.h"
+#include "scene/check/display_frame.h"
 #include "scene/load/scene_load.h"
 
 /* They apply in their order: what a later one would undo is refused. */
@@ -93,6 +94,7 @@ bool scene_options_load(const SceneAsked *asked, Arena *arena, Problems *problem
     warn_of_night(&scene->environment, problems);
     hdri_warn(&scene->environment, problems);
     data_warn(scene, SEVERITY_WARNING, problems);
+    forward_doubt(scene, problems);
     panels_warn(scene, SEVERITY_WARNING, problems);
     *out = scene;
     return true;

@@ -310,6 +310,7 @@ typedef struct ReviewRequest {
     const char      *profile;    /* a name of assets/profiles */
     ReviewLevel     *levels;
     int              level_count;
+    double           max_level;  /* that levels may have; 1 where the file says nothing */
     ReviewCondition *conditions;
     int              condition_count;
     ReviewWeather   *weathers;

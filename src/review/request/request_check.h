@@ -19,6 +19,8 @@ bool review_camera_find(const Scene *scene, const ReviewEye *eye, Arena scratch,
 
 /* Everything that the request names of the scene is there: cameras and displays of eyes,
  * symbols, levels and contents. All that is not goes to *problems, with file and path; false
- * when there was any. */
+ * when there was any. Besides, what cannot be meant: displays that are read and are smaller or
+ * larger than any that is built are errors; warned of are a vehicle that points elsewhere than
+ * an eye looks, an eye far from all that it reads, pictures that stand upside down for it. */
 bool review_request_check(const ReviewRequest *request, const Scene *scene,
                           Problems *problems);

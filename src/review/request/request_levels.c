@@ -1,24 +1,53 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/request/request_levels.h"
 
+#include <math.h>
+
 #define LEVELS_MAX 1000
 #define FIXED_MAX 1000
 #define POINTS_MAX 10000
-#define LEVEL_MAX 100.0 /* a hundred times as bright as measured */
+#define LEVEL_MAX 100.0      /* that a panel may be driven to, 1: as measured */
+#define BRIGHTNESS_MAX 100.0 /* times as bright as it stands */
 #define LUX_MAX 1e7
 
 /* ---- fixed ------------------------------------------------------------------------------- */
 
-bool request_levels_fixed(const FieldMembers *members, ReviewFixedLevel **out, Error *err)
+/* 25 is meant as 25 %: a level above what was measured has to say so. */
+static bool check_level(const JsonView *view, const char *place, double level, double most,
+                        Error *err)
+{
+    return (level >= 0 && level <= most) ||
+           field_fails(view, place, err,
+                       "is %g, required a level from 0 to %g: 1 is as measured, 0.25 a quarter "
+                       "of it; \"max_level\" of the request allows panels driven above that",
+                       level, most);
+}
+
+static bool read_fixed(const FieldMembers *members, double most, ReviewFixedLevel **out,
+                       Error *err)
 {
     ReviewFixedLevel *fixed = ARENA_NEW(members->view.arena, ReviewFixedLevel, members->count);
     for (int i = 0; i < members->count; i++) {
-        fixed[i].display = members->name[i];
-        if (!json_view_number(&members->view, members->name[i], 0, LEVEL_MAX, &fixed[i].level,
-                              err))
+        const char *name = fixed[i].display = members->name[i];
+        if (!json_view_number(&members->view, name, -INFINITY, INFINITY, &fixed[i].level,
+                              err) ||
+            !check_level(&members->view, name, fixed[i].level, most, err))
             return false;
     }
     *out = fixed;
+    return true;
+}
+
+bool request_brightness_read(const FieldMembers *members, ReviewFixedLevel **out, Error *err)
+{
+    ReviewFixedLevel *list = ARENA_NEW(members->view.arena, ReviewFixedLevel, members->count);
+    for (int i = 0; i < members->count; i++) {
+        list[i].display = members->name[i];
+        if (!json_view_number(&members->view, members->name[i], 0, BRIGHTNESS_MAX,
+                              &list[i].level, err))
+            return false;
+    }
+    *out = list;
     return true;
 }
 
@@ -37,7 +66,7 @@ static bool read_sensor(const JsonView *view, ReviewLevel *level, Error *err)
 }
 
 /* Row i of the table, held against the one before. */
-static bool read_row(const JsonView *view, int i, ReviewLevel *level, Error *err)
+static bool read_row(const JsonView *view, int i, double most, ReviewLevel *level, Error *err)
 {
     json_t     *row = json_array_get(json_object_get(view->object, "table_lx"), (size_t)i);
     const char *place = arena_format(view->arena, "table_lx/%d", i);
@@ -48,10 +77,12 @@ static bool read_row(const JsonView *view, int i, ReviewLevel *level, Error *err
             return json_view_wrong_kind(view, place, row, "a pair [illuminance in lx, level]",
                                         err);
         value[k] = json_number_value(number);
-        if (!(value[k] >= 0 && value[k] <= (k ? LEVEL_MAX : LUX_MAX)))
-            return field_fails(view, place, err, "holds %g, wanted %s from 0 to %g", value[k],
-                               k ? "a level" : "an illuminance", k ? LEVEL_MAX : LUX_MAX);
     }
+    if (!(value[0] >= 0 && value[0] <= LUX_MAX))
+        return field_fails(view, place, err, "holds %g, wanted an illuminance from 0 to %g",
+                           value[0], LUX_MAX);
+    if (!check_level(view, arena_format(view->arena, "%s/1", place), value[1], most, err))
+        return false;
     if (i && !(value[0] > level->lux[i - 1]))
         return field_fails(view, place, err, "is at %g lx behind %g lx, wanted more lx",
                            value[0], level->lux[i - 1]);
@@ -64,7 +95,7 @@ static bool read_row(const JsonView *view, int i, ReviewLevel *level, Error *err
     return true;
 }
 
-static bool read_curve(const JsonView *view, ReviewLevel *level, Error *err)
+static bool read_curve(const JsonView *view, double most, ReviewLevel *level, Error *err)
 {
     static const char *const keys[] = {"sensor", "table_lx"};
     level->is_curve = true;
@@ -75,11 +106,12 @@ static bool read_curve(const JsonView *view, ReviewLevel *level, Error *err)
     level->lux = ARENA_NEW(view->arena, double, level->point_count);
     level->level = ARENA_NEW(view->arena, double, level->point_count);
     for (int i = 0; i < level->point_count; i++)
-        if (!read_row(view, i, level, err)) return false;
+        if (!read_row(view, i, most, level, err)) return false;
     return true;
 }
 
-static bool read_level(const FieldMembers *members, int i, ReviewLevel *level, Error *err)
+static bool read_level(const FieldMembers *members, int i, double most, ReviewLevel *level,
+                       Error *err)
 {
     FieldMembers parts;
     level->name = members->name[i];
@@ -87,23 +119,28 @@ static bool read_level(const FieldMembers *members, int i, ReviewLevel *level, E
     bool is_curve = json_object_get(parts.view.object, "sensor") ||
                     json_object_get(parts.view.object, "table_lx");
     level->fixed_count = is_curve ? 0 : parts.count;
-    return is_curve ? read_curve(&parts.view, level, err)
-                    : request_levels_fixed(&parts, &level->fixed, err);
+    return is_curve ? read_curve(&parts.view, most, level, err)
+                    : read_fixed(&parts, most, &level->fixed, err);
 }
 
-bool request_levels_of(const JsonView *view, ReviewLevel **out, int *count, Error *err)
+bool request_levels_of(const JsonView *view, double most, ReviewLevel **out, int *count,
+                       Error *err)
 {
     FieldMembers members;
     if (!field_members(view, "levels", LEVELS_MAX, &members, err)) return false;
     *out = ARENA_NEW(view->arena, ReviewLevel, members.count);
     *count = members.count;
     for (int i = 0; i < members.count; i++)
-        if (!read_level(&members, i, &(*out)[i], err)) return false;
+        if (!read_level(&members, i, most, &(*out)[i], err)) return false;
     return true;
 }
 
 bool request_levels_read(RequestReading *reading, Error *err)
 {
     ReviewRequest *request = reading->request;
-    return request_levels_of(&reading->root, &request->levels, &request->level_count, err);
+    request->max_level = 1;
+    return json_view_number(&reading->root, "max_level", 1, LEVEL_MAX, &request->max_level,
+                            err) &&
+           request_levels_of(&reading->root, request->max_level, &request->levels,
+                             &request->level_count, err);
 }

@@ -18,7 +18,7 @@
 static const char *const KEYS[] = {"title",  "scene",     "eyes",       "forward",
                                    "gaze",   "observer",  "with",       "symbols",
                                    "levels", "profile",   "conditions", "precision",
-                                   "frames", "variants",   "sensitivity", "glare"};
+                                   "frames", "variants",   "sensitivity", "glare", "max_level"};
 
 static bool read_title(RequestReading *reading, Error *err)
 {

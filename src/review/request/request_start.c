@@ -187,6 +187,19 @@ static void add_symbols_of(json_t *symbols, const Scene *scene, const Display *d
     }
 }
 
+/* By its own name, or by its display's before it where that is taken. */
+static void add_read(json_t *symbols, const ReviewRead *read, Arena *arena)
+{
+    const char *name = read->name;
+    json_t     *symbol = json_pack("{s:o, s:[f,f,f,f]}", "display", json_text(read->display),
+                                   "uv", read->uv[0], read->uv[1], read->uv[2], read->uv[3]);
+    if (read->polarity) json_object_set_new(symbol, "polarity", json_text(read->polarity));
+    for (int i = 1; json_object_get(symbols, name); i++)
+        name = i == 1 ? arena_format(arena, "%s: %s", read->display, read->name)
+                      : arena_format(arena, "%s: %s %d", read->display, read->name, i);
+    json_object_set_new(symbols, name, symbol);
+}
+
 static bool add_symbols(json_t *document, const ReviewStart *start, const Scene *scene,
                         Arena *arena, Error *err)
 {
@@ -195,6 +208,8 @@ static bool add_symbols(json_t *document, const ReviewStart *start, const Scene 
     for (int i = 0; i < scene->display_count; i++)
         if (is_read(start->wishes, &scene->displays[i]))
             add_symbols_of(symbols, scene, &scene->displays[i], arena);
+    for (int i = 0; start->wishes && i < start->wishes->read_count; i++)
+        add_read(symbols, &start->wishes->reads[i], arena);
     return json_object_size(symbols) > 0 ||
            error_at(err, ERROR_INPUT, scene->inputs[0], "",
                     "has no display that shows content, wanted one to review");
@@ -253,14 +268,39 @@ static json_t *any_sun(void)
                      "sky", "sky", "level", "day");
 }
 
+/* What most hours are like: a sky of even cloud over 10,000 lx, and a street whose lamps and
+ * ground send some 1 cd/m2. The others are the hardest ones. */
+static void add_ordinary(json_t *list)
+{
+    json_array_append_new(
+        list, json_pack("{s:s, s:{s:s, s:i, s:f}, s:s}", "name", "an ordinary day",
+                        "environment", "type", "cie", "sky", 1, "diffuse_horizontal_lx", 1e4,
+                        "level", "day"));
+    json_array_append_new(
+        list, json_pack("{s:s, s:{s:s, s:f}, s:s}", "name", "an ordinary night", "environment",
+                        "type", "constant", "luminance", 1.0, "level", "night"));
+}
+
+static void seat_occupant(const ReviewWishes *wishes, json_t *conditions)
+{
+    json_t *condition;
+    size_t  i;
+    json_array_foreach(conditions, i, condition)
+        json_object_set_new(condition, "with", json_text(wishes->occupant));
+}
+
 static json_t *conditions(const ReviewStart *start, Arena *arena)
 {
     const ReviewPlace place = place_of(start);
     json_t *night = json_pack("{s:s, s:{s:s, s:f}, s:s}", "name", "night", "environment",
                               "type", "constant", "luminance", 0.01, "level", "night");
-    json_t *list = json_pack("[o,o]", noon_of(start, &place, arena), night);
+    json_t *list = json_array();
+    if (start->wishes) add_ordinary(list);
+    json_array_append_new(list, noon_of(start, &place, arena));
+    json_array_append_new(list, night);
     if (start->wishes) json_array_append_new(list, any_sun());
     if (!start->wishes || start->wishes->place) json_array_append_new(list, year_of(&place));
+    if (start->wishes && start->wishes->occupant) seat_occupant(start->wishes, list);
     return list;
 }
 
@@ -283,6 +323,10 @@ static void add_rest(json_t *document, const ReviewStart *start, const Scene *sc
     json_object_set_new(document, "profile", json_text(profile));
     json_object_set_new(document, "levels",
                         json_pack("{s:{s:f}, s:{s:f}}", "day", "*", 1.0, "night", "*", 0.05));
+    if (start->wishes && start->wishes->occupant)
+        json_object_set_new(document, "with",
+                            json_pack("{s:[o]}", start->wishes->occupant,
+                                      json_text(start->wishes->occupant_uri)));
     json_object_set_new(document, "conditions", conditions(start, arena));
 }
 

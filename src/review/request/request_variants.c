@@ -87,7 +87,8 @@ static bool read_levels(VariantReading *v, Error *err)
 {
     const ReviewRequest *request = v->reading->request;
     ReviewVariant       *variant = v->variant;
-    if (!request_levels_of(&v->view, &variant->levels, &variant->level_count, err))
+    if (!request_levels_of(&v->view, request->max_level, &variant->levels,
+                           &variant->level_count, err))
         return false;
     for (int i = 0; i < variant->level_count; i++) {
         const char *name = variant->levels[i].name;
@@ -102,13 +103,25 @@ static bool read_levels(VariantReading *v, Error *err)
     return true;
 }
 
+#define BRIGHTNESS_USUAL 10.0 /* times; beyond it per cent may be meant */
+
+static void doubt_brightness(VariantReading *v, const JsonView *view, const ReviewFixedLevel *b)
+{
+    if (b->level > BRIGHTNESS_USUAL)
+        problems_add(v->reading->problems, SEVERITY_WARNING, view->file,
+                     json_view_path(view, b->display),
+                     "is %g times as bright: if per cent are meant, %g is", b->level,
+                     b->level / 100);
+}
+
 static bool read_brightness(VariantReading *v, Error *err)
 {
     FieldMembers      members;
     ReviewFixedLevel *list;
     if (!field_members(&v->view, "brightness", NAMES_MAX, &members, err) ||
-        !request_levels_fixed(&members, &list, err))
+        !request_brightness_read(&members, &list, err))
         return false;
+    for (int i = 0; i < members.count; i++) doubt_brightness(v, &members.view, &list[i]);
     for (int i = 0; i < members.count; i++)
         say(v, arena_format(arena_of(v), "%s %g times as bright",
                             strcmp(list[i].display, "*") ? list[i].display : "every display",

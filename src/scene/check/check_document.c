@@ -198,8 +198,20 @@ void check_light(const DocumentCheck *check, const GltfValue *light)
 
 /* ---- ours ------------------------------------------------------------------------------ */
 
+/* 25 is meant as 25 %: a level above what was measured has to say so. */
+static void check_level(const DocumentCheck *check, const GltfValue *display)
+{
+    double most = tree_number(display, "max_level", 1);
+    if (tree_number(display, "level", 1) > most)
+        check_fails(check, tree_member(display, "level"),
+                    "is %g, required a level from 0 to %g: 1 is as measured, 0.25 a quarter of "
+                    "it; \"max_level\" beside it allows a panel that is driven above that",
+                    tree_number(display, "level", 1), most);
+}
+
 void check_display(const DocumentCheck *check, const GltfValue *display)
 {
+    check_level(check, display);
     const SceneOptions *options = check->file->load->options;
     const GltfValue *material = display->parent ? display->parent->parent : NULL;
     const char *name = tree_text(material, "name", "");

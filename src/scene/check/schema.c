@@ -235,7 +235,7 @@ static const char *nearest_name(const Schema *schema, const char *name)
     int count = 0;
     for (const Rule *rule = schema->rules; rule->name && count < MEMBERS_MAX; rule++)
         names[count++] = rule->name;
-    return nearest_word_within(name, names, count, 3);
+    return nearest_key(name, names, count, 3);
 }
 
 static const Rule *find_rule(const Schema *schema, const char *name)

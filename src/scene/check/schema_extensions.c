@@ -187,6 +187,8 @@ static const Schema SCHEMA_DISPLAY = {"PARHELION_display", true, check_display, 
     {"panel", .kind = RULE_TEXT},
     {"content", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
     {"level", RULE_NUMBER, .flags = RULE_FROM_MIN},
+    {"max_level", RULE_NUMBER, .min = 1, .max = 100},
+    {"any_size", .kind = RULE_BOOLEAN},
     {"subpixels", RULE_OBJECT, .schema = &SCHEMA_SUBPIXELS})};
 
 static const Schema SCHEMA_SUN = {"sun", true, NULL, RULES(

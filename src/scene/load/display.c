@@ -58,6 +58,7 @@ void display_build(GltfFile *file, const GltfValue *extension, int material_id)
                           .panel_path = load_keep(load, path),
                           .content = texture_slot(file, tree_member(extension, "content")),
                           .level = tree_float(extension, "level", 1),
+                          .any_size = tree_boolean(extension, "any_size", false),
                           .subpixels = subpixels_build(load, tree_member(extension,
                                                                          "subpixels"))},
                 file->path, pointer);
@@ -149,17 +150,32 @@ static void set_content(Loader *load, int display_id, const char *option, const 
     display->content.texture_id = texture_add(load, texture);
 }
 
+/* Percent. Below 1 a share may be meant, above 100 what was measured is left: both are said
+ * with the unit behind them. */
 static void set_level(Loader *load, int display_id, const char *option, const char *value)
 {
     char *end;
     double percent = strtod(value, &end);
-    if (end == value || (*end && strcmp(end, "%") != 0) || !(percent >= 0 && percent <= 1e6)) {
+    bool has_unit = strcmp(end, "%") == 0;
+    if (end == value || (*end && !has_unit) || !(percent >= 0 && percent <= 1e4)) {
         option_error(load, option,
-                     "\"%.100s\" is no percentage; a number from 0 up is "
+                     "\"%.100s\" is no percentage; a number from 0 to 10000 is "
                      "wanted%s",
                      value, "");
         return;
     }
+    if (percent > 100 && !has_unit) {
+        option_error(load, option,
+                     "\"%.100s\" is above 100 percent, what was measured: required 0 to 100, "
+                     "or \"%.100s%%\" for a panel that is driven above that",
+                     value, value);
+        return;
+    }
+    if (percent > 0 && percent < 1 && !has_unit)
+        problems_add(load->problems, SEVERITY_WARNING, option, "",
+                     "\"%.40s\" is %g percent, a level of %g: write \"%.40s%%\" if it is "
+                     "meant, or \"%g\" for a level of %g",
+                     value, percent, percent / 100, value, 100 * percent, percent);
     Display *display = list_item(&load->displays, display_id);
     display->level = (float)(percent / 100);
 }

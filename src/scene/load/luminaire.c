@@ -177,6 +177,10 @@ static void apply(Loader *load, const LampOption *option, const SceneOverride *o
                      "\"%.100s\" is %s is wanted", one->value, option->wanted);
         return;
     }
+    if (option == &LEVEL && value > 0 && value < 1 && !strchr(one->value, '%'))
+        problems_add(load->problems, SEVERITY_WARNING, option->name, "",
+                     "\"%.40s\" is %g percent: write \"%.40s%%\" if it is meant, or \"%g\" for "
+                     "a level of %g", one->value, value, one->value, 100 * value, value);
     for (int i = 0; i < load->lights.count; i++) {
         PunctualLight *light = list_item(&load->lights, i);
         if (light->kind != LIGHT_LUMINAIRE) continue;

@@ -11,6 +11,7 @@
 #include "scene/check/check_data.h"
 #include "scene/check/check_graph.h"
 #include "scene/check/check_usage.h"
+#include "scene/check/display_frame.h"
 #include "scene/check/schema.h"
 #include "scene/check/schema_core.h"
 #include "scene/check/schema_extensions.h"
@@ -221,6 +222,7 @@ static Scene *assemble(Loader *load)
     measure_bounds(scene);
     fill_gaps(scene);
     sort_extensions(scene);
+    displays_doubt(scene, load->problems);
     warn_if_odd(scene, load);
     return scene;
 }
