@@ -33,6 +33,9 @@ const char *words_within(double value, double low, double high, Arena *arena);
 /* A case's: "1.64 : 1"; "–" where it is not visible. */
 const char *words_contrast(const ReviewCase *c, Arena *arena);
 
+/* What a limit found, with the name of its quantity where its unit does not say it. */
+const char *words_quantity(const LimitVerdict *limit, Arena *arena);
+
 /* A contrast ratio of the case in the kind of its limit of contrast, as words_judged. */
 const char *words_ratio_as(const ReviewCase *c, double ratio, Arena *arena);
 
