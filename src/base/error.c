@@ -60,7 +60,7 @@ bool error_prefix(Error *err, const char *format, ...)
 
 bool error_in_file(Error *err, const char *file)
 {
-    if (!err->file[0]) printable_copy(err->file, sizeof err->file, file);
+    if (!err->file[0]) printable_copy(err->file, sizeof err->file, file ? file : "");
     return false;
 }
 

@@ -6,7 +6,7 @@
  *
  * f is the published spread, averaged over pixel p; w(s) pixel s's solid angle. So the veil of
  * a light is the published one, for the lux that it brings to a surface that faces it; a gaze
- * (review/light/eye_reading.h) has the same f, and counts the lux of the pupil that looks
+ * (review/eye/eye_reading.h) has the same f, and counts the lux of the pupil that looks
  * there, smaller by the cosine of the angle.
  *
  * What a pixel sends to the others is taken off its own light; what leaves the picture towards

@@ -255,7 +255,8 @@ def check_counts(bench):
 def check_plain_lines(bench):
     """Names with line feeds and what terminals obey: one plain line."""
     path = bench.file("a\n\x1b[31mb.gltf")
-    bench.fails(bench.run("render", path, "-o", bench.file("x.exr")), 3, "a\\u000A\\u001B[31mb.gltf")
+    bench.fails(bench.run("render", path, "-o", bench.file("x.exr")), 3,
+                "a\\u000A\\u001B[31mb.gltf")
 
 
 CHECKS = (check_uris, check_manifests, check_huge_picture, check_depth, check_plain_lines)

@@ -3,7 +3,7 @@
 #include "fixture.h"
 
 #include "base/units.h"
-#include "review/light/eye_reading.h"
+#include "review/eye/eye_reading.h"
 #include "vision/discomfort.h"
 #include "vision/eye_filter.h"
 #include "vision/eye_spread.h"

@@ -3,7 +3,7 @@
 #include "fixture.h"
 
 #include "base/units.h"
-#include "review/light/false_suns.h"
+#include "review/eye/false_suns.h"
 #include "world_fixture.h"
 
 static const ReviewRequest request = {.forward = {0, 0, -1}};

@@ -3,7 +3,7 @@
 #include "fixture.h"
 
 #include "base/units.h"
-#include "review/light/gaze_reading.h"
+#include "review/eye/gaze_reading.h"
 #include "world_fixture.h"
 
 #define REFLECTANCE 0.2f

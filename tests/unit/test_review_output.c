@@ -8,7 +8,7 @@
 #include "review/output/review_json.h"
 #include "review/output/review_json_read.h"
 #include "review/output/review_words.h"
-#include "review/output/review_junit.h"
+#include "review/export/review_junit.h"
 #include "review_page_fixture.h"
 
 static const char *json_of(const Review *review)

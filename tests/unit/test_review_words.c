@@ -78,7 +78,8 @@ TEST(no_guess_no_proposal_no_quote_is_told_where_there_is_none)
         review_rests_words(&review, &arena),
         "panel of a, b: no measurement stated; 1 material without optical data, taken as "
         "perfectly white (up to 0 % of the light on a symbol); proposed eye (co-driver), the "
-        "others as given; occupants: in white (none under 1 of 3 conditions); limits as read in the standard");
+        "others as given; occupants: in white (none under 1 of 3 conditions); limits as read "
+        "in the standard");
 }
 
 TEST(an_empty_seat_is_named_with_its_share)

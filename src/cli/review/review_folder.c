@@ -14,11 +14,11 @@
 #include "review/run/frames.h"
 #include "review/run/live.h"
 #include "review/output/review_answer.h"
-#include "review/output/review_csv.h"
+#include "review/export/review_csv.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_json.h"
 #include "review/output/review_json_read.h"
-#include "review/output/review_junit.h"
+#include "review/export/review_junit.h"
 #include "review/output/review_words.h"
 #include "text/text.h"
 

@@ -36,7 +36,8 @@ typedef struct CausePart {
     double      cd_m2; /* reflected light that comes by it */
 } CausePart;
 
-/* Input of the remedies besides the case (chain/remedies.h). Without places 0 from `trim` on. */
+/* Input of the remedies besides the case (chain/remedies.h). Without places 0 from `trim`
+ * on. */
 typedef struct CauseFacts {
     double      own_cd_m2;  /* reflected light that began at the display itself */
     ChainFigure all, mirror; /* of these paths; and by the display's mirror */

@@ -12,7 +12,7 @@
 #include "render/train.h"
 #include "review/judge.h"
 #include "review/keep/journal.h"
-#include "review/light/eye_reading.h"
+#include "review/eye/eye_reading.h"
 #include "review/light/read_on.h"
 #include "review/light/response_suns.h"
 #include "review/output/review_decide.h"

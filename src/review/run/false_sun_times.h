@@ -12,7 +12,7 @@
  * Memory       from the arena. Threads: the same figures for any count.
  */
 #pragma once
-#include "review/light/false_suns.h"
+#include "review/eye/false_suns.h"
 #include "review/run/sweep_probes.h"
 
 #define FALSE_SUN_VEIL_CD_M2 10.0

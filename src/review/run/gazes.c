@@ -5,8 +5,8 @@
 
 #include "base/units.h"
 #include "review/chain/chains.h"
-#include "review/light/eye_reading.h"
-#include "review/light/gaze_reading.h"
+#include "review/eye/eye_reading.h"
+#include "review/eye/gaze_reading.h"
 #include "review/run/cases.h"
 #include "review/run/glare_found.h"
 

@@ -9,7 +9,7 @@
  * Threads  starts its own; the same figures for any count.
  */
 #pragma once
-#include "review/light/false_suns.h"
+#include "review/eye/false_suns.h"
 #include "review/share.h"
 #include "review/verdict.h"
 

@@ -4,7 +4,7 @@
  * Threads  pure functions.
  */
 #pragma once
-#include "review/light/eye_reading.h"
+#include "review/eye/eye_reading.h"
 #include "review/verdict.h"
 
 CaseGlare glare_found(const GlareReading *reading, const GlareSettings *settings);

@@ -7,7 +7,7 @@
 #pragma once
 #include "base/problems.h"
 #include "review/keep/journal.h"
-#include "review/light/false_suns.h"
+#include "review/eye/false_suns.h"
 #include "review/light/inherited.h"
 #include "review/pace/work.h"
 #include "review/profile.h"

@@ -6,7 +6,7 @@
  * Threads  starts its own; the same figures for any count.
  */
 #pragma once
-#include "review/light/false_suns.h"
+#include "review/eye/false_suns.h"
 #include "review/light/sun_readings.h"
 #include "review/run/cases.h"
 #include "review/run/sweep_responses.h"

@@ -12,7 +12,7 @@
  * Memory       scratch only. Threads: starts its own; the same figures for any count.
  */
 #pragma once
-#include "review/light/eye_reading.h"
+#include "review/eye/eye_reading.h"
 
 #define GAZE_CONE_DEG EYE_NEAR_DEG /* half its width */
 

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/light/glare_reading.h"
+#include "review/eye/glare_reading.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/units.h"
-#include "review/light/false_suns.h"
-#include "review/light/glare_field.h"
+#include "review/eye/false_suns.h"
+#include "review/eye/glare_field.h"
 
 #define SEED 0x676c6172u
 #define PIXELS 320      /* over 180 degrees, of several rounds; */

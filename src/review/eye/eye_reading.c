@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/light/eye_reading.h"
+#include "review/eye/eye_reading.h"
 
 #include <math.h>
 
 #include "base/count.h"
 #include "base/parallel.h"
 #include "base/units.h"
-#include "review/light/glare_field.h"
-#include "review/light/glare_reading.h"
+#include "review/eye/glare_field.h"
+#include "review/eye/glare_reading.h"
 #include "review/light/question.h"
 #include "vision/eye_spread.h"
 

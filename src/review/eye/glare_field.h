@@ -11,8 +11,8 @@
  * Threads      starts its own; the same figures for any count.
  */
 #pragma once
-#include "review/light/glare_rest.h"
-#include "review/light/glare_table.h"
+#include "review/eye/glare_rest.h"
+#include "review/eye/glare_table.h"
 #include "review/light/setup.h"
 
 /* Sky that is seen straight or through panes, and what the sun sends by one scattering surface

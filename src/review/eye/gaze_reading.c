@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/light/gaze_reading.h"
+#include "review/eye/gaze_reading.h"
 
 #include <math.h>
 

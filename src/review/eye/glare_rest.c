@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/light/glare_rest.h"
+#include "review/eye/glare_rest.h"
 
 #include <math.h>
 

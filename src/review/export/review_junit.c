@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/output/review_junit.h"
+#include "review/export/review_junit.h"
 
 #include "review/output/review_decide.h"
 #include "review/output/review_words.h"

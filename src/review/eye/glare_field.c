@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/light/glare_field.h"
+#include "review/eye/glare_field.h"
 
 #include <math.h>
 

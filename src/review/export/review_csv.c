@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/output/review_csv.h"
+#include "review/export/review_csv.h"
 
 #include <math.h>
 #include <string.h>

@@ -17,8 +17,8 @@
  * Memory   scratch only. Threads: starts its own; the same figures for any count.
  */
 #pragma once
-#include "review/light/glare_rest.h"
-#include "review/light/glare_table.h"
+#include "review/eye/glare_rest.h"
+#include "review/eye/glare_table.h"
 #include "review/light/setup.h"
 
 /* A light sample of the pupil's plane. */

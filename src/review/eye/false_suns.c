@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/light/false_suns.h"
+#include "review/eye/false_suns.h"
 
 #include <math.h>
 #include <string.h>

@@ -17,8 +17,8 @@
  * Memory       scratch only. Threads: starts its own; the same figures for any count.
  */
 #pragma once
-#include "review/light/false_suns.h"
-#include "review/light/glare_table.h"
+#include "review/eye/false_suns.h"
+#include "review/eye/glare_table.h"
 
 #define EYE_NEAR_DEG 1.0 /* from the gaze; about the fovea, where the eye sees sharply */
 #define EYE_ROUNDS_MOST 64
