@@ -129,8 +129,8 @@ def check_frame(report, reviewer, case, sure):
 
 
 def check_pictures(report, reviewer):
-    """Two symbols of one view: both cards show its pictures, the first screen its frame; they
-    stand in the page once."""
+    """Two symbols of one view: both cards show its pictures, the first screen its frame, whole
+    and its display close up; they stand in the page once."""
     document = request(conditions=[moment("grey", type="constant", luminance=3000)], symbols={
         "bar": {"display": "screen", "uv": [0.1, 0.1, 0.9, 0.9]},
         "edge": {"display": "screen", "uv": [0.2, 0.1, 0.8, 0.9]}},
@@ -147,7 +147,7 @@ def check_pictures(report, reviewer):
         page = file.read()
     cards = [page.count("<h3>" + title) for title in ("Frame<", "Luminance<", "Contrast map<")]
     found = [page.count(words) for words in ("<image id=", "<use href=")]
-    report.claim(cards == [2, 2, 2] and found == [3, 4],
+    report.claim(cards == [2, 2, 2] and found == [3, 5],
                  f"pictures on the page: {cards}, {found}")
     check_beside(report, reviewer, document, index)
 

@@ -4,8 +4,8 @@
  *
  * Every perspective camera is an eye, marked as proposed. Every display that shows something
  * has one symbol, "find": "text" over what it shows of its content; one whose material several
- * nodes wear has one a node. Wishes set more, and put an ordinary day and night and a sweep over
- * every sun beside them.
+ * nodes wear has one a node. Wishes set more, and put an ordinary day and night and a sweep
+ * over every sun beside them.
  *
  * Memory   the arena's. Threads: one at a time.
  * Fails    ERROR_INPUT when the scene has no such display or camera, or lies where the file may
