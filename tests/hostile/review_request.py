@@ -231,11 +231,16 @@ def is_refusal(status, said, wanted=3):
     return status == wanted and said.count("\n") == 1 and said.startswith("parhelion: ")
 
 
+def is_forward(line):
+    """An eye behind the display looks backwards: the program warns of that, rightly."""
+    return line.startswith("parhelion: warning: ") and line.endswith("(/forward)")
+
+
 def fault_of(status, said, trial, validator):
     """What is wrong with the program's answer; None: nothing."""
     place, _, document = trial
     takes = document is not None and validator.is_valid(document)
-    if takes and status == 0 and not said:
+    if takes and status == 0 and all(is_forward(line) for line in said.splitlines()):
         return None
     if not is_refusal(status, said):
         return f"status {status}"
