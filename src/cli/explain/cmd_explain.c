@@ -207,8 +207,9 @@ static void print_groups(const ReviewCase *c)
     static const char *const NAMES[CAUSE_GROUPS] = {"began at", "came by", "met at"};
     for (int g = 0; g < CAUSE_GROUPS; g++) {
         const CaseGroup *group = &c->groups[g];
+        if (group->count && g) print("\n");
         for (int i = 0; i < group->count; i++)
-            print("%s%.3g %% %s", i ? ", " : g ? "\n" : "", 100 * group->list[i].share,
+            print("%s%.3g %% %s", i ? ", " : "", 100 * group->list[i].share,
                   group->list[i].what);
         if (group->count) print(" (%s)", NAMES[g]);
     }

@@ -178,7 +178,8 @@ void panel_answer_csv_header(const Panel *panel, const PanelQuestion *q, FILE *o
     int count = panel_info_wavelengths(panel, nm);
     for (int i = 0; i < count && !(q->wavelength_nm > 0); i++)
         print_to(out, ",%.9g", (double)nm[i]);
-    print_to(out, "%s", q->wavelength_nm > 0 ? ",wavelength,brdf,mirror\n" : "\n");
+    if (q->wavelength_nm > 0) print_to(out, ",wavelength,brdf,mirror");
+    print_to(out, "\n");
 }
 
 static void csv_reflection(const Panel *panel, const PanelQuestion *q, FILE *out)
