@@ -199,7 +199,8 @@ def check_second_signal(work):
 def stop_without_options(work, *options):
     """A render that was to keep no checkpoint leaves one when it is stopped."""
     running = work.start(*options, "--spp", "1000000", "--progress", "json")
-    running.stderr.readline()
+    while not running.stderr.readline().startswith('{"progress"'):  # warnings come before
+        pass
     claim_stopped(work, running, signal.SIGINT, 130, "INT without options")
     return contents(work.path("frame.exr.checkpoint"))
 
