@@ -3,11 +3,11 @@
  *
  * The sun moves its own width in two minutes: a sweep of hours would miss most of what it does
  * in a mirror. Here it is asked for minute by minute (a route: point by point; a sweep without
- * times: every quarter of a degree), which costs a look into a table (light/false_suns.h).
+ * times: every quarter of a degree), which costs a look into a table (eye/false_suns.h).
  *
  * What counts  images that lay a veil of FALSE_SUN_VEIL_CD_M2 at least over what the eye looks
  *              at: the symbols, and the request's gazes.
- * Approximate  as light/false_suns.h; skies are clear in any weather; an eye box counts by its
+ * Approximate  as eye/false_suns.h; skies are clear in any weather; an eye box counts by its
  *              middle; mirrors take colours as those of a sun at 30 degrees are.
  * Memory       from the arena. Threads: the same figures for any count.
  */
