@@ -146,6 +146,8 @@ run "another maker's car" other-maker python3 tests/image/other_maker.py $progra
 run 'discomfort of every size' glare-sizes python3 tests/image/glare.py --all $program
 run 'verdicts beside their limits' review-laws python3 tests/image/review_laws.py $program \
     scenes/glance.review.json dimmed 0.2 0.4 0.005
+run "laws of a whole car's review" review-laws-car \
+    python3 tests/image/review_laws.py $program scenes/car_dashboard.review.json
 of "$review tests/bench tests/image"
 run 'verdicts whose truth is known' verdicts claim \
     python3 tests/bench/verdicts.py .build/release --rooms open,window --trials 200

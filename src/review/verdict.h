@@ -188,7 +188,8 @@ typedef struct CaseWhole {
     double  reflected;            /* mean over all that is visible of the box about its
                                      foreground, cd m^-2; NaN: not known */
     MeanInterval reflected_range; /* 95 % */
-    double  contrast_ratio;       /* by that mean; NaN likewise */
+    double  contrast_ratio;       /* by that mean, veil included where the profile counts it;
+                                     NaN likewise */
     double  lit_share;            /* of it, 0..1, in the direct sun; NaN: there is none */
 } CaseWhole;
 

@@ -37,6 +37,19 @@ def contrast_ends(case):
         yield max(ratio + sign * math.hypot(*halves), 1)
 
 
+def broken_mean_laws(case):
+    """The part that is judged is no better than the symbol's mean, whose contrast is of the same
+    light: with the veil where the profile counts it."""
+    light, mean = case["luminance_cd_m2"], case["symbol_mean"]
+    if mean is None or mean["reflected"] is None:
+        return
+    if case["reflected_interval"][1] < mean["reflected_interval"][0]:
+        yield f"the mean reflects {mean['reflected']}, the part {light['reflected']}"
+    by_it = [contrast(light, mean["reflected"] + veil) for veil in (0, light["veil"] or 0)]
+    if not any(abs(mean["contrast_ratio"] - own) <= 2e-4 * own for own in by_it):
+        yield f"contrast {mean['contrast_ratio']} of the mean, of luminances that give {by_it}"
+
+
 def broken_case_laws(case):
     """Numbers of a case that belong together and do not agree."""
     light, ratio = case["luminance_cd_m2"], case["contrast_ratio"]
@@ -58,6 +71,7 @@ def broken_case_laws(case):
         for found, own in zip([ratio, *ends], wanted):
             if abs(found - own) > 2e-4 * found:
                 yield f"contrast {found} of luminances that give {own}"
+    yield from broken_mean_laws(case)
     for name, group in case["cause_groups"].items():
         if group and abs(sum(share["share"] for share in group) - 1) > 1e-4:
             yield f"causes by {name} add up to {sum(share['share'] for share in group)}"

@@ -354,6 +354,7 @@ Reading setup_field(const Setup *setup, const ProbeAim *aim, long paths, double 
     ProbeAim own = *aim;
     Setup    lit = setup_lit(setup);
     lit.context.without_mirrored_sun = aim->context->without_mirrored_sun;
+    lit.context.eye = aim->context->eye;
     own.context = &lit.context;
     ask.scale = NULL;
     Reading reading = reading_field(&own, &ask, &setup->tools, targets, scratch);

@@ -15,9 +15,9 @@
 #include "review/eye/eye_reading.h"
 #include "review/light/read_on.h"
 #include "review/light/response_suns.h"
+#include "review/light/setup_eyes.h"
 #include "review/output/review_decide.h"
 #include "review/pace/work.h"
-#include "review/request/request_check.h"
 #include "review/run/glare_found.h"
 #include "review/chain/remedies.h"
 #include "review/run/worst_part.h"
@@ -36,43 +36,6 @@
 #define COARSE_PRECISION 0.05
 #define COARSE_PATHS 8192
 #define COARSE_SEED 0x626f7865u /* the worst of many is not read again from what made it so */
-
-/* ---- eyes -------------------------------------------------------------------------------- */
-
-bool setup_eye_middle(const Setup *setup, const ReviewEye *eye, Arena scratch, Vec3 *out,
-                      Error *err)
-{
-    int    id;
-    double middle[3], moved[3];
-    for (int i = 0; i < 3; i++) {
-        moved[i] = eye->move_m[i];
-        middle[i] = eye->position_m[i] + moved[i];
-    }
-    review_mirror_point(eye->mirror, middle);
-    review_mirror_direction(eye->mirror, moved);
-    *out = scene_from_world(setup->scene->origin, middle);
-    if (eye->kind != EYE_CAMERA) return true;
-    if (!review_camera_find(setup->scene, eye, scratch, &id, err))
-        return error_in_file(err, setup->request->file);
-    *out = vec3_add(setup->scene->cameras[id].world_from_camera.origin,
-                    vec3_from_doubles(moved));
-    return true;
-}
-
-Vec3 *setup_eye_points(const Setup *setup, const ReviewEye *eye, int *count, Arena *arena,
-                       Error *err)
-{
-    *count = review_eye_count(eye);
-    Vec3 *points = ARENA_NEW(arena, Vec3, *count);
-    if (!review_eye_is_wide(eye))
-        return setup_eye_middle(setup, eye, *arena, points, err) ? points : NULL;
-    for (int i = 0; i < *count; i++) {
-        double p[3];
-        review_eye_point(eye, i, p);
-        points[i] = scene_from_world(setup->scene->origin, p);
-    }
-    return points;
-}
 
 /* ---- the display's face ------------------------------------------------------------------ */
 
@@ -137,14 +100,6 @@ typedef struct CaseLook {
     Vec3               eye;
     bool               is_coarse, is_bare;
 } CaseLook;
-
-static WorstPart part_of(const Setup *setup, const CaseLook *look, Arena *arena)
-{
-    uint32_t base = look->is_coarse ? COARSE_SEED : EYE_SEED;
-    PartAsk  ask = {look->symbol, look->eye, review_seed(setup->request, base),
-                    look->is_coarse};
-    return worst_part_find(setup, &ask, arena);
-}
 
 /* ---- until its verdict is clear ---------------------------------------------------------- */
 
@@ -278,6 +233,69 @@ static const double *keep_batches(const Reading *reading, Arena *arena)
     return kept;
 }
 
+/* Before anything of it was seen. */
+static void start_look(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
+                       Arena *arena)
+{
+    const double         nan = (double)NAN;
+    const Setup         *setup = tools->setup;
+    const SymbolSurface *surface = &look->symbol->surface;
+    c->luminance_cd_m2 = (CaseLuminances){nan, nan, nan, nan, nan, nan};
+    c->minutes_to_decide = c->decide_times = nan;
+    c->glasses_transmittance = 1;
+    c->precision_asked = c->precision_reached = nan;
+    c->reflected_range = (MeanInterval){nan, nan};
+    c->whole = case_whole_unknown();
+    if (c->visible_share < 1 && !look->is_coarse)
+        case_hiders(surface, &setup->context, look->eye, c, arena);
+    c->height_arcmin = symbol_height_arcmin(surface, look->symbol->split.box, look->eye);
+    c->stroke_ratio = symbol_stroke_ratio(look->symbol);
+    c->contrast_ratio = c->contrast_low = c->contrast_high = c->contrast_with_veil = c->jnd =
+        c->visibility = nan;
+    c->glare = review_glare_unknown();
+}
+
+static void set_mean(const Profile *profile, ReviewCase *c)
+{
+    const CaseLuminances *l = &c->luminance_cd_m2;
+    double veil = profile->uses_veil && !isnan(l->veil) ? l->veil : 0;
+    c->whole.contrast_ratio =
+        luminance_contrast(l->foreground, l->background, c->whole.reflected + veil);
+}
+
+/* Of the worst part, or of all of the symbol where that is the worse (worst_part.h). Sets the
+ * case's part and what is direct in its light. */
+static Reading read_part(const CaseLook *look, WorstPart *part, ReviewCase *c,
+                         VerdictAsk *ask, Arena *arena)
+{
+    const Setup *setup = ask->tools->setup;
+    ask->direct = direct_sun(setup, &part->aim, *arena);
+    Reading reading = read_symbol(look, &part->aim, ask, *arena);
+    if (worst_part_is_better(&part->whole, reading.interval)) {
+        worst_part_take_all(look->symbol, part, arena);
+        ask->direct = direct_sun(setup, &part->aim, *arena);
+        reading = read_symbol(look, &part->aim, ask, *arena);
+    }
+    c->whole = part->whole;
+    set_mean(ask->tools->profile, c);
+    return reading;
+}
+
+static void keep_reading(const Reading *reading, const CaseLook *look, ReviewCase *c,
+                         Arena *arena)
+{
+    CaseLuminances *l = &c->luminance_cd_m2;
+    c->paths = reading->paths;
+    c->batches = look->is_coarse ? NULL : keep_batches(reading, arena);
+    c->precision_reached = reading->reached;
+    c->minutes_to_decide = reading->seconds / 60 / (double)reading->paths; /* of one path */
+    l->reflected = reading->reflected;
+    l->mirror = reading->mirror;
+    l->scattered = reading->reflected - reading->mirror;
+    set_contrasts(c, reading->interval);
+    c->visibility = visibility_of(c, &look->symbol->split);
+}
+
 /* *c holds all that does not depend on the eye. The aim has no targets where nothing is
  * visible; *direct: of what is reflected. */
 static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
@@ -285,52 +303,30 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
 {
     const Setup       *setup = tools->setup;
     const SetupSymbol *symbol = look->symbol;
-    Vec3           eye = look->eye;
-    CaseLuminances *l = &c->luminance_cd_m2;
-    SymbolVisibility seen = symbol_visibility(&symbol->surface, &setup->context, eye, NULL);
-    *l = (CaseLuminances){(double)NAN, (double)NAN, (double)NAN, (double)NAN, (double)NAN,
-                          (double)NAN};
-    c->minutes_to_decide = c->decide_times = (double)NAN;
-    c->glasses_transmittance = 1;
-    c->precision_asked = c->precision_reached = (double)NAN;
-    c->reflected_range = (MeanInterval){(double)NAN, (double)NAN};
-    c->whole = case_whole_unknown();
+    SymbolVisibility   seen =
+        symbol_visibility(&symbol->surface, &setup->context, look->eye, NULL);
     c->visible_share = seen.visible_share;
-    if (seen.visible_share < 1 && !look->is_coarse)
-        case_hiders(&symbol->surface, &setup->context, eye, c, arena);
-    c->height_arcmin = symbol_height_arcmin(&symbol->surface, symbol->split.box, eye);
-    c->stroke_ratio = symbol_stroke_ratio(symbol);
-    c->contrast_ratio = c->contrast_low = c->contrast_high = c->contrast_with_veil = c->jnd =
-        c->visibility = (double)NAN;
-    c->glare = review_glare_unknown();
+    start_look(tools, look, c, arena);
     if (!(seen.visible_share > 0)) return (ProbeAim){.target_count = 0};
-    SymbolLook shown = {&symbol->surface, &symbol->split, eye, setup->tools.threads};
+    SymbolLook shown = {&symbol->surface, &symbol->split, look->eye, setup->tools.threads};
     SymbolEmission emission = symbol_emission(&shown, c->level);
-    set_shown(l, &emission, seen.transmittance);
-    WorstPart part = part_of(setup, look, arena);
-    ProbeAim  aim = part.aim;
-    c->whole = part.whole;
-    c->whole.contrast_ratio =
-        luminance_contrast(l->foreground, l->background, c->whole.reflected);
+    set_shown(&c->luminance_cd_m2, &emission, seen.transmittance);
+    ProbeAim aim = {.context = &setup->context, .eye = look->eye,
+                    .seed = review_seed(setup->request,
+                                        look->is_coarse ? COARSE_SEED : EYE_SEED)};
     symbol_put_on_glasses(setup, symbol, &aim, c, arena);
+    PartAsk   in = {symbol, &aim, look->is_coarse};
+    WorstPart part = worst_part_find(setup, &in, arena);
     bool wants_veil = !look->is_bare || tools->profile->uses_veil;
-    if (!look->is_coarse && wants_veil) see_stray_light(setup, symbol, eye, c, *arena);
-    *direct = direct_sun(setup, &aim, *arena);
-    VerdictAsk ask = {tools, c, *direct};
-    Reading    reading = read_symbol(look, &aim, &ask, *arena);
-    c->paths = reading.paths;
-    c->batches = look->is_coarse ? NULL : keep_batches(&reading, arena);
-    c->precision_reached = reading.reached;
+    if (!look->is_coarse && wants_veil) see_stray_light(setup, symbol, look->eye, c, *arena);
+    VerdictAsk ask = {.tools = tools, .of = c};
+    Reading    reading = read_part(look, &part, c, &ask, arena);
+    *direct = ask.direct;
+    keep_reading(&reading, look, c, arena);
     c->precision_asked = is_verdict_clear(&ask, reading.interval, *arena)
                              ? setup->request->precision_clear
                              : setup->request->precision_contrast;
-    c->minutes_to_decide = reading.seconds / 60 / (double)reading.paths; /* of one path */
-    l->reflected = reading.reflected;
-    l->mirror = reading.mirror;
-    l->scattered = reading.reflected - reading.mirror;
-    set_contrasts(c, reading.interval);
-    c->visibility = visibility_of(c, &symbol->split);
-    return aim;
+    return part.aim;
 }
 
 /* By how bad its verdict is, then by its margin. */

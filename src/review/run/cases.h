@@ -49,11 +49,3 @@ bool setup_case(const CaseTools *tools, const SetupSymbol *symbol, const ReviewE
  * is the illuminance of its face. */
 bool setup_verdict(const CaseTools *tools, const SetupSymbol *symbol, const ReviewEye *eye,
                    Arena *arena, ReviewCase *out, Error *err);
-
-/* The points of an eye, m, as many as it has; in the arena. NULL: its camera is missing. */
-Vec3 *setup_eye_points(const Setup *setup, const ReviewEye *eye, int *count, Arena *arena,
-                       Error *err);
-
-/* The point of an eye that is one; of a box its centre. */
-bool setup_eye_middle(const Setup *setup, const ReviewEye *eye, Arena scratch, Vec3 *out,
-                      Error *err);

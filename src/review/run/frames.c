@@ -9,6 +9,7 @@
 #include "render/identity.h"
 #include "render/render.h"
 #include "render/train.h"
+#include "review/light/setup_eyes.h"
 #include "review/keep/frame_kept.h"
 #include "review/keep/journal.h"
 #include "review/pace/work.h"

@@ -7,6 +7,7 @@
 #include "review/chain/chains.h"
 #include "review/eye/eye_reading.h"
 #include "review/eye/gaze_reading.h"
+#include "review/light/setup_eyes.h"
 #include "review/run/cases.h"
 #include "review/run/glare_found.h"
 

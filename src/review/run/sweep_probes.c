@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "base/units.h"
+#include "review/light/setup_eyes.h"
 
 #define RESPONSE_PATHS 65536
 #define RESPONSE_PRECISION 0.004

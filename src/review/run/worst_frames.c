@@ -7,6 +7,7 @@
 #include "camera/camera.h"
 #include "review/chain/outlook.h"
 #include "review/keep/journal.h"
+#include "review/light/setup_eyes.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_words.h"
 #include "review/run/explain.h"

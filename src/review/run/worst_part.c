@@ -18,20 +18,22 @@ static double add_sun(const Setup *setup, const LightParts *parts, double *known
 {
     Vec3  towards;
     float bands[LIGHT_BANDS];
-    if (!setup_sun(setup, &towards, bands)) return 0;
+    if (!setup_sun_coloured(setup, parts->aim.colour, &towards, bands)) return 0;
     ProbeSuns sun = {&towards, 1, (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG), false};
     ResponseOptions options = {setup->tools.kernel, 0, SUN_PATHS, setup->tools.threads, 0};
     return sun_parts_light(parts, &options, &sun, bands, known, scratch);
 }
 
-/* The part, and the mean of all that paths find. */
+/* The part, and the mean of all that paths find. The sun's image is not known by itself as a
+ * polariser sees it: paths find it then. */
 static int read_all(const Setup *setup, const LightParts *parts, CaseWhole *whole,
                     Arena scratch)
 {
     int          targets = parts->aim.target_count;
     double      *known = ARENA_NEW(&scratch, double, targets);
     TargetLight *found = ARENA_NEW(&scratch, TargetLight, targets);
-    double       mirror = add_sun(setup, parts, known, scratch);
+    double       sun = add_sun(setup, parts, known, scratch);
+    double       mirror = parts->aim.context->eye ? 0 : sun;
     PathContext  without = *parts->aim.context;
     ProbeAim     aim = parts->aim;
     without.without_mirrored_sun = mirror > 0;
@@ -63,7 +65,7 @@ static double lit_share(const Setup *setup, const PartAsk *ask, Arena scratch)
         !symbol_surface_within(&ask->symbol->surface, ask->symbol->split.box, LIT_POINTS,
                                &scratch, &surface, &ignored))
         return (double)NAN;
-    symbol_visibility(&surface, &setup->context, ask->eye, is_visible);
+    symbol_visibility(&surface, &setup->context, ask->aim->eye, is_visible);
     return symbol_lit_share(&surface, is_visible, &setup->context, towards);
 }
 
@@ -75,36 +77,53 @@ static void aim_at(const SymbolSurface *surface, ProbeAim *aim, Arena *arena)
     symbol_aim(surface, is_visible, arena, aim);
 }
 
-/* At all of it where nothing of the part is seen, or some of it is not shown. */
-static void aim_at_part(const SymbolSurface *all, WorstPart *out, Arena *arena)
+/* False: nothing of it is seen, or some of it is not shown. */
+static bool aim_at_box(const SymbolSurface *all, const double uv[4], WorstPart *out,
+                       Arena *arena)
 {
     SymbolSurface surface;
     Error         ignored;
-    double        uv[4];
-    memcpy(uv, &out->whole.part, sizeof uv);
+    memcpy(&out->whole.part, uv, sizeof out->whole.part);
+    out->aim.target_count = 0;
     if (symbol_surface_within(all, uv, SYMBOL_POINTS, arena, &surface, &ignored))
         aim_at(&surface, &out->aim, arena);
-    if (out->aim.target_count) return;
-    memcpy(&out->whole.part, all->uv, sizeof uv);
+    return out->aim.target_count > 0;
+}
+
+static void aim_at_all(const SymbolSurface *all, WorstPart *out, Arena *arena)
+{
+    memcpy(&out->whole.part, all->uv, sizeof out->whole.part);
     aim_at(all, &out->aim, arena);
 }
 
 WorstPart worst_part_find(const Setup *setup, const PartAsk *ask, Arena *arena)
 {
-    WorstPart out = {.whole = case_whole_unknown()};
+    const SymbolSurface *all = &ask->symbol->surface;
+    WorstPart out = {*ask->aim, case_whole_unknown()};
     Arena     scratch = arena_reserve((size_t)1 << 28);
-    out.aim = (ProbeAim){.context = &setup->context, .eye = ask->eye, .seed = ask->seed};
-    LightParts parts = symbol_parts(ask->symbol, &out.aim, CELLS_MOST, &scratch);
-    memcpy(&out.whole.part, ask->symbol->surface.uv, sizeof out.whole.part);
+    double    uv[4];
+    LightParts parts = symbol_parts(ask->symbol, ask->aim, CELLS_MOST, &scratch);
+    memcpy(uv, all->uv, sizeof uv);
     if (parts.aim.target_count) {
-        double uv[4];
-        int    part = ask->is_coarse ? part_by_sun(setup, &parts, scratch)
-                                     : read_all(setup, &parts, &out.whole, scratch);
+        int part = ask->is_coarse ? part_by_sun(setup, &parts, scratch)
+                                  : read_all(setup, &parts, &out.whole, scratch);
         symbol_part_box(ask->symbol, &parts, part, uv);
-        memcpy(&out.whole.part, uv, sizeof uv);
         if (!ask->is_coarse) out.whole.lit_share = lit_share(setup, ask, scratch);
     }
     arena_release(&scratch);
-    aim_at_part(&ask->symbol->surface, &out, arena);
+    if (!aim_at_box(all, uv, &out, arena)) aim_at_all(all, &out, arena);
     return out;
+}
+
+/* ---- the mean in its place --------------------------------------------------------------- */
+
+bool worst_part_is_better(const CaseWhole *whole, MeanInterval reading)
+{
+    return reading.high < whole->reflected_range.low; /* not where the mean is not known */
+}
+
+void worst_part_take_all(const SetupSymbol *symbol, WorstPart *part, Arena *arena)
+{
+    if (!aim_at_box(&symbol->surface, symbol->split.box, part, arena))
+        aim_at_all(&symbol->surface, part, arena);
 }

@@ -4,7 +4,9 @@
  *
  * It is found by the direct sun, which is known for every place, and by paths to all of the
  * symbol, whose mean is the symbol's. That is a selection: who judges the part reads it by
- * paths of other seeds, as of the aim that is set here.
+ * paths of other seeds, as of the aim that is set here. Where light is even within what the
+ * paths tell, chance may select a part that reflects less than the mean: worst_part_is_better
+ * says so of a reading, and all of the symbol is judged then.
  *
  * Units    cd m^-2; uv of the content.
  * Memory   from the arena.
@@ -16,9 +18,9 @@
 
 typedef struct PartAsk {
     const SetupSymbol *symbol;
-    Vec3     eye;
-    uint32_t seed;       /* of the aim that is set; all of it is read by one of its own */
-    bool     is_coarse;  /* by the direct sun alone: no mean */
+    const ProbeAim    *aim;  /* without targets; all of the symbol is read by a seed of its
+                                own */
+    bool     is_coarse;      /* by the direct sun alone: no mean */
 } PartAsk;
 
 typedef struct WorstPart {
@@ -27,3 +29,9 @@ typedef struct WorstPart {
 } WorstPart;
 
 WorstPart worst_part_find(const Setup *setup, const PartAsk *ask, Arena *arena);
+
+/* Does a part of that reading reflect less than the mean, beyond both intervals? */
+bool worst_part_is_better(const CaseWhole *whole, MeanInterval reading);
+
+/* From now on all of the symbol that is seen is the part. */
+void worst_part_take_all(const SetupSymbol *symbol, WorstPart *part, Arena *arena);
