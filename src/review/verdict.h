@@ -324,6 +324,8 @@ typedef struct ReviewSweep {
                                             counts it: the verdict is the worst's, which was
                                             read again */
     double      longest_failure_minutes; /* at a stretch; NaN: the sweep has no times */
+    double      middle_contrast; /* of an eye box: ratio at the worst step of its middle, whose
+                                    steps these are; NaN: one point, or nothing is seen */
     ReviewCase  worst;
     const char *table;                   /* "sweeps/NAME.csv" */
 } ReviewSweep;

@@ -53,8 +53,12 @@ TEST(what_it_rests_on_is_one_line)
         "panel of cluster: measured (PX-9; conoscope, lab <B>), usable with care, coarse "
         "(coarse: steps of 5 degrees), known within 2.0 % of what it emits and 4.0 % of what "
         "it reflects; panel of centre: synthetic; 2 guessed materials (up to 62 % of the light "
-        "on a symbol); the eye as given; no occupant named; limits as quoted, 1 of 5 read in "
-        "the standard");
+        "on a symbol); the eye as given; no occupant named: nobody sits there, unless the "
+        "model itself has somebody; limits as quoted, 1 of 5 read in the standard");
+    review.cases[5].eye = "driver";
+    review.cases[5].empty_seat = "back";
+    assert_non_null(strstr(review_rests_words(&review, &arena),
+                           "; no occupant named: nobody sits in the driver's seat; limits"));
     review.case_count = 4;
     review.sweep_count = 0;
     assert_non_null(strstr(review_rests_words(&review, &arena), "up to 25 %"));

@@ -150,6 +150,7 @@ static const Member SWEEP[] = {
     {"verdict", MEMBER_VERDICT, offsetof(ReviewSweep, worst.verdict), .use = WRITTEN},
     OWN(COUNT, ReviewSweep, cases), OWN(FIGURE, ReviewSweep, failed_share),
     OWN(FIGURE, ReviewSweep, longest_failure_minutes),
+    LATER("middle_eye_contrast_ratio", FIGURE, ReviewSweep, middle_contrast),
     {"worst", MEMBER_OBJECT, offsetof(ReviewSweep, worst), .of = CASE},
     OWN(TEXT, ReviewSweep, table), {0}};
 

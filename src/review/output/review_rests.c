@@ -63,12 +63,13 @@ static const CasePanel *panel_of(const Review *review, const char *display)
     return NULL;
 }
 
-/* What its file says of itself (panel/query/panel_stated.h). */
+/* What its file says of itself (panel/query/panel_stated.h); why it is not usable is told of
+ * every case of it. */
 static void add_stated(Text *text, const CasePanel *panel, Arena *arena)
 {
     text_format(text, ", %s", panel->verdict ? panel->verdict : "no verdict of its own");
-    if (panel->is_coarse) text_add(text, ", coarse");
-    if (panel->reason) text_format(text, " (%s)", panel->reason);
+    if (panel->is_coarse && !panel->is_unusable) text_add(text, ", coarse");
+    if (panel->reason && !panel->is_unusable) text_format(text, " (%s)", panel->reason);
     if (panel->emission_error > 0 || panel->reflection_error > 0)
         text_format(text, ", known within %s of what it emits and %s of what it reflects",
                     words_share(panel->emission_error, arena),
@@ -154,13 +155,30 @@ static void add_eyes(Text *line, const Review *review, Arena *arena)
                             given ? ", the others as given" : ""));
 }
 
+/* Seats are known by their backs, where much light comes off them. */
+static const char *nobody_words(const Review *review, Arena *arena)
+{
+    int      count = review_case_count(review);
+    WordList eyes = words_list(count, arena);
+    Text     seats = {.arena = arena};
+    for (int i = 0; i < count; i++) {
+        const ReviewCase *c = review_case_at(review, i);
+        if (c->empty_seat) words_list_add(&eyes, c->eye);
+    }
+    for (int i = 0; i < eyes.count; i++)
+        text_format(&seats, "%s%s's", i ? " and " : "", eyes.list[i]);
+    if (!eyes.count)
+        return "no occupant named: nobody sits there, unless the model itself has somebody";
+    return arena_format(arena, "no occupant named: nobody sits in the %s seat", seats.data);
+}
+
 static void add_occupants(Text *line, const Review *review, Arena *arena)
 {
     const ReviewRest *first = first_of(review, REST_OCCUPANT);
     long empty = count_of(review, REST_OCCUPANT, REST_NOBODY);
     if (!first) return;
     if (empty == first->of) {
-        part(line, "no occupant named");
+        part(line, nobody_words(review, arena));
         return;
     }
     const char *names = names_of(review, REST_OCCUPANT, REST_PRESENT, arena);

@@ -9,6 +9,7 @@
 #include "page/page.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_words.h"
+#include "text/interval_text.h"
 
 /* ---- the order --------------------------------------------------------------------------- */
 
@@ -59,18 +60,50 @@ static bool is_small(const ReviewDifference *d)
     return fabs(100 * d->margin) < 0.05 && half < 0.05;
 }
 
+/* "+20.8 ± 0.5", both to one place; "+20.8 ± less than 0.1" where the error is below half of
+ * what is shown at least. */
+static const char *signed_words(double value, double half, double least, Arena *arena)
+{
+    static const char BETWEEN[] = " +- ";
+    bool        is_sure = half < 0.5 * least;
+    double      to_place = is_sure ? 5 * least : half; /* one digit of it: least's place */
+    double      size = fabs(value);
+    const char *text = interval_text(size, size - to_place, size + to_place, arena);
+    const char *end = strstr(text, BETWEEN);
+    const char *sign = value < 0 ? "−" : "+";
+    int         figure = end ? (int)(end - text) : (int)strlen(text);
+    if (is_sure || !end)
+        return arena_format(arena, "%s%.*s ± less than %.2g", sign, figure, text, least);
+    return arena_format(arena, "%s%.*s ± %s", sign, figure, text, end + strlen(BETWEEN));
+}
+
+/* Of an effect that may be 0: what it does not exceed, up to its next second digit. */
+static const char *at_most_words(MeanInterval percent, Arena *arena)
+{
+    double most = fmax(-percent.low, percent.high);
+    double place = pow(10, floor(log10(most)) - 1);
+    return words_figure(place * ceil(most / place - 1e-9), arena);
+}
+
+static MeanInterval in_percent(MeanInterval range)
+{
+    return (MeanInterval){100 * range.low, 100 * range.high};
+}
+
+#define SHOWN_PERCENT 0.1 /* of a limit: the least that is told */
+
 /* In percent of the limit: "+20.8 ± 0.5 %"; "none" below what is shown, "none above 0.5 %"
  * where it may be 0. */
 static const char *difference_words(const ReviewDifference *d, Arena *arena)
 {
-    double half = 50 * (d->margin_range.high - d->margin_range.low);
-    double value = 100 * d->margin;
-    if (isnan(value)) return "–";
+    MeanInterval range = in_percent(d->margin_range);
+    if (isnan(d->margin)) return "–";
     if (is_small(d)) return "none";
-    if (d->margin_range.low <= 0 && d->margin_range.high >= 0)
-        return arena_format(arena, "none above %.2g %%", half);
-    return arena_format(arena, "%s%.*f ± %.2g %%", value < 0 ? "−" : "+",
-                        fabs(value) < 10 ? 1 : 0, fabs(value), half);
+    if (range.low <= 0 && range.high >= 0)
+        return arena_format(arena, "none above %s %%", at_most_words(range, arena));
+    return arena_format(arena, "%s %%", signed_words(100 * d->margin,
+                                                     0.5 * (range.high - range.low),
+                                                     SHOWN_PERCENT, arena));
 }
 
 static const char *difference_class(const ReviewDifference *d)
@@ -216,6 +249,8 @@ static void add_figure_cell(Text *html, const char *kind, const char *figure,
     text_add(html, "</td>");
 }
 
+#define NO_LIMIT "nothing has a limit of contrast"
+
 /* Whose the least margin is, before and after. */
 static const char *least_where(const ReviewDifference *d, Arena *arena)
 {
@@ -235,14 +270,25 @@ static const char *margins_words(const ReviewDifference *d, Arena *arena)
                         difference_words(d, arena));
 }
 
+const char *review_variants_words(const ReviewVariantFound *v, Arena *arena)
+{
+    const ReviewDifference *least = &v->worst, *most = moving_most(v);
+    Text text = {.arena = arena};
+    if (!least->after) return NO_LIMIT;
+    text_format(&text, "least margin %s, %s: %s", moved_words(least, arena),
+                margins_words(least, arena), least_where(least, arena));
+    if (most && !(words_same(words_case(most->after, arena), words_case(least->after, arena))))
+        text_format(&text, "; moves most %s, %s: %s", moved_words(most, arena),
+                    margins_words(most, arena), words_case(most->after, arena));
+    return text.data;
+}
+
 static void add_change_cell(Text *html, const ReviewDifference *d, const char *where,
                             Arena *arena)
 {
     add_figure_cell(html, difference_class(d), moved_words(d, arena), margins_words(d, arena),
                     where);
 }
-
-#define NO_LIMIT "nothing has a limit of contrast"
 
 static void add_base_row(Text *html, const Review *review, const ReviewCase *least,
                          Arena *arena)
@@ -424,13 +470,15 @@ static void add_effect_bar(Text *html, const ReviewSensitivity *s, const ReviewS
 static const char *slope_words(const ReviewSensitivity *s, const ReviewSlope *slope,
                                Arena *arena)
 {
-    double half = 50 * (slope->range.high - slope->range.low);
-    bool   is_none = slope->range.low <= 0 && slope->range.high >= 0;
-    bool   is_small = fabs(effect(s, slope)) < 0.05 && half * s->step < 0.05;
-    if (is_small) return "none";
-    if (is_none) return arena_format(arena, "none above %.2g %% per %s", half, s->unit);
-    return arena_format(arena, "%s%s ± %.2g %% per %s", slope->slope < 0 ? "−" : "+",
-                        words_figure(fabs(100 * slope->slope), arena), half, s->unit);
+    MeanInterval range = in_percent(slope->range);
+    double half = 0.5 * (range.high - range.low), least = SHOWN_PERCENT / s->step;
+    bool   is_none = range.low <= 0 && range.high >= 0;
+    if (fabs(100 * slope->slope) < 0.5 * least && half < 0.5 * least) return "none";
+    if (is_none)
+        return arena_format(arena, "none above %s %% per %s", at_most_words(range, arena),
+                            s->unit);
+    return arena_format(arena, "%s %% per %s",
+                        signed_words(100 * slope->slope, half, least, arena), s->unit);
 }
 
 static void add_slope(Text *html, const ReviewSensitivity *s, int place, double most,
