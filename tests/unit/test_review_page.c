@@ -278,7 +278,8 @@ TEST(an_eye_box_names_whose_share_it_is)
         assert_non_null(strstr(card, BOX[i].how_often));
         assert_non_null(strstr(card, "of eyes fail at its worst"));
         assert_non_null(strstr(card, "the middle eye fails"));
-        assert_true(isnan(BOX[i].middle) == !strstr(card, "of the middle eye at its own worst"));
+        bool tells_worst = strstr(card, "of the middle eye at its own worst") != NULL;
+        assert_true(tells_worst == !isnan(BOX[i].middle));
         assert_null(strstr(card, "of the time it fails"));
         assert_null(strstr(card, "directions it fails"));
     }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/review/review_print.h"
 
+#include <ctype.h>
 #include <string.h>
 
 #include "print/print.h"
@@ -98,14 +99,15 @@ static void print_fact(const ReviewFact *fact)
 {
     static const char ON[] = "… ";
     size_t      skipped = strncmp(fact->name, ON, strlen(ON)) ? 0 : strlen(ON);
-    print("%-16s %s\n", fact->name + skipped, fact->value);
+    const char *name = fact->name + skipped;
+    print("%c%-15s %s\n", tolower((unsigned char)name[0]), name + 1, fact->value);
 }
 
 /* The first screen of the page, as lines: of all cases the one that decides. */
 static void print_worst(const Review *review, const ReviewCase *worst, Arena scratch)
 {
     ReviewFacts facts = review_facts_of(review, worst, NULL, &scratch);
-    print("%-16s %s: %s\n", "Worst case", words_case(worst, &scratch),
+    print("%-16s %s: %s\n", "worst case", words_case(worst, &scratch),
           words_headline(worst, &scratch));
     for (int i = 0; i < facts.count; i++) print_fact(&facts.list[i]);
 }
@@ -116,12 +118,8 @@ static void print_review(const Review *review, Arena scratch)
     for (int i = 0; i < review->sweep_count; i++) print_sweep(&review->sweeps[i], scratch);
     for (int i = 0; i < review->gaze_count; i++) print_gaze(&review->gazes[i], scratch);
     const ReviewCase *worst = review_worst(review, scratch);
-    if (review->without_data_count)
-        print("%-16s %d material%s taken as perfectly white: %s; of the light on the worst "
-              "case %.3g %% came via them\n", "no data", review->without_data_count,
-              review->without_data_count == 1 ? "" : "s", review->without_data,
-              worst ? 100 * worst->without_data_share : 0);
-    for (int i = 0; i < review->variant_count; i++) print_variant(&review->variants[i], scratch);
+    for (int i = 0; i < review->variant_count; i++)
+        print_variant(&review->variants[i], scratch);
     for (int i = 0; i < review->mend_count; i++) print_mend(&review->mends[i], &scratch);
     if (worst) print_worst(review, worst, scratch);
     const char *rests = review_rests_words(review, &scratch);

@@ -21,6 +21,10 @@
 #define SMALL_LETTER 6.8
 #define LEAST_CELL 90
 #define CELL_MARGIN 22
+#define PHONE_WIDTH 355  /* of a telephone of 390 pixels, likewise: letters of 11 and 9.5 */
+#define PHONE_MARGIN 14
+#define PHONE_LETTER 7.4
+#define PHONE_SMALL 5.8
 
 const char *const *review_answer_directions(const ReviewAnswer *answer, const ReviewCase *c,
                                             Arena *arena)
@@ -148,6 +152,7 @@ static void add_cell(Text *html, const Review *review, const ReviewCase *c, Aren
         return;
     }
     review_card_begin_cell(html, review, c, arena);
+    page_element(html, "i", c->eye); /* where a telephone has no heads of columns */
     text_add(html, "<b>");
     escape_markup(html, arena_format(arena, "%s %s", words_mark(c->verdict),
                                      words_judged(c, arena)));
@@ -184,6 +189,15 @@ static void add_rows(Text *html, const Review *review, const Grid *grid, int row
     }
 }
 
+/* Of those that do not count. */
+static int count_unlimited(const Review *review)
+{
+    int count = 0;
+    for (int i = 0; i < review_case_count(review); i++)
+        count += review_case_at(review, i)->unjudged == UNJUDGED_LIMIT;
+    return count;
+}
+
 static const char *count_words(const Review *review, Arena *arena)
 {
     static const char *const NAMES[4] = {"pass", "fail", "too close to call",
@@ -199,9 +213,12 @@ static const char *count_words(const Review *review, Arena *arena)
         text_format(&text, "%s %d %s", before, counts.of[ORDER[i]], NAMES[ORDER[i]]);
         before = ",";
     }
-    if (counts.not_asked)
-        text_format(&text, "%s %d that do%s not count", before, counts.not_asked,
-                    counts.not_asked == 1 ? "es" : "");
+    int unlimited = count_unlimited(review), optional = counts.not_asked - unlimited;
+    if (unlimited)
+        text_format(&text, "%s %d to which no limit applies", before, unlimited);
+    if (optional)
+        text_format(&text, "%s %d hidden that need not be seen", unlimited ? "," : before,
+                    optional);
     return text.data;
 }
 
@@ -232,6 +249,22 @@ static double grid_width(const Grid *grid, int rows, int eyes)
     return width + symbol + CELL_MARGIN;
 }
 
+/* Do the columns of a telephone hold the longest words? */
+static bool fits_phone(const Grid *grid, int eyes)
+{
+    double room = (double)PHONE_WIDTH / eyes - PHONE_MARGIN;
+    int    eye = 0, condition = 0;
+    for (int i = 0; i < eyes; i++) {
+        int word = longest_word(grid->eyes.list[i]);
+        if (word > eye) eye = word;
+    }
+    for (int i = 0; i < grid->count; i++) {
+        int word = longest_word(grid->ranked[i]->condition);
+        if (word > condition) condition = word;
+    }
+    return PHONE_LETTER * eye <= room && PHONE_SMALL * condition <= room;
+}
+
 static void add_grid(Text *html, const Review *review, Arena *arena)
 {
     Grid        grid = make_grid(review, arena);
@@ -241,8 +274,9 @@ static void add_grid(Text *html, const Review *review, Arena *arena)
     while (eyes > 1 && grid_width(&grid, rows, eyes) > GRID_WIDTH) eyes--;
     for (int i = 0; i < eyes; i++)
         columns[i + 1] = (PageColumn){grid.eyes.list[i], false, NULL};
-    text_format(html, "<div class=\"grid%s\">",
-                grid_width(&grid, rows, eyes) > GRID_WIDTH ? " breaks" : "");
+    text_format(html, "<div class=\"grid%s%s\">",
+                grid_width(&grid, rows, eyes) > GRID_WIDTH ? " breaks" : "",
+                fits_phone(&grid, eyes) ? "" : " stacked");
     page_table_begin(html, "", "matrix", columns, eyes + 1);
     add_rows(html, review, &grid, rows, eyes, arena);
     page_table_end(html);

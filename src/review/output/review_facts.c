@@ -64,28 +64,28 @@ static void add_why(ReviewFacts *facts, const Review *review, const ReviewCase *
     add(facts, "Empty seat", words_empty_seat(c, arena));
 }
 
-/* How many others cannot be judged either. */
-static const char *others_words(const Review *review, const ReviewCase *of, Arena *arena)
+/* With how many others that cannot be judged either. */
+static const char *unjudged_words(const Review *review, const ReviewCase *of, Arena *arena)
 {
-    int count = 0, same = 0;
+    const char *name = words_case(of, arena);
+    int         count = 0, same = 0;
     for (int i = 0; i < review_case_count(review); i++) {
         const ReviewCase *c = review_case_at(review, i);
-        bool counts = c != of && c->verdict == VERDICT_UNJUDGED && review_case_counts(c);
-        count += counts;
-        same += counts && c->unjudged == of->unjudged;
+        if (c == of || c->verdict != VERDICT_UNJUDGED || !review_case_counts(c)) continue;
+        count++;
+        same += c->unjudged == of->unjudged;
     }
-    if (!count) return "";
-    return arena_format(arena, "%d other%s, %d of them for the same reason", count,
-                        count == 1 ? "" : "s", same);
+    if (!count) return name;
+    return arena_format(arena, "%s, and %d other%s, of which %d for the same reason", name,
+                        count, count == 1 ? "" : "s", same);
 }
 
 static void add_unjudged(ReviewFacts *facts, const Review *review, const ReviewCase *c,
                          Arena *arena)
 {
-    add(facts, "Not judged", words_case(c, arena));
+    add(facts, "Not judged", unjudged_words(review, c, arena));
     add(facts, "Why", words_unjudged(c, arena));
     add(facts, "To judge it", words_to_judge(c));
-    add(facts, "… nor are", others_words(review, c, arena));
 }
 
 /* ---- what mends it ----------------------------------------------------------------------- */

@@ -158,18 +158,23 @@ static void add_eyes(Text *line, const Review *review, Arena *arena)
 /* Seats are known by their backs, where much light comes off them. */
 static const char *nobody_words(const Review *review, Arena *arena)
 {
+    static const char UNLESS[] = "unless the model itself has somebody";
     int      count = review_case_count(review);
-    WordList eyes = words_list(count, arena);
+    WordList eyes = words_list(count, arena), empty = words_list(count, arena);
     Text     seats = {.arena = arena};
     for (int i = 0; i < count; i++) {
         const ReviewCase *c = review_case_at(review, i);
-        if (c->empty_seat) words_list_add(&eyes, c->eye);
+        words_list_add(&eyes, c->eye);
+        if (c->empty_seat) words_list_add(&empty, c->eye);
     }
-    for (int i = 0; i < eyes.count; i++)
-        text_format(&seats, "%s%s's", i ? " and " : "", eyes.list[i]);
-    if (!eyes.count)
-        return "no occupant named: nobody sits there, unless the model itself has somebody";
-    return arena_format(arena, "no occupant named: nobody sits in the %s seat", seats.data);
+    for (int i = 0; i < empty.count; i++)
+        text_format(&seats, "%s%s's", i ? " and " : "", empty.list[i]);
+    if (!empty.count)
+        return arena_format(arena, "no occupant named: nobody sits there, %s", UNLESS);
+    if (empty.count == eyes.count)
+        return arena_format(arena, "no occupant named: nobody sits in the %s seat", seats.data);
+    return arena_format(arena, "no occupant named: nobody sits in the %s seat, nor in another "
+                        "%s", seats.data, UNLESS);
 }
 
 static void add_occupants(Text *line, const Review *review, Arena *arena)

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/output/review_variants.h"
 
+#include <ctype.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "page/page.h"
+#include "review/output/effect_words.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_words.h"
-#include "text/interval_text.h"
 
 /* ---- the order --------------------------------------------------------------------------- */
 
@@ -53,62 +54,16 @@ static const ReviewVariantFound **rank(const Review *review, Arena *arena)
 
 /* ---- words ------------------------------------------------------------------------------- */
 
-/* Is it less than a tenth of a percent of the limit, which is all that is shown? */
-static bool is_small(const ReviewDifference *d)
-{
-    double half = 50 * (d->margin_range.high - d->margin_range.low);
-    return fabs(100 * d->margin) < 0.05 && half < 0.05;
-}
+#define SHOWN_SHARE 0.001 /* of a limit: the least that is told */
 
-/* "+20.8 ± 0.5", both to one place; "+20.8 ± less than 0.1" where the error is below half of
- * what is shown at least. */
-static const char *signed_words(double value, double half, double least, Arena *arena)
-{
-    static const char BETWEEN[] = " +- ";
-    bool        is_sure = half < 0.5 * least;
-    double      to_place = is_sure ? 5 * least : half; /* one digit of it: least's place */
-    double      size = fabs(value);
-    const char *text = interval_text(size, size - to_place, size + to_place, arena);
-    const char *end = strstr(text, BETWEEN);
-    const char *sign = value < 0 ? "−" : "+";
-    int         figure = end ? (int)(end - text) : (int)strlen(text);
-    if (is_sure || !end)
-        return arena_format(arena, "%s%.*s ± less than %.2g", sign, figure, text, least);
-    return arena_format(arena, "%s%.*s ± %s", sign, figure, text, end + strlen(BETWEEN));
-}
-
-/* Of an effect that may be 0: what it does not exceed, up to its next second digit. */
-static const char *at_most_words(MeanInterval percent, Arena *arena)
-{
-    double most = fmax(-percent.low, percent.high);
-    double place = pow(10, floor(log10(most)) - 1);
-    return words_figure(place * ceil(most / place - 1e-9), arena);
-}
-
-static MeanInterval in_percent(MeanInterval range)
-{
-    return (MeanInterval){100 * range.low, 100 * range.high};
-}
-
-#define SHOWN_PERCENT 0.1 /* of a limit: the least that is told */
-
-/* In percent of the limit: "+20.8 ± 0.5 %"; "none" below what is shown, "none above 0.5 %"
- * where it may be 0. */
 static const char *difference_words(const ReviewDifference *d, Arena *arena)
 {
-    MeanInterval range = in_percent(d->margin_range);
-    if (isnan(d->margin)) return "–";
-    if (is_small(d)) return "none";
-    if (range.low <= 0 && range.high >= 0)
-        return arena_format(arena, "none above %s %%", at_most_words(range, arena));
-    return arena_format(arena, "%s %%", signed_words(100 * d->margin,
-                                                     0.5 * (range.high - range.low),
-                                                     SHOWN_PERCENT, arena));
+    return effect_words(d->margin, d->margin_range, SHOWN_SHARE, arena);
 }
 
 static const char *difference_class(const ReviewDifference *d)
 {
-    if (is_small(d)) return "n";
+    if (effect_is_none(d->margin, d->margin_range, SHOWN_SHARE)) return "n";
     if (d->margin_range.low > 0) return "n good";
     return d->margin_range.high < 0 ? "n bad" : "n";
 }
@@ -186,6 +141,18 @@ static const char *figure_words(const ReviewCase *c, Arena *arena)
                      : words_contrast(c, arena);
 }
 
+/* Letters of the words that stand before both figures: "luminance contrast ". */
+static size_t name_length(const char *before, const char *after)
+{
+    size_t name = 0;
+    for (size_t i = 0; before[i] && before[i] == after[i] && !isdigit((unsigned char)before[i]);
+         i++)
+        if (before[i] == ' ') name = i + 1;
+    bool are_figures = isdigit((unsigned char)before[name]) &&
+                       isdigit((unsigned char)after[name]);
+    return are_figures ? name : 0;
+}
+
 /* "24 → 114 : 1": a unit or name that both have stands once. */
 static const char *change_words(const char *before, const char *after, Arena *arena)
 {
@@ -194,6 +161,7 @@ static const char *change_words(const char *before, const char *after, Arena *ar
     bool   is_ratio = size > unit && end > unit && !strcmp(before + size - unit, UNIT) &&
                     !strcmp(after + end - unit, UNIT);
     if (is_ratio) before = arena_string(arena, before, size - unit);
+    after += name_length(before, after);
     return arena_format(arena, "%s → %s", before, after);
 }
 
@@ -211,14 +179,16 @@ static double distance_of(const ReviewDifference *d)
     return isnan(d->margin) ? -1 : fabs(d->margin);
 }
 
-/* NULL: of none is it known. */
+/* NULL: of none is it known, or none moves. */
 static const ReviewDifference *moving_most(const ReviewVariantFound *v)
 {
     const ReviewDifference *most = NULL;
     for (int i = 0; i < v->difference_count; i++)
         if (distance_of(&v->differences[i]) > (most ? distance_of(most) : -1))
             most = &v->differences[i];
-    return most;
+    bool moves = most && (isnan(most->margin) ||
+                          !effect_is_none(most->margin, most->margin_range, SHOWN_SHARE));
+    return moves ? most : NULL;
 }
 
 /* ---- the table of all -------------------------------------------------------------------- */
@@ -277,7 +247,8 @@ const char *review_variants_words(const ReviewVariantFound *v, Arena *arena)
     if (!least->after) return NO_LIMIT;
     text_format(&text, "least margin %s, %s: %s", moved_words(least, arena),
                 margins_words(least, arena), least_where(least, arena));
-    if (most && !(words_same(words_case(most->after, arena), words_case(least->after, arena))))
+    if (!most) text_add(&text, "; nothing moves");
+    else if (!words_same(words_case(most->after, arena), words_case(least->after, arena)))
         text_format(&text, "; moves most %s, %s: %s", moved_words(most, arena),
                     margins_words(most, arena), words_case(most->after, arena));
     return text.data;
@@ -319,7 +290,7 @@ static void add_row(Text *html, const ReviewVariantFound *v, Arena *arena)
         add_change_cell(html, &v->worst, least_where(&v->worst, arena), arena);
     else page_cell(html, "", NO_LIMIT);
     if (most) add_change_cell(html, most, words_case(most->after, arena), arena);
-    else page_cell(html, "n", "–");
+    else page_cell(html, "n", "nothing");
     page_cell(html, "n", counts_words(v->review, arena));
     page_cell(html, "n", failed_words(v->review, arena));
     page_row_end(html);
@@ -466,19 +437,13 @@ static void add_effect_bar(Text *html, const ReviewSensitivity *s, const ReviewS
                 "</svg></td>", middle, BAR_HEIGHT, fmax(low, 0), fmin(high, BAR_WIDTH));
 }
 
-/* "+1.03 ± 0.01 % per mm"; "none" below what is shown, "none above ..." where it may be 0. */
+/* "+1.03 ± 0.01 % per mm"; "none" below what a step shows. */
 static const char *slope_words(const ReviewSensitivity *s, const ReviewSlope *slope,
                                Arena *arena)
 {
-    MeanInterval range = in_percent(slope->range);
-    double half = 0.5 * (range.high - range.low), least = SHOWN_PERCENT / s->step;
-    bool   is_none = range.low <= 0 && range.high >= 0;
-    if (fabs(100 * slope->slope) < 0.5 * least && half < 0.5 * least) return "none";
-    if (is_none)
-        return arena_format(arena, "none above %s %% per %s", at_most_words(range, arena),
-                            s->unit);
-    return arena_format(arena, "%s %% per %s",
-                        signed_words(100 * slope->slope, half, least, arena), s->unit);
+    const char *effect = effect_words(slope->slope, slope->range, SHOWN_SHARE / s->step, arena);
+    if (words_same(effect, EFFECT_NONE)) return effect;
+    return arena_format(arena, "%s per %s", effect, s->unit);
 }
 
 static void add_slope(Text *html, const ReviewSensitivity *s, int place, double most,

@@ -395,8 +395,8 @@ const char *words_to_judge(const ReviewCase *c)
                             "\"optional\" of the symbol, if this eye need not see it",
         [UNJUDGED_PANEL] = "a panel file that is usable: measured anew, or fitted anew from "
                            "finer data (`parhelion panel info` says what this one lacks)",
-        [UNJUDGED_DATA] = "give these materials colours or spectra in the model, or by `equip`; "
-                          "`parhelion check` names them",
+        [UNJUDGED_DATA] = "give these materials colours or spectra in the model, or by "
+                          "`equip`; `parhelion check` names them",
         [UNJUDGED_LIMIT] = "a profile with a limit that applies in this light",
         [UNJUDGED_FIGURE] = "a rectangle of the content that holds the symbol and its "
                             "background"};
@@ -493,8 +493,8 @@ const char *words_without_data(const Review *review, const ReviewCase *c, Arena 
 {
     int count = review->without_data_count;
     if (!count) return "";
-    return arena_format(arena, " %s of it came via %d material%s without optical data "
-                               "(taken as perfectly white): %s.",
+    return arena_format(arena, "%s of it came via %d material%s without optical data "
+                               "(taken as perfectly white): %s",
                         words_share(c->without_data_share, arena), count,
                         count == 1 ? "" : "s", review->without_data);
 }
