@@ -51,16 +51,16 @@ static void print_case(const ReviewCase *c, Arena scratch)
 static void print_sweep(const ReviewSweep *s, Arena scratch)
 {
     bool is_sure = sweep_verdict(s) == VERDICT_FAIL || !(s->failed_share > 0);
-    print("%-16s %s, %s, %s: %s %s %s fails%s, %ld suns judged",
-          verdict_names[sweep_verdict(s)], s->condition, s->eye, s->symbol,
+    print("%-16s %s, %s, %s: %sfails %s %s%s", verdict_names[sweep_verdict(s)], s->condition,
+          s->eye, s->symbol, sweep_has_box(s) ? "the middle eye " : "",
           words_share(s->failed_share, &scratch), words_of_what(s),
-          sweep_has_box(s) ? "the middle eye" : "it",
-          is_sure ? "" : " by its steps alone, none that was read again", s->cases);
+          is_sure ? "" : " by its steps alone, in none that was read again");
+    if (s->longest_failure_minutes > 0)
+        print(", %.4g minutes at a stretch", s->longest_failure_minutes);
+    print("; %ld suns judged", s->cases);
     if (sweep_has_box(s) && s->middle_contrast > 0)
         print("; at its own worst %s",
               words_ratio_as(&s->worst, s->middle_contrast, &scratch));
-    if (s->longest_failure_minutes > 0)
-        print(", %.4g minutes at a stretch", s->longest_failure_minutes);
     if (sweep_has_box(s))
         print("; at the worst sun %s of eyes fail",
               words_share(s->worst.eye_failed_share, &scratch));
