@@ -243,6 +243,9 @@ typedef struct ReviewCase {
     double  level;               /* at which the display was set, 1: as measured */
     double  glasses_transmittance; /* luminous, of the observer's sunglasses; 1: none. All
                                     luminances are told without that factor */
+    const char *glasses;         /* the sunglasses in words; NULL: none */
+    double  glasses_display_loss; /* the share of the symbol's own light that they take beyond
+                                    what they take of any: by a polariser or their colour */
     CasePanel panel;             /* what the display's panel says of itself */
     double  veil_displays;       /* cd m^-2 of the veil, at most, that grow with the display's
                                     level; 0: nothing is known of it */

@@ -162,6 +162,26 @@ TEST(what_cannot_be_judged_says_what_would_have_it_judged)
     }
 }
 
+/* A polariser may take the display's light and leave the reflections: then that is why. 100 and
+ * 5 cd/m2 over 40 are 3.11 : 1. */
+TEST(sunglasses_are_named_with_what_they_take)
+{
+    Review      review = fixture_review(&arena);
+    ReviewCase *c = &review.cases[0];
+    c->glasses = "grey sunglasses of 20 %";
+    ReviewFacts facts = review_facts_of(&review, c, NULL, &arena);
+    assert_string_equal(fact(&facts, "Seen through"), c->glasses);
+    c->glasses_display_loss = 0.95;
+    c->luminance_cd_m2.foreground = 5;
+    c->luminance_cd_m2.background = 0.25;
+    c->luminance_cd_m2.reflected = 40;
+    facts = review_facts_of(&review, c, NULL, &arena);
+    assert_non_null(strstr(fact(&facts, "Seen through"),
+                           "they pass 5.0 % as much of the display's own light as of any "
+                           "other, passed alike it has 3.11 : 1"));
+    assert_string_equal(fact(&(ReviewFacts){.count = 0}, "Seen through"), "");
+}
+
 /* Columns of a telephone that do not hold the longest word stand below each other; each cell
  * has its eye's name for that. */
 TEST(long_names_are_stacked_on_a_telephone)

@@ -31,6 +31,27 @@ static void add_when(ReviewFacts *facts, const Review *review, const ReviewCase 
 
 /* ---- why --------------------------------------------------------------------------------- */
 
+#define LOSS_LEAST 0.1 /* of the display's own light: what else glasses do leaves contrasts */
+
+/* Were its own light let through as any other. */
+static double contrast_without_loss(const ReviewCase *c)
+{
+    const CaseLuminances *l = &c->luminance_cd_m2;
+    double share = 1 - c->glasses_display_loss;
+    return luminance_contrast(l->foreground / share, l->background / share, l->reflected);
+}
+
+static const char *glasses_words(const ReviewCase *c, Arena *arena)
+{
+    if (!c->glasses) return "";
+    if (!(c->glasses_display_loss >= LOSS_LEAST && c->glasses_display_loss < 1))
+        return c->glasses;
+    return arena_format(arena, "%s; they pass %s as much of the display's own light as of any "
+                               "other, passed alike it has %s", c->glasses,
+                        words_share(1 - c->glasses_display_loss, arena),
+                        words_ratio_as(c, contrast_without_loss(c), arena));
+}
+
 /* All of it in whole percent that add up to 100, the small ones together. */
 static const char *group_words(const CaseGroup *group, Arena *arena)
 {
@@ -52,6 +73,7 @@ static void add_why(ReviewFacts *facts, const Review *review, const ReviewCase *
 {
     static const char *const NAMES[CAUSE_GROUPS] = {"Light from", "… in through", "… off"};
     const char *whole = words_whole(c, arena);
+    add(facts, "Seen through", glasses_words(c, arena));
     if (whole[0])
         add(facts, "Judged by", arena_format(arena, "its worst part; %s", whole));
     for (int g = 0; g < CAUSE_GROUPS; g++)
@@ -106,9 +128,10 @@ static const CaseRemedy *next_mend(const ReviewCase *c, const bool *is_listed)
     return best;
 }
 
-static void add_mend(ReviewFacts *facts, int *listed, const char *words)
+static void add_mend(ReviewFacts *facts, int *listed, bool mends, const char *words)
 {
-    add(facts, *listed ? "… or" : "What mends it", words);
+    const char *name = *listed ? "… or" : mends ? "What mends it" : "What helps";
+    add(facts, name, words);
     ++*listed;
 }
 
@@ -117,12 +140,12 @@ static void add_tried(ReviewFacts *facts, const Review *review, int *listed, Are
 {
     for (int i = 0; i < review->mend_count; i++)
         if (review->mends[i].is_found)
-            add_mend(facts, listed, words_mend(&review->mends[i], arena));
+            add_mend(facts, listed, true, words_mend(&review->mends[i], arena));
     for (int i = 0; i < review->variant_count && *listed < MENDS_LISTED; i++) {
         const ReviewVariantFound *v = &review->variants[i];
         if (review_verdict(v->review) == VERDICT_PASS)
-            add_mend(facts, listed, arena_format(arena, "the variant '%s': everything passes",
-                                                 v->name));
+            add_mend(facts, listed, true,
+                     arena_format(arena, "the variant '%s': everything passes", v->name));
     }
 }
 
@@ -136,7 +159,7 @@ static void add_mends(ReviewFacts *facts, const Review *review, const ReviewCase
         const CaseRemedy *r = next_mend(c, is_listed);
         if (!r) return;
         is_listed[r - c->remedies] = true;
-        add_mend(facts, &listed,
+        add_mend(facts, &listed, r->verdict == VERDICT_PASS,
                  arena_format(arena, "%s: %s", r->what, words_remedy(r, arena)));
     }
 }

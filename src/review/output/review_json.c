@@ -119,6 +119,8 @@ static const Member CASE[] = {
     OWN(FIGURE, ReviewCase, level), OWN(FIGURE, ReviewCase, display_lux),
     {"glasses_transmittance", MEMBER_FIGURE, offsetof(ReviewCase, glasses_transmittance),
      .use = SINCE},
+    LATER("glasses", TEXT, ReviewCase, glasses),
+    LATER("glasses_display_loss", FIGURE, ReviewCase, glasses_display_loss),
     {"limit", MEMBER_LIMIT, .of = LIMIT},
     LIST("limits", ReviewCase, limits, limit_count, LIMIT, LimitVerdict),
     {"judged", MEMBER_JUDGED, .use = WRITTEN, .of = LIMIT},
