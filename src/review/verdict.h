@@ -244,6 +244,9 @@ typedef struct ReviewCase {
     double  level;               /* at which the display was set, 1: as measured */
     double  glasses_transmittance; /* luminous, of the observer's sunglasses; 1: none. All
                                     luminances are told without that factor */
+    const char *glasses;         /* the sunglasses in words; NULL: none */
+    double  glasses_display_loss; /* the share of the symbol's own light that they take beyond
+                                    what they take of any: by a polariser or their colour */
     CasePanel panel;             /* what the display's panel says of itself */
     double  veil_displays;       /* cd m^-2 of the veil, at most, that grow with the display's
                                     level; 0: nothing is known of it */
@@ -325,6 +328,8 @@ typedef struct ReviewSweep {
                                             counts it: the verdict is the worst's, which was
                                             read again */
     double      longest_failure_minutes; /* at a stretch; NaN: the sweep has no times */
+    double      middle_contrast; /* of an eye box: ratio at the worst step of its middle, whose
+                                    steps these are; NaN: one point, or nothing is seen */
     ReviewCase  worst;
     const char *table;                   /* "sweeps/NAME.csv" */
 } ReviewSweep;

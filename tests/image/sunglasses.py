@@ -82,6 +82,8 @@ def check_malus(report, found):
         wanted = 1 + weight * math.cos(2 * math.radians(90 - deg))
         share = case["luminance_cd_m2"]["foreground"] / bare["foreground"]
         report.claim(abs(share - wanted) < 0.01, f"{deg}: {share}, by Malus {wanted}")
+        report.claim(abs(case["glasses_display_loss"] - (1 - wanted)) < 0.01 and
+                     "polarising" in case["glasses"], f"{deg}: {case['glasses_display_loss']}")
         scattered = case["luminance_cd_m2"]["scattered"] / bare["scattered"]
         report.claim(abs(scattered - 1) < 0.03, f"{deg}: scattered light changes: {scattered}")
 

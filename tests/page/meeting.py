@@ -125,8 +125,9 @@ def check_reader(report, page, index, review):
     page.resize(*SCREEN)
     page.run("scrollTo(0,0)")
     words = page.run(SEEN)
-    verdict = re.search(r"^(Fails|Passes|Too close to call)$", words, re.M)
-    wanted = {"pass": "Passes", "fail": "Fails", "too close": "Too close to call"}
+    verdict = re.search(r"^(Fails|Passes|Too close to call|Cannot be judged)$", words, re.M)
+    wanted = {"pass": "Passes", "fail": "Fails", "too close": "Too close to call",
+              "cannot be judged": "Cannot be judged"}
     report.claim(verdict and verdict[1] == wanted[review["verdict"]], f"{index}: no verdict")
     worst = re.search(r"([^\n:]+), seen by ([^,\n]+), (.+?): ", words)
     report.claim(bool(worst), f"{index}: no worst case in {words[:200]!r}")
@@ -136,8 +137,10 @@ def check_reader(report, page, index, review):
              if c["symbol"] in worst[1] and c["eye"] == worst[2] and
              worst[3].startswith(c["condition"])]
     report.claim(len(cases) >= 1, f"{index}: {worst[0]!r} is no case")
-    for name in ("When", "Light from") + (() if review["verdict"] == "pass" else
-                                          ("What mends it",)):
+    wanted = {"pass": ("Light from",),
+              "cannot be judged": ("Not judged", "Why", "To judge it")}
+    fails = ("Light from", "What (?:mends it|helps)")
+    for name in ("When", "Rests on") + wanted.get(review["verdict"], fails):
         report.claim(re.search(rf"^{name}\n(.+)", words, re.M), f"{index}: no '{name}' in "
                      f"the first screen")
     cause = re.search(r"^Light from\n(\d+) % (\S.*?)(?: ·|$)", words, re.M)
@@ -215,6 +218,19 @@ CUT = ("[...document.querySelectorAll('.grid .wide')].filter(w=>w.scrollWidth>w.
        "w.getBoundingClientRect().right>innerWidth).length")
 
 
+def check_unjudged(report, program, parhelion):
+    """What cannot be judged: the first screen says what that is, why, and what to do."""
+    with tempfile.TemporaryDirectory() as place:
+        reviewer, scene = glare.Reviewer(parhelion, place), Scene()
+        glare.screen(scene)
+        review = reviewer.review(scene, glare.request(
+            {"a bright day": 3000}, eyes={"who stands behind it": {"position_m": [0, 0, -3]}}))
+        report.claim(review["verdict"] == "cannot be judged", review["verdict"])
+        index = os.path.join(place, "out", "index.html")
+        with browser.Browser(program, "file://" + index, SCREEN) as page:
+            check_reader(report, page, index, review)
+
+
 def check_names(report, program, parhelion):
     """Three eyes and symbols with long names: at 1280 px the grid is whole, no word of it is
     broken, and an eye to which a height is too small is told the contrast, too, all of it above
@@ -246,7 +262,7 @@ def check_names(report, program, parhelion):
                              f"the worst {shown} of 5 eyes" in seen,
                              f"{shown} of {len(which)} eyes in {seen[:400]!r}")
                 page.resize(390, 844)
-                broken = page.run(BROKEN % ".grid td")
+                broken = page.run(BROKEN % ".grid th,.grid td")
                 report.claim(not broken, f"{len(which)} eyes, 390 px: broken words {broken}")
                 report.claim(page.run(CUT) == 0, f"{len(which)} eyes, 390 px: cut off")
                 small = page.run("document.querySelector('.grid td.bad').innerText")
@@ -262,6 +278,7 @@ def main(program, *folders):
     if not checker:
         report.skip("pages of reviews for screen readers: npm has no axe-core here")
     check_gazes(report, found, program)
+    check_unjudged(report, found, program)
     check_names(report, found, program)
     for folder in folders:
         check_folder(report, found, os.path.abspath(folder), checker)

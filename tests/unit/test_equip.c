@@ -285,6 +285,22 @@ ARENA_TEST(a_folder_can_be_sent_to_somebody)
     assert_null(strstr(read_text(in_folder("sent/n.gltf"), &arena), "../"));
 }
 
+/* What the model itself names in a folder beside its own goes along, too. */
+ARENA_TEST(what_the_model_names_outside_its_folder_is_copied)
+{
+    EquipResult result;
+    const char *model = in_folder("car/m.gltf");
+    mkdir(in_folder("car"), 0777);
+    mkdir(in_folder("parts"), 0777);
+    write_text(model, arena_format(&arena, model_json, ", \"uri\": \"../parts/corners.bin\""));
+    write_bytes(in_folder("parts/corners.bin"), corners, sizeof corners);
+    write_changed("", "", &arena);
+    assert_done(apply(model, in_folder("car/n.gltf"), false, &arena, &result, &err));
+    assert_true(file_exists(in_folder("car/corners.bin")));
+    assert_null(strstr(read_text(in_folder("car/n.gltf"), &arena), "../"));
+    scene_close(load(in_folder("car/n.gltf"), &arena));
+}
+
 /* An eighth of a cylinder of radius 0.4 m about the Y axis, seen from its axis: corners by sine
  * and cosine, normals towards the axis. */
 static const char *cylinder(Arena *arena)

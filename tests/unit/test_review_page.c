@@ -189,7 +189,7 @@ TEST(many_cases_take_two_pages)
     ReviewCase *cases = ARENA_NEW(&arena, ReviewCase, CASES);
     for (int i = 0; i < CASES; i++) {
         cases[i] = review.cases[i % review.case_count];
-        cases[i].symbol = arena_format(&arena, "symbol %d", i);
+        cases[i].symbol = arena_format(&arena, "sign %d", i);
     }
     review.cases = cases;
     review.case_count = CASES;
@@ -251,20 +251,25 @@ TEST(sweeps_that_fail_come_first)
 TEST(an_eye_box_names_whose_share_it_is)
 {
     static const struct {
-        double eyes, failed, minutes;
+        double eyes, failed, minutes, middle;
         const char *often, *how_often;
     } BOX[] = {
-        {0.44, 0.012, 30, "44 % of eyes",
-         "44 % of eyes at its worst, the middle eye 1.2 % of the time"},
-        {0.44, 0, 0, "44 % of eyes", "44 % of eyes at its worst, the middle eye never"},
-        {1, 0.5, NAN, "100 % of eyes",
+        {0.44, 0.012, 30, 1.69, "44 % of eyes",
+         "44 % of eyes at its worst, the middle eye 1.2 % of the time, at its own worst "
+         "1.69 : 1"},
+        {0.44, 0, 0, 3.25, "44 % of eyes",
+         "44 % of eyes at its worst, the middle eye never, at its own worst 3.25 : 1"},
+        {0.44, 0, 0, NAN, "44 % of eyes", /* of an older review */
+         "44 % of eyes at its worst, the middle eye never"},
+        {1, 0.5, NAN, NAN, "100 % of eyes",
          "100 % of eyes at its worst, the middle eye 50 % of the sun's directions"}};
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 4; i++) {
         Review       review = fixture_review(&arena);
         ReviewSweep *s = &review.sweeps[0];
         s->worst.eye_failed_share = BOX[i].eyes;
         s->failed_share = BOX[i].failed;
         s->longest_failure_minutes = BOX[i].minutes;
+        s->middle_contrast = BOX[i].middle;
         assert_string_equal(words_often(s, &arena), BOX[i].often);
         assert_string_equal(words_how_often(s, &arena), BOX[i].how_often);
         review.sweep_count = 1;
@@ -273,6 +278,8 @@ TEST(an_eye_box_names_whose_share_it_is)
         assert_non_null(strstr(card, BOX[i].how_often));
         assert_non_null(strstr(card, "of eyes fail at its worst"));
         assert_non_null(strstr(card, "the middle eye fails"));
+        bool tells_worst = strstr(card, "of the middle eye at its own worst") != NULL;
+        assert_true(tells_worst == !isnan(BOX[i].middle));
         assert_null(strstr(card, "of the time it fails"));
         assert_null(strstr(card, "directions it fails"));
     }

@@ -132,6 +132,11 @@ TEST(a_variants_row_shows_what_moves_most_and_the_least)
     all[2].margin = -9;
     row = strstr(page_of(&(ReviewPage){.review = &review}), "<b>hood</b>");
     assert_non_null(strstr(row, "<b>24.0 : 1 → hidden</b>"));
+    after->unjudged = UNJUDGED_NOT; /* another quantity's name stands once */
+    limits[0].kind = limits[1].kind = "luminance_contrast";
+    all[2].margin = -0.1;
+    row = strstr(page_of(&(ReviewPage){.review = &review}), "<b>hood</b>");
+    assert_non_null(strstr(row, "<b>luminance contrast 24.0 → 114</b>"));
 }
 
 /* The eye at the origin looks along -z, a right angle wide. */

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A review's figures as people read them. */
+#include "review/output/effect_words.h"
+#include "review/output/review_facts.h"
 #include "review/output/review_rests.h"
 #include "review/output/review_words.h"
 #include "review_page_fixture.h"
@@ -53,8 +55,13 @@ TEST(what_it_rests_on_is_one_line)
         "panel of cluster: measured (PX-9; conoscope, lab <B>), usable with care, coarse "
         "(coarse: steps of 5 degrees), known within 2.0 % of what it emits and 4.0 % of what "
         "it reflects; panel of centre: synthetic; 2 guessed materials (up to 62 % of the light "
-        "on a symbol); the eye as given; no occupant named; limits as quoted, 1 of 5 read in "
-        "the standard");
+        "on a symbol); the eye as given; no occupant named: nobody sits there, unless the "
+        "model itself has somebody; limits as quoted, 1 of 5 read in the standard");
+    review.cases[5].eye = "driver";
+    review.cases[5].empty_seat = "back";
+    assert_non_null(strstr(review_rests_words(&review, &arena),
+                           "; no occupant named: nobody sits in the driver's seat, nor in "
+                           "another unless the model itself has somebody; limits"));
     review.case_count = 4;
     review.sweep_count = 0;
     assert_non_null(strstr(review_rests_words(&review, &arena), "up to 25 %"));
@@ -103,6 +110,98 @@ TEST(digits_follow_the_interval)
     LimitVerdict limit = {.kind = "luminance", .unit = "cd/m2", .found = 417.486, .low = 380,
                           .high = 455};
     assert_string_equal(words_found(&limit, &arena), "420 cd/m²");
+}
+
+/* An effect and its error end at one place, and neither says more than is known. */
+TEST(an_effect_has_the_digits_of_its_error)
+{
+    static const struct { double share, half, least; const char *words; } ROWS[] = {
+        {0.20834, 0.0053, 0.001, "+20.8 ± 0.5 %"}, {-0.587, 0.021, 0.001, "−58.7 ± 2.1 %"},
+        {0.1419, 1.1e-6, 0.001, "+14.2 ± less than 0.1 %"},
+        {1.2345, 0.123, 0.001, "+123 ± 12 %"}, {12, 1.5, 0.001, "+1200 ± 150 %"},
+        {0.004, 0.005, 0.001, "none above 0.9 %"},
+        {-0.3, 0.9, 0.001, "none above 120 %"}, {0.0001, 0.0001, 0.001, EFFECT_NONE},
+        {0.5734, 0.00053, 0.01, "+57 ± less than 1 %"}, {NAN, NAN, 0.001, "–"}};
+    for (size_t i = 0; i < sizeof ROWS / sizeof *ROWS; i++) {
+        MeanInterval range = {ROWS[i].share - ROWS[i].half, ROWS[i].share + ROWS[i].half};
+        assert_string_equal(effect_words(ROWS[i].share, range, ROWS[i].least, &arena),
+                            ROWS[i].words);
+    }
+}
+
+static const char *fact(const ReviewFacts *facts, const char *name)
+{
+    for (int i = 0; i < facts->count; i++)
+        if (!strcmp(facts->list[i].name, name)) return facts->list[i].value;
+    return "";
+}
+
+/* For each reason: what, why, and what to do; a figure that decides nothing is not told. */
+TEST(what_cannot_be_judged_says_what_would_have_it_judged)
+{
+    static const struct { Unjudged why; const char *reason, *mend; } ROWS[] = {
+        {UNJUDGED_HIDDEN, "nothing of it is seen", "\"visible\": \"optional\""},
+        {UNJUDGED_PANEL, "not usable: 63 % of the samples", "measured anew"},
+        {UNJUDGED_DATA, "without optical data", "by `equip`"},
+        {UNJUDGED_LIMIT, "no limit", "a profile"},
+        {UNJUDGED_FIGURE, "could not be found out", "background"}};
+    for (size_t i = 0; i < sizeof ROWS / sizeof *ROWS; i++) {
+        Review      review = fixture_review(&arena);
+        ReviewCase *c = &review.cases[0];
+        c->verdict = VERDICT_UNJUDGED;
+        c->unjudged = ROWS[i].why;
+        c->panel = (CasePanel){.verdict = "not usable", .reason = "63 % of the samples",
+                               .is_unusable = true};
+        ReviewFacts facts = review_facts_of(&review, c, NULL, &arena);
+        assert_non_null(strstr(fact(&facts, "Not judged"), words_case(c, &arena)));
+        assert_non_null(strstr(fact(&facts, "Why"), ROWS[i].reason));
+        assert_non_null(strstr(fact(&facts, "To judge it"), ROWS[i].mend));
+        assert_string_equal(fact(&facts, "How often"), "");
+        bool is_long = strstr(words_headline(c, &arena), "samples") != NULL;
+        assert_false(is_long); /* the first line has room for the reason alone */
+    }
+}
+
+/* A polariser may take the display's light and leave the reflections: then that is why. 100 and
+ * 5 cd/m2 over 40 are 3.11 : 1. */
+TEST(sunglasses_are_named_with_what_they_take)
+{
+    Review      review = fixture_review(&arena);
+    ReviewCase *c = &review.cases[0];
+    c->glasses = "grey sunglasses of 20 %";
+    ReviewFacts facts = review_facts_of(&review, c, NULL, &arena);
+    assert_string_equal(fact(&facts, "Seen through"), c->glasses);
+    c->glasses_display_loss = 0.95;
+    c->luminance_cd_m2.foreground = 5;
+    c->luminance_cd_m2.background = 0.25;
+    c->luminance_cd_m2.reflected = 40;
+    facts = review_facts_of(&review, c, NULL, &arena);
+    assert_non_null(strstr(fact(&facts, "Seen through"),
+                           "they pass 5.0 % as much of the display's own light as of any "
+                           "other, passed alike it has 3.11 : 1"));
+    assert_string_equal(fact(&(ReviewFacts){.count = 0}, "Seen through"), "");
+}
+
+/* Columns of a telephone that do not hold the longest word stand below each other; each cell
+ * has its eye's name for that. */
+TEST(long_names_are_stacked_on_a_telephone)
+{
+    static const struct { const char *eye, *condition; bool is_stacked; } ROWS[] = {
+        {"driver", "noon", false}, {"Kraftfahrzeugfuehrers", "noon", true},
+        {"driver", "Nachtfahrtbeleuchtung", true}};
+    for (int i = 0; i < 3; i++) {
+        Review review = fixture_review(&arena);
+        review.sweep_count = 0;
+        review.case_count = 3;
+        for (int k = 0; k < 3; k++) {
+            review.cases[k].eye = k ? arena_format(&arena, "eye %d", k) : ROWS[i].eye;
+            review.cases[k].condition = ROWS[i].condition;
+        }
+        const char *page = page_of(&(ReviewPage){.review = &review});
+        assert_int_equal(strstr(page, "<div class=\"grid stacked\">") != NULL,
+                         ROWS[i].is_stacked);
+        assert_non_null(strstr(page, arena_format(&arena, "<i>%s</i>", ROWS[i].eye)));
+    }
 }
 
 TEST(the_sun_is_named_by_its_direction)

@@ -89,16 +89,14 @@ static bool add_copy(EquipFiles *files, const char *source, const char **name, E
     return true;
 }
 
-/* climb: of folders that the URI may leave; what lies farther off is copied. */
-static bool uri_within(EquipFiles *files, const char *path, int climb, const char **uri,
-                       Error *err)
+bool equip_files_take(EquipFiles *files, const char *path, const char **uri, Error *err)
 {
     char target[PATH_MAX];
     if (!realpath(path, target))
         return error_at(err, ERROR_INPUT, path, "", "cannot be found");
     const char *name = NULL;
     *uri = uri_between(files->folder, target, files->arena);
-    if (path_climb(*uri) <= climb) return true;
+    if (!path_climb(*uri)) return true;
     for (int i = 0; i < files->count && !name; i++)
         if (!strcmp(files->copies[i].source, target)) name = files->copies[i].name;
     if (!name &&
@@ -106,16 +104,6 @@ static bool uri_within(EquipFiles *files, const char *path, int climb, const cha
         return false;
     *uri = uri_between("/", arena_format(files->arena, "/%s", name), files->arena);
     return true;
-}
-
-static bool uri_of(EquipFiles *files, const char *path, const char **uri, Error *err)
-{
-    return uri_within(files, path, files->takes_all ? 0 : 1, uri, err);
-}
-
-bool equip_files_take(EquipFiles *files, const char *path, const char **uri, Error *err)
-{
-    return uri_within(files, path, 0, uri, err);
 }
 
 bool equip_files_write(EquipFiles *files, Error *err)
@@ -167,7 +155,7 @@ static const char *named_file(const EquipFiles *files, const char *uri)
 static bool renamed(EquipFiles *files, json_t *text, json_t **out, Error *err)
 {
     const char *path = named_file(files, json_string_value(text)), *uri;
-    if (path && !uri_of(files, path, &uri, err)) return false;
+    if (path && !equip_files_take(files, path, &uri, err)) return false;
     *out = path ? json_text(uri) : json_incref(text);
     return true;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* equip_files.h -- files that a new .gltf names: by a URI where it may name them
- * (base/reference.h), else as a copy beside it.
+/* equip_files.h -- files that a new .gltf names: by a URI where they lie in its folder or
+ * below, else as a copy beside it, so that the folder can be sent to somebody.
  *
  * A copy keeps its name unless another file has it already: then the new file's name stands
  * before it. Nothing that is there is written over.
@@ -24,7 +24,6 @@ typedef struct EquipCopy {
 typedef struct EquipFiles {
     const char *model, *output, *root; /* root: --root, or NULL */
     const char *folder;                /* the new file's, absolute: "/a/b/" */
-    bool        takes_all;             /* what the document names is copied, too */
     EquipCopy  *copies;
     int         count, capacity;
     Arena      *arena;
@@ -37,8 +36,7 @@ bool equip_files_open(const char *model, const char *output, const char *root, A
 /* The new file's name without its ending, with another one: "car" + ".bin". */
 const char *equip_files_beside(const EquipFiles *files, const char *ending);
 
-/* The URI by which the new file names the file at `path`, one that goes with it when its folder
- * is sent to somebody: it lies in that folder or is copied there. */
+/* The URI by which the new file names the file at `path`. */
 bool equip_files_take(EquipFiles *files, const char *path, const char **uri, Error *err);
 
 /* Every file that the model's document names is called as the new file has to: those of buffers

@@ -46,7 +46,6 @@ bool equip_occupant_write(const Equip *equip, EquipFiles *files, const char *pat
     json_t *document = json_load_file(source, 0, &fault);
     if (!document) return error_at(err, ERROR_INPUT, source, "", "%s", fault.text);
     EquipFiles own = files_of(files, source);
-    own.takes_all = true;
     Text text = {.arena = files->arena};
     bool ok = equip_files_refer(&own, document, err);
     seat(equip, document);

@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/review/review_print.h"
 
+#include <ctype.h>
+#include <string.h>
 
 #include "print/print.h"
 #include "cli/options/answer.h"
 #include "review/output/review_decide.h"
+#include "review/output/review_facts.h"
 #include "review/output/review_gaze.h"
 #include "review/output/review_json.h"
 #include "review/output/review_rests.h"
+#include "review/output/review_variants.h"
 #include "review/output/review_words.h"
 #include "text/interval_text.h"
 
@@ -47,14 +51,19 @@ static void print_case(const ReviewCase *c, Arena scratch)
 static void print_sweep(const ReviewSweep *s, Arena scratch)
 {
     bool is_sure = sweep_verdict(s) == VERDICT_FAIL || !(s->failed_share > 0);
-    print("%-16s %s, %s, %s: %.3g %% of %ld suns fail%s%s", verdict_names[sweep_verdict(s)],
-          s->condition, s->eye, s->symbol, 100 * s->failed_share, s->cases,
-          sweep_has_box(s) ? " for the middle eye" : "",
-          is_sure ? "" : " by their steps alone, none that was read again");
+    print("%-16s %s, %s, %s: %sfails %s %s%s", verdict_names[sweep_verdict(s)], s->condition,
+          s->eye, s->symbol, sweep_has_box(s) ? "the middle eye " : "",
+          words_share(s->failed_share, &scratch), words_of_what(s),
+          is_sure ? "" : " by its steps alone, in none that was read again");
     if (s->longest_failure_minutes > 0)
         print(", %.4g minutes at a stretch", s->longest_failure_minutes);
+    print("; %ld suns judged", s->cases);
+    if (sweep_has_box(s) && s->middle_contrast > 0)
+        print("; at its own worst %s",
+              words_ratio_as(&s->worst, s->middle_contrast, &scratch));
     if (sweep_has_box(s))
-        print("; at its worst %.3g %% of eyes fail", 100 * s->worst.eye_failed_share);
+        print("; at the worst sun %s of eyes fail",
+              words_share(s->worst.eye_failed_share, &scratch));
     if (s->worst.has_sun)
         print("; worst at azimuth %.1f, elevation %.1f", s->worst.sun_azimuth_deg,
               s->worst.sun_elevation_deg);
@@ -74,22 +83,33 @@ static void print_gaze(const GazeFinding *g, Arena scratch)
           review_gaze_mirrored(g, &scratch), review_gaze_veil(g, &scratch));
 }
 
-/* Its least margin beside the review's own, in percent of the limit. */
-static void print_variant(const ReviewVariantFound *v)
+static void print_variant(const ReviewVariantFound *v, Arena scratch)
 {
-    const ReviewDifference *d = &v->worst;
-    print("%-16s variant %s", verdict_names[review_verdict(v->review)], v->name);
-    if (d->after && d->before)
-        print(": least margin %+.3g %%, %+.2g %% (%+.2g to %+.2g) from the review's: %s, %s, "
-              "%s", 100 * d->after->margin, 100 * d->margin, 100 * d->margin_range.low,
-              100 * d->margin_range.high, d->after->condition, d->after->eye,
-              d->after->symbol);
-    print("\n");
+    print("%-16s variant %s: %s\n", verdict_names[review_verdict(v->review)], v->name,
+          review_variants_words(v, &scratch));
 }
 
 static void print_mend(const ReviewMend *m, Arena *scratch)
 {
     print("%-16s %s\n", m->is_found ? "mended" : "not mended", words_mend(m, scratch));
+}
+
+/* Dots that go on from the line before are left out. */
+static void print_fact(const ReviewFact *fact)
+{
+    static const char ON[] = "… ";
+    size_t      skipped = strncmp(fact->name, ON, strlen(ON)) ? 0 : strlen(ON);
+    const char *name = fact->name + skipped;
+    print("%c%-15s %s\n", tolower((unsigned char)name[0]), name + 1, fact->value);
+}
+
+/* The first screen of the page, as lines: of all cases the one that decides. */
+static void print_worst(const Review *review, const ReviewCase *worst, Arena scratch)
+{
+    ReviewFacts facts = review_facts_of(review, worst, NULL, &scratch);
+    print("%-16s %s: %s\n", "worst case", words_case(worst, &scratch),
+          words_headline(worst, &scratch));
+    for (int i = 0; i < facts.count; i++) print_fact(&facts.list[i]);
 }
 
 static void print_review(const Review *review, Arena scratch)
@@ -98,13 +118,10 @@ static void print_review(const Review *review, Arena scratch)
     for (int i = 0; i < review->sweep_count; i++) print_sweep(&review->sweeps[i], scratch);
     for (int i = 0; i < review->gaze_count; i++) print_gaze(&review->gazes[i], scratch);
     const ReviewCase *worst = review_worst(review, scratch);
-    if (review->without_data_count)
-        print("%-16s %d material%s taken as perfectly white: %s; of the light on the worst "
-              "case %.3g %% came via them\n", "no data", review->without_data_count,
-              review->without_data_count == 1 ? "" : "s", review->without_data,
-              worst ? 100 * worst->without_data_share : 0);
-    for (int i = 0; i < review->variant_count; i++) print_variant(&review->variants[i]);
+    for (int i = 0; i < review->variant_count; i++)
+        print_variant(&review->variants[i], scratch);
     for (int i = 0; i < review->mend_count; i++) print_mend(&review->mends[i], &scratch);
+    if (worst) print_worst(review, worst, scratch);
     const char *rests = review_rests_words(review, &scratch);
     if (rests[0]) print("%-16s %s\n", "rests on", rests);
     static const char *const LAST[4] = {"pass", "FAIL", "too close to call",

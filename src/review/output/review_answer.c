@@ -7,6 +7,7 @@
 #include "page/page.h"
 #include "review/output/review_bar.h"
 #include "review/output/review_decide.h"
+#include "review/output/review_facts.h"
 #include "review/output/review_rays.h"
 #include "review/output/review_rests.h"
 #include "review/output/review_words.h"
@@ -20,8 +21,10 @@
 #define SMALL_LETTER 6.8
 #define LEAST_CELL 90
 #define CELL_MARGIN 22
-#define MENDS_LISTED 2
-#define SHARES_LISTED 3
+#define PHONE_WIDTH 355  /* of a telephone of 390 pixels, likewise: letters of 11 and 9.5 */
+#define PHONE_MARGIN 14
+#define PHONE_LETTER 7.4
+#define PHONE_SMALL 5.8
 
 const char *const *review_answer_directions(const ReviewAnswer *answer, const ReviewCase *c,
                                             Arena *arena)
@@ -79,7 +82,7 @@ static void add_line(Text *html, const Review *review, const ReviewCase *worst, 
     text_add(html, answer_words(review, worst));
     escape_markup(html, words_case(worst, arena));
     text_add(html, ": ");
-    escape_markup(html, words_reason(worst, arena));
+    escape_markup(html, words_headline(worst, arena));
     text_add(html, ".</h1></div>\n");
 }
 
@@ -125,7 +128,7 @@ static const char *below_words(const ReviewCase *c, Arena *arena)
 {
     const LimitVerdict *limit = case_worst_limit(c);
     const char *condition = c->condition ? c->condition : "?";
-    if (!limit || isnan(limit->margin)) return condition;
+    if (c->unjudged || !limit || isnan(limit->margin)) return condition;
     return arena_format(arena, "%s · %s", words_margin(limit->margin, arena), condition);
 }
 
@@ -149,6 +152,7 @@ static void add_cell(Text *html, const Review *review, const ReviewCase *c, Aren
         return;
     }
     review_card_begin_cell(html, review, c, arena);
+    page_element(html, "i", c->eye); /* where a telephone has no heads of columns */
     text_add(html, "<b>");
     escape_markup(html, arena_format(arena, "%s %s", words_mark(c->verdict),
                                      words_judged(c, arena)));
@@ -185,6 +189,15 @@ static void add_rows(Text *html, const Review *review, const Grid *grid, int row
     }
 }
 
+/* Of those that do not count. */
+static int count_unlimited(const Review *review)
+{
+    int count = 0;
+    for (int i = 0; i < review_case_count(review); i++)
+        count += review_case_at(review, i)->unjudged == UNJUDGED_LIMIT;
+    return count;
+}
+
 static const char *count_words(const Review *review, Arena *arena)
 {
     static const char *const NAMES[4] = {"pass", "fail", "too close to call",
@@ -200,9 +213,12 @@ static const char *count_words(const Review *review, Arena *arena)
         text_format(&text, "%s %d %s", before, counts.of[ORDER[i]], NAMES[ORDER[i]]);
         before = ",";
     }
-    if (counts.not_asked)
-        text_format(&text, "%s %d that do%s not count", before, counts.not_asked,
-                    counts.not_asked == 1 ? "es" : "");
+    int unlimited = count_unlimited(review), optional = counts.not_asked - unlimited;
+    if (unlimited)
+        text_format(&text, "%s %d to which no limit applies", before, unlimited);
+    if (optional)
+        text_format(&text, "%s %d hidden that need not be seen", unlimited ? "," : before,
+                    optional);
     return text.data;
 }
 
@@ -233,6 +249,22 @@ static double grid_width(const Grid *grid, int rows, int eyes)
     return width + symbol + CELL_MARGIN;
 }
 
+/* Do the columns of a telephone hold the longest words? */
+static bool fits_phone(const Grid *grid, int eyes)
+{
+    double room = (double)PHONE_WIDTH / eyes - PHONE_MARGIN;
+    int    eye = 0, condition = 0;
+    for (int i = 0; i < eyes; i++) {
+        int word = longest_word(grid->eyes.list[i]);
+        if (word > eye) eye = word;
+    }
+    for (int i = 0; i < grid->count; i++) {
+        int word = longest_word(grid->ranked[i]->condition);
+        if (word > condition) condition = word;
+    }
+    return PHONE_LETTER * eye <= room && PHONE_SMALL * condition <= room;
+}
+
 static void add_grid(Text *html, const Review *review, Arena *arena)
 {
     Grid        grid = make_grid(review, arena);
@@ -242,8 +274,9 @@ static void add_grid(Text *html, const Review *review, Arena *arena)
     while (eyes > 1 && grid_width(&grid, rows, eyes) > GRID_WIDTH) eyes--;
     for (int i = 0; i < eyes; i++)
         columns[i + 1] = (PageColumn){grid.eyes.list[i], false, NULL};
-    text_format(html, "<div class=\"grid%s\">",
-                grid_width(&grid, rows, eyes) > GRID_WIDTH ? " breaks" : "");
+    text_format(html, "<div class=\"grid%s%s\">",
+                grid_width(&grid, rows, eyes) > GRID_WIDTH ? " breaks" : "",
+                fits_phone(&grid, eyes) ? "" : " stacked");
     page_table_begin(html, "", "matrix", columns, eyes + 1);
     add_rows(html, review, &grid, rows, eyes, arena);
     page_table_end(html);
@@ -257,99 +290,6 @@ static void add_grid(Text *html, const Review *review, Arena *arena)
 }
 
 /* ---- the worst case --------------------------------------------------------------------- */
-
-static void add_when(Text *html, const ReviewAnswer *answer, const ReviewCase *c, Arena *arena)
-{
-    const ReviewSweep *sweep = review_sweep_of(answer->review, c);
-    const char *sun = words_sun(c, review_answer_directions(answer, c, arena), arena);
-    const char *when = c->when ? c->when : c->condition ? c->condition : "?";
-    page_fact(html, "When", arena_format(arena, "%s: %s", when,
-                                         c->has_sun ? sun : words_ambient(c->ambient)));
-    if (sweep) page_fact(html, "How often", words_how_often(sweep, arena));
-}
-
-/* All of it in whole percent that add up to 100, the small ones together. */
-static const char *group_words(const CaseGroup *group, Arena *arena)
-{
-    Text text = {.arena = arena};
-    int  listed = group->count > SHARES_LISTED + 1 ? SHARES_LISTED : group->count, left = 100;
-    bool has_rest = listed < group->count;
-    for (int i = 0; i < listed; i++) {
-        bool is_last = i == listed - 1 && !has_rest;
-        int  percent = is_last ? left : (int)lrint(100 * group->list[i].share);
-        left -= percent;
-        const char *share = percent > 0 ? arena_format(arena, "%d", percent) : "<1";
-        text_format(&text, "%s%s %% %s", i ? " · " : "", share, group->list[i].what);
-    }
-    if (has_rest) text_format(&text, " · %d %% others", left > 0 ? left : 0);
-    return text.data ? text.data : "";
-}
-
-static void add_why(Text *html, const ReviewAnswer *answer, const ReviewCase *c, Arena *arena)
-{
-    static const char *const NAMES[CAUSE_GROUPS] = {"Light from", "… in through", "… off"};
-    for (int g = 0; g < CAUSE_GROUPS; g++)
-        if (c->groups[g].count) page_fact(html, NAMES[g], group_words(&c->groups[g], arena));
-    if (!c->groups[GROUP_LIGHT].count && c->cause_count)
-        page_fact(html, "Why",
-                  arena_format(arena, "%s of what the display reflects comes by: %s",
-                               words_share(c->causes[0].share, arena),
-                               words_chain(&c->causes[0], arena)));
-    const char *without = words_without_data(answer->review, c, arena);
-    if (without[0]) page_fact(html, "No data", without);
-    const char *seat = words_empty_seat(c, arena);
-    if (seat[0]) page_fact(html, "Empty seat", seat);
-}
-
-/* Those with which the case passes first, each in their order; directions to try, of which no
- * figure is known, last. */
-static const CaseRemedy *next_mend(const ReviewCase *c, const bool *is_listed)
-{
-    const CaseRemedy *best = NULL;
-    int               least = 3;
-    for (int i = 0; i < c->remedy_count; i++) {
-        const CaseRemedy *r = &c->remedies[i];
-        int rank = r->verdict == VERDICT_PASS ? 0 : isnan(r->contrast_ratio) ? 2 : 1;
-        if (is_listed[i] || rank >= least) continue;
-        best = r;
-        least = rank;
-    }
-    return best;
-}
-
-static void add_mend(Text *html, int *listed, const char *words)
-{
-    page_fact(html, *listed ? "… or" : "What mends it", words);
-    ++*listed;
-}
-
-/* Changes tried on the whole review go before those estimated for this case alone. */
-static void add_tried(Text *html, const Review *review, int *listed, Arena *arena)
-{
-    for (int i = 0; i < review->mend_count; i++)
-        if (review->mends[i].is_found)
-            add_mend(html, listed, words_mend(&review->mends[i], arena));
-    for (int i = 0; i < review->variant_count && *listed < MENDS_LISTED; i++) {
-        const ReviewVariantFound *v = &review->variants[i];
-        if (review_verdict(v->review) == VERDICT_PASS)
-            add_mend(html, listed, arena_format(arena, "the variant '%s': everything passes",
-                                                v->name));
-    }
-}
-
-static void add_mends(Text *html, const Review *review, const ReviewCase *c, Arena *arena)
-{
-    bool *is_listed = ARENA_NEW(arena, bool, c->remedy_count + 1);
-    int   listed = 0;
-    add_tried(html, review, &listed, arena);
-    while (listed < MENDS_LISTED) {
-        const CaseRemedy *r = next_mend(c, is_listed);
-        if (!r) return;
-        is_listed[r - c->remedies] = true;
-        add_mend(html, &listed,
-                 arena_format(arena, "%s: %s", r->what, words_remedy(r, arena)));
-    }
-}
 
 static const ReviewPicture *frame_of(const ReviewAnswer *answer, const ReviewCase *c)
 {
@@ -396,6 +336,16 @@ static bool add_frame(Text *html, const ReviewPicture *frame, Arena scratch, Err
     return true;
 }
 
+static void add_facts(Text *html, const ReviewAnswer *answer, const ReviewCase *c, Arena *arena)
+{
+    ReviewFacts facts = review_facts_of(
+        answer->review, c, review_answer_directions(answer, c, arena), arena);
+    text_add(html, "<dl class=\"facts\">\n");
+    for (int i = 0; i < facts.count; i++)
+        page_fact(html, facts.list[i].name, facts.list[i].value);
+    text_add(html, "</dl>\n");
+}
+
 static bool add_worst(Text *html, const ReviewAnswer *answer, const ReviewCase *c, Arena *arena,
                       Error *err)
 {
@@ -403,11 +353,8 @@ static bool add_worst(Text *html, const ReviewAnswer *answer, const ReviewCase *
     text_add(html, "<section class=\"worst\" aria-label=\"The worst case\">\n");
     if (frame && !add_frame(html, frame, *arena, err)) return false;
     if (!frame && c->verdict != VERDICT_UNJUDGED) review_bar_add_luminances(html, c, arena);
-    text_add(html, "<dl class=\"facts\">\n");
-    add_when(html, answer, c, arena);
-    add_why(html, answer, c, arena);
-    if (c->verdict != VERDICT_PASS) add_mends(html, answer->review, c, arena);
-    text_add(html, "</dl></section>\n");
+    add_facts(html, answer, c, arena);
+    text_add(html, "</section>\n");
     return true;
 }
 

@@ -119,6 +119,8 @@ static const Member CASE[] = {
     OWN(FIGURE, ReviewCase, level), OWN(FIGURE, ReviewCase, display_lux),
     {"glasses_transmittance", MEMBER_FIGURE, offsetof(ReviewCase, glasses_transmittance),
      .use = SINCE},
+    LATER("glasses", TEXT, ReviewCase, glasses),
+    LATER("glasses_display_loss", FIGURE, ReviewCase, glasses_display_loss),
     {"limit", MEMBER_LIMIT, .of = LIMIT},
     LIST("limits", ReviewCase, limits, limit_count, LIMIT, LimitVerdict),
     {"judged", MEMBER_JUDGED, .use = WRITTEN, .of = LIMIT},
@@ -150,6 +152,7 @@ static const Member SWEEP[] = {
     {"verdict", MEMBER_VERDICT, offsetof(ReviewSweep, worst.verdict), .use = WRITTEN},
     OWN(COUNT, ReviewSweep, cases), OWN(FIGURE, ReviewSweep, failed_share),
     OWN(FIGURE, ReviewSweep, longest_failure_minutes),
+    LATER("middle_eye_contrast_ratio", FIGURE, ReviewSweep, middle_contrast),
     {"worst", MEMBER_OBJECT, offsetof(ReviewSweep, worst), .of = CASE},
     OWN(TEXT, ReviewSweep, table), {0}};
 

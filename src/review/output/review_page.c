@@ -178,6 +178,9 @@ static void add_sweep_keys(Text *html, const ReviewSweep *s, Arena *arena)
         page_key(html, words_minutes(s->longest_failure_minutes, arena),
                  has_box ? "the middle eye's longest failure at a stretch"
                          : "the longest failure at a stretch", s->longest_failure_minutes > 0);
+    if (has_box && s->middle_contrast > 0)
+        page_key(html, words_ratio_as(&s->worst, s->middle_contrast, arena),
+                 "of the middle eye at its own worst", false);
     page_key(html, words_judged(&s->worst, arena), has_box ? "of the worst eye at its worst"
                                                            : "at its worst",
              s->worst.verdict != VERDICT_PASS);
@@ -235,7 +238,8 @@ static bool add_sweep(Text *html, const ReviewPage *page, const ReviewSweep *s, 
 static void add_how_often(Text *html, const Review *review, Arena *arena)
 {
     page_more_begin(html, arena_format(arena, "How often each symbol fails, and its least "
-                                       "contrast: %d sweeps", review->sweep_count));
+                                       "contrast: %d sweep%s", review->sweep_count,
+                                       review->sweep_count == 1 ? "" : "s"));
     review_table_add_sweeps(html, review, arena);
     page_more_end(html);
 }

@@ -17,14 +17,10 @@
 #pragma once
 #include "review/output/review_card.h"
 #include "review/output/review_diff.h"
+#include "review/output/review_facts.h"
 #include "review/output/review_live.h"
 #include "review/output/review_map.h"
 #include "review/verdict.h"
-
-/* A line of the provenance: "panel lab_lcd_a" "sha256 ..., stated error 1.9 %". */
-typedef struct ReviewFact {
-    const char *name, *value;
-} ReviewFact;
 
 typedef struct ReviewPage {
     const Review         *review;

@@ -63,12 +63,13 @@ static const CasePanel *panel_of(const Review *review, const char *display)
     return NULL;
 }
 
-/* What its file says of itself (panel/query/panel_stated.h). */
+/* What its file says of itself (panel/query/panel_stated.h); why it is not usable is told of
+ * every case of it. */
 static void add_stated(Text *text, const CasePanel *panel, Arena *arena)
 {
     text_format(text, ", %s", panel->verdict ? panel->verdict : "no verdict of its own");
-    if (panel->is_coarse) text_add(text, ", coarse");
-    if (panel->reason) text_format(text, " (%s)", panel->reason);
+    if (panel->is_coarse && !panel->is_unusable) text_add(text, ", coarse");
+    if (panel->reason && !panel->is_unusable) text_format(text, " (%s)", panel->reason);
     if (panel->emission_error > 0 || panel->reflection_error > 0)
         text_format(text, ", known within %s of what it emits and %s of what it reflects",
                     words_share(panel->emission_error, arena),
@@ -154,13 +155,35 @@ static void add_eyes(Text *line, const Review *review, Arena *arena)
                             given ? ", the others as given" : ""));
 }
 
+/* Seats are known by their backs, where much light comes off them. */
+static const char *nobody_words(const Review *review, Arena *arena)
+{
+    static const char UNLESS[] = "unless the model itself has somebody";
+    int      count = review_case_count(review);
+    WordList eyes = words_list(count, arena), empty = words_list(count, arena);
+    Text     seats = {.arena = arena};
+    for (int i = 0; i < count; i++) {
+        const ReviewCase *c = review_case_at(review, i);
+        words_list_add(&eyes, c->eye);
+        if (c->empty_seat) words_list_add(&empty, c->eye);
+    }
+    for (int i = 0; i < empty.count; i++)
+        text_format(&seats, "%s%s's", i ? " and " : "", empty.list[i]);
+    if (!empty.count)
+        return arena_format(arena, "no occupant named: nobody sits there, %s", UNLESS);
+    if (empty.count == eyes.count)
+        return arena_format(arena, "no occupant named: nobody sits in the %s seat", seats.data);
+    return arena_format(arena, "no occupant named: nobody sits in the %s seat, nor in another "
+                        "%s", seats.data, UNLESS);
+}
+
 static void add_occupants(Text *line, const Review *review, Arena *arena)
 {
     const ReviewRest *first = first_of(review, REST_OCCUPANT);
     long empty = count_of(review, REST_OCCUPANT, REST_NOBODY);
     if (!first) return;
     if (empty == first->of) {
-        part(line, "no occupant named");
+        part(line, nobody_words(review, arena));
         return;
     }
     const char *names = names_of(review, REST_OCCUPANT, REST_PRESENT, arena);

@@ -118,9 +118,7 @@ static const char *share_words(const ReviewSweep *s, Arena *arena)
 {
     bool fails = sweep_verdict(s) == VERDICT_FAIL, is_share = fails && s->failed_share > 0;
     if (fails && sweep_has_box(s))
-        return arena_format(arena, "middle eye %s%s%s · worst ",
-                            is_share ? words_share(s->failed_share, arena) : "never",
-                            is_share ? " " : "", is_share ? words_of_what(s) : "");
+        return arena_format(arena, "%s · worst eye ", words_middle(s, arena));
     return is_share ? arena_format(arena, "%s · worst ", words_of_what(s)) : "";
 }
 
@@ -204,7 +202,7 @@ static void add_list_row(Text *html, const Review *review, const ReviewCase *c, 
                                                 c->condition ? c->condition : "?")
                                  : c->condition);
     page_cell(html, "", c->eye);
-    const LimitVerdict *l = case_worst_limit(c);
+    const LimitVerdict *l = c->unjudged ? NULL : case_worst_limit(c);
     page_cell(html, "n", words_judged(c, arena));
     page_cell(html, "n", l ? words_interval(l->low, l->high, arena) : "–");
     add_limit_cells(html, l, arena);

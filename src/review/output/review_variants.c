@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/output/review_variants.h"
 
+#include <ctype.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "page/page.h"
+#include "review/output/effect_words.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_words.h"
 
@@ -52,30 +54,16 @@ static const ReviewVariantFound **rank(const Review *review, Arena *arena)
 
 /* ---- words ------------------------------------------------------------------------------- */
 
-/* Is it less than a tenth of a percent of the limit, which is all that is shown? */
-static bool is_small(const ReviewDifference *d)
-{
-    double half = 50 * (d->margin_range.high - d->margin_range.low);
-    return fabs(100 * d->margin) < 0.05 && half < 0.05;
-}
+#define SHOWN_SHARE 0.001 /* of a limit: the least that is told */
 
-/* In percent of the limit: "+20.8 ± 0.5 %"; "none" below what is shown, "none above 0.5 %"
- * where it may be 0. */
 static const char *difference_words(const ReviewDifference *d, Arena *arena)
 {
-    double half = 50 * (d->margin_range.high - d->margin_range.low);
-    double value = 100 * d->margin;
-    if (isnan(value)) return "–";
-    if (is_small(d)) return "none";
-    if (d->margin_range.low <= 0 && d->margin_range.high >= 0)
-        return arena_format(arena, "none above %.2g %%", half);
-    return arena_format(arena, "%s%.*f ± %.2g %%", value < 0 ? "−" : "+",
-                        fabs(value) < 10 ? 1 : 0, fabs(value), half);
+    return effect_words(d->margin, d->margin_range, SHOWN_SHARE, arena);
 }
 
 static const char *difference_class(const ReviewDifference *d)
 {
-    if (is_small(d)) return "n";
+    if (effect_is_none(d->margin, d->margin_range, SHOWN_SHARE)) return "n";
     if (d->margin_range.low > 0) return "n good";
     return d->margin_range.high < 0 ? "n bad" : "n";
 }
@@ -153,6 +141,18 @@ static const char *figure_words(const ReviewCase *c, Arena *arena)
                      : words_contrast(c, arena);
 }
 
+/* Letters of the words that stand before both figures: "luminance contrast ". */
+static size_t name_length(const char *before, const char *after)
+{
+    size_t name = 0;
+    for (size_t i = 0; before[i] && before[i] == after[i] && !isdigit((unsigned char)before[i]);
+         i++)
+        if (before[i] == ' ') name = i + 1;
+    bool are_figures = isdigit((unsigned char)before[name]) &&
+                       isdigit((unsigned char)after[name]);
+    return are_figures ? name : 0;
+}
+
 /* "24 → 114 : 1": a unit or name that both have stands once. */
 static const char *change_words(const char *before, const char *after, Arena *arena)
 {
@@ -161,6 +161,7 @@ static const char *change_words(const char *before, const char *after, Arena *ar
     bool   is_ratio = size > unit && end > unit && !strcmp(before + size - unit, UNIT) &&
                     !strcmp(after + end - unit, UNIT);
     if (is_ratio) before = arena_string(arena, before, size - unit);
+    after += name_length(before, after);
     return arena_format(arena, "%s → %s", before, after);
 }
 
@@ -178,14 +179,16 @@ static double distance_of(const ReviewDifference *d)
     return isnan(d->margin) ? -1 : fabs(d->margin);
 }
 
-/* NULL: of none is it known. */
+/* NULL: of none is it known, or none moves. */
 static const ReviewDifference *moving_most(const ReviewVariantFound *v)
 {
     const ReviewDifference *most = NULL;
     for (int i = 0; i < v->difference_count; i++)
         if (distance_of(&v->differences[i]) > (most ? distance_of(most) : -1))
             most = &v->differences[i];
-    return most;
+    bool moves = most && (isnan(most->margin) ||
+                          !effect_is_none(most->margin, most->margin_range, SHOWN_SHARE));
+    return moves ? most : NULL;
 }
 
 /* ---- the table of all -------------------------------------------------------------------- */
@@ -216,6 +219,8 @@ static void add_figure_cell(Text *html, const char *kind, const char *figure,
     text_add(html, "</td>");
 }
 
+#define NO_LIMIT "nothing has a limit of contrast"
+
 /* Whose the least margin is, before and after. */
 static const char *least_where(const ReviewDifference *d, Arena *arena)
 {
@@ -235,14 +240,26 @@ static const char *margins_words(const ReviewDifference *d, Arena *arena)
                         difference_words(d, arena));
 }
 
+const char *review_variants_words(const ReviewVariantFound *v, Arena *arena)
+{
+    const ReviewDifference *least = &v->worst, *most = moving_most(v);
+    Text text = {.arena = arena};
+    if (!least->after) return NO_LIMIT;
+    text_format(&text, "least margin %s, %s: %s", moved_words(least, arena),
+                margins_words(least, arena), least_where(least, arena));
+    if (!most) text_add(&text, "; nothing moves");
+    else if (!words_same(words_case(most->after, arena), words_case(least->after, arena)))
+        text_format(&text, "; moves most %s, %s: %s", moved_words(most, arena),
+                    margins_words(most, arena), words_case(most->after, arena));
+    return text.data;
+}
+
 static void add_change_cell(Text *html, const ReviewDifference *d, const char *where,
                             Arena *arena)
 {
     add_figure_cell(html, difference_class(d), moved_words(d, arena), margins_words(d, arena),
                     where);
 }
-
-#define NO_LIMIT "nothing has a limit of contrast"
 
 static void add_base_row(Text *html, const Review *review, const ReviewCase *least,
                          Arena *arena)
@@ -273,7 +290,7 @@ static void add_row(Text *html, const ReviewVariantFound *v, Arena *arena)
         add_change_cell(html, &v->worst, least_where(&v->worst, arena), arena);
     else page_cell(html, "", NO_LIMIT);
     if (most) add_change_cell(html, most, words_case(most->after, arena), arena);
-    else page_cell(html, "n", "–");
+    else page_cell(html, "n", "nothing");
     page_cell(html, "n", counts_words(v->review, arena));
     page_cell(html, "n", failed_words(v->review, arena));
     page_row_end(html);
@@ -420,17 +437,13 @@ static void add_effect_bar(Text *html, const ReviewSensitivity *s, const ReviewS
                 "</svg></td>", middle, BAR_HEIGHT, fmax(low, 0), fmin(high, BAR_WIDTH));
 }
 
-/* "+1.03 ± 0.01 % per mm"; "none" below what is shown, "none above ..." where it may be 0. */
+/* "+1.03 ± 0.01 % per mm"; "none" below what a step shows. */
 static const char *slope_words(const ReviewSensitivity *s, const ReviewSlope *slope,
                                Arena *arena)
 {
-    double half = 50 * (slope->range.high - slope->range.low);
-    bool   is_none = slope->range.low <= 0 && slope->range.high >= 0;
-    bool   is_small = fabs(effect(s, slope)) < 0.05 && half * s->step < 0.05;
-    if (is_small) return "none";
-    if (is_none) return arena_format(arena, "none above %.2g %% per %s", half, s->unit);
-    return arena_format(arena, "%s%s ± %.2g %% per %s", slope->slope < 0 ? "−" : "+",
-                        words_figure(fabs(100 * slope->slope), arena), half, s->unit);
+    const char *effect = effect_words(slope->slope, slope->range, SHOWN_SHARE / s->step, arena);
+    if (words_same(effect, EFFECT_NONE)) return effect;
+    return arena_format(arena, "%s per %s", effect, s->unit);
 }
 
 static void add_slope(Text *html, const ReviewSensitivity *s, int place, double most,

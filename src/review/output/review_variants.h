@@ -12,3 +12,7 @@
  * review_card_add_picture. */
 bool review_variants_add(Text *html, const Review *review, const ReviewPicture *pairs,
                          Arena *arena, Error *err);
+
+/* A variant's least margin, and the case that it moves most where that is another, before and
+ * after in the quantity of the limit: a line. */
+const char *review_variants_words(const ReviewVariantFound *v, Arena *arena);

@@ -253,14 +253,23 @@ const char *words_of_what(const ReviewSweep *sweep)
     return isnan(sweep->longest_failure_minutes) ? "of the sun's directions" : "of the time";
 }
 
+const char *words_middle(const ReviewSweep *sweep, Arena *arena)
+{
+    const char *often = "never";
+    if (sweep->failed_share > 0)
+        often = arena_format(arena, "%s %s", words_share(sweep->failed_share, arena),
+                             words_of_what(sweep));
+    if (!(sweep->middle_contrast > 0)) return arena_format(arena, "the middle eye %s", often);
+    return arena_format(arena, "the middle eye %s, at its own worst %s", often,
+                        words_ratio_as(&sweep->worst, sweep->middle_contrast, arena));
+}
+
 const char *words_how_often(const ReviewSweep *sweep, Arena *arena)
 {
     bool is_share = sweep_verdict(sweep) == VERDICT_FAIL && sweep->failed_share > 0;
     const char *often = words_often(sweep, arena);
     if (sweep_has_box(sweep) && sweep_verdict(sweep) == VERDICT_FAIL)
-        return arena_format(arena, "%s at its worst, the middle eye %s%s%s", often,
-                            is_share ? words_share(sweep->failed_share, arena) : "never",
-                            is_share ? " " : "", is_share ? words_of_what(sweep) : "");
+        return arena_format(arena, "%s at its worst, %s", often, words_middle(sweep, arena));
     return is_share ? arena_format(arena, "%s %s", often, words_of_what(sweep)) : often;
 }
 
@@ -379,6 +388,21 @@ const char *words_unjudged(const ReviewCase *c, Arena *arena)
     }
 }
 
+const char *words_to_judge(const ReviewCase *c)
+{
+    static const char *const WORDS[UNJUDGED_COUNT] = {
+        [UNJUDGED_HIDDEN] = "move what hides it, the display or the eye; or say \"visible\": "
+                            "\"optional\" of the symbol, if this eye need not see it",
+        [UNJUDGED_PANEL] = "a panel file that is usable: measured anew, or fitted anew from "
+                           "finer data (`parhelion panel info` says what this one lacks)",
+        [UNJUDGED_DATA] = "give these materials colours or spectra in the model, or by "
+                          "`equip`; `parhelion check` names them",
+        [UNJUDGED_LIMIT] = "a profile with a limit that applies in this light",
+        [UNJUDGED_FIGURE] = "a rectangle of the content that holds the symbol and its "
+                            "background"};
+    return WORDS[c->unjudged] && !c->is_optional ? WORDS[c->unjudged] : "";
+}
+
 /* A contrast that is no ratio says so: a name such as "contrast" alone would not. */
 static const char *name_of(const LimitVerdict *limit, Arena *arena)
 {
@@ -437,6 +461,13 @@ const char *words_reason(const ReviewCase *c, Arena *arena)
                         words_precision(c, arena));
 }
 
+const char *words_headline(const ReviewCase *c, Arena *arena)
+{
+    return c->unjudged == UNJUDGED_PANEL ? "the panel of its display says of itself that it is "
+                                           "not usable"
+                                         : words_reason(c, arena);
+}
+
 const char *words_remedy(const CaseRemedy *r, Arena *arena)
 {
     static const char *const THEN[4] = {"passes", "still fails", "too close to call",
@@ -462,8 +493,8 @@ const char *words_without_data(const Review *review, const ReviewCase *c, Arena 
 {
     int count = review->without_data_count;
     if (!count) return "";
-    return arena_format(arena, " %s of it came via %d material%s without optical data "
-                               "(taken as perfectly white): %s.",
+    return arena_format(arena, "%s of it came via %d material%s without optical data "
+                               "(taken as perfectly white): %s",
                         words_share(c->without_data_share, arena), count,
                         count == 1 ? "" : "s", review->without_data);
 }

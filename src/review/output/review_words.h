@@ -87,8 +87,12 @@ const char *words_often(const ReviewSweep *sweep, Arena *arena);
 /* "of the time"; of a sweep of directions alone "of the sun's directions". */
 const char *words_of_what(const ReviewSweep *sweep);
 
+/* Of a box whose worst place fails: "the middle eye 1.2 % of the time, at its own worst 1.69 :
+ * 1"; "the middle eye never, ...". */
+const char *words_middle(const ReviewSweep *sweep, Arena *arena);
+
 /* The two together, where there is a share: "0.5 % of the time"; of a box "44 % of eyes at its
- * worst, the middle eye 1.2 % of the time". */
+ * worst, the middle eye 1.2 % of the time, at its own worst 1.69 : 1". */
 const char *words_how_often(const ReviewSweep *sweep, Arena *arena);
 
 /* Seen without colours too: "✓", "✗", "≈", "∅". */
@@ -126,6 +130,9 @@ const char *words_decide(const ReviewCase *c, Arena *arena);
 /* Why it cannot be judged: "nothing of it is seen: wheel (leather) hides 100 %". */
 const char *words_unjudged(const ReviewCase *c, Arena *arena);
 
+/* And what would have it judged. */
+const char *words_to_judge(const ReviewCase *c);
+
 /* What a remedy makes of the limit that it is for, and of the case: "luminance contrast 2.1,
  * required >= 2: passes". */
 const char *words_remedy(const CaseRemedy *remedy, Arena *arena);
@@ -137,6 +144,9 @@ const char *words_whole(const ReviewCase *c, Arena *arena);
 
 /* Why the case has its verdict: "contrast 1.64 : 1, required >= 2 : 1". */
 const char *words_reason(const ReviewCase *c, Arena *arena);
+
+/* The same without what a panel says of itself at length. */
+const char *words_headline(const ReviewCase *c, Arena *arena);
 
 /* "; known within 2.3 %, 1.0 % was asked", behind the figures of a case; "" where that was
  * reached. */

@@ -239,7 +239,8 @@ static ReviewSweep sweep_of(const SweepReport *to, const Sight *sight)
     ReviewSweep sweep = {.condition = to->sweep->setup->condition->name,
                          .eye = sight->eye->name, .cases = to->suns->count,
                          .symbol = arena_string(to->arena, symbol, strlen(symbol)),
-                         .longest_failure_minutes = to->suns->has_time ? 0 : (double)NAN};
+                         .longest_failure_minutes = to->suns->has_time ? 0 : (double)NAN,
+                         .middle_contrast = (double)NAN};
     sweep.worst = hidden_case(to, sight, &sweep);
     return sweep;
 }
@@ -345,6 +346,8 @@ static bool report_sight(SweepReport *to, const Sight *sight, const Sight *asked
     if (sight->probe.aim.target_count) {
         SunFigures figures = figures_of(to, sight, asked, &sweep);
         SweepSun worst = {0};
+        if (review_eye_is_wide(sight->eye) && figures.worst >= 0)
+            sweep.middle_contrast = (double)figures.contrast[figures.worst];
         if (!find_worst(to, sight, &figures, &worst, &sweep.worst, err)) return false;
         sweep.worst.symbol = sweep.symbol;
         add_table(to, sight, &figures, &worst);

@@ -290,6 +290,11 @@ static void scale_shown(ReviewCase *c, double foreground, double background)
     c->luminance_cd_m2.background *= background;
 }
 
+static double brighter(const CaseLuminances *l)
+{
+    return fmax(l->foreground, l->background);
+}
+
 static void polarise_case(const SymbolSurface *surface, const PolarisedEye *polariser,
                           ProbeAim *aim, ReviewCase *c, Arena *arena)
 {
@@ -307,10 +312,15 @@ void symbol_put_on_glasses(const Setup *setup, const SetupSymbol *symbol, ProbeA
     Vec3       towards = vec3_sub(symbol_middle(symbol).position, aim->eye);
     Glasses    glasses = glasses_worn(setup->condition, towards, arena);
     SymbolLook shown = {&symbol->surface, &symbol->split, aim->eye, setup->tools.threads};
+    double     bare = brighter(&c->luminance_cd_m2);
     c->glasses_transmittance = glasses.transmittance;
+    c->glasses = setup->condition && setup->condition->glasses
+                     ? setup->condition->glasses->words : NULL;
     if (glasses.polariser) polarise_case(&symbol->surface, glasses.polariser, aim, c, arena);
-    if (!glasses.colour) return;
-    aim->colour = glasses.colour;
-    scale_shown(c, symbol_coloured_share(&shown, SYMBOL_FOREGROUND, glasses.colour),
-                symbol_coloured_share(&shown, SYMBOL_BACKGROUND, glasses.colour));
+    if (glasses.colour) {
+        aim->colour = glasses.colour;
+        scale_shown(c, symbol_coloured_share(&shown, SYMBOL_FOREGROUND, glasses.colour),
+                    symbol_coloured_share(&shown, SYMBOL_BACKGROUND, glasses.colour));
+    }
+    c->glasses_display_loss = bare > 0 ? 1 - brighter(&c->luminance_cd_m2) / bare : 0;
 }

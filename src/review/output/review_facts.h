@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* review_facts.h -- what is said of a review's worst case beside its verdict, on the page's
+ * first screen and on the console alike: when it is, how often, why, and what mends it; of one
+ * that cannot be judged why that is, and what would have it judged.
+ *
+ * Memory   texts from the arena. Threads: pure. Fails: never.
+ */
+#pragma once
+#include "base/arena.h"
+#include "review/verdict.h"
+
+/* "What mends it": "the display 1.54 times as bright: 2.05 : 1, required >= 2 : 1: passes". */
+typedef struct ReviewFact {
+    const char *name, *value;
+} ReviewFact;
+
+#define REVIEW_FACTS_MOST 24
+
+typedef struct ReviewFacts {
+    ReviewFact list[REVIEW_FACTS_MOST];
+    int        count;
+} ReviewFacts;
+
+/* directions: of the case's sun (words_directions); NULL: what its azimuth counts from is not
+ * known. */
+ReviewFacts review_facts_of(const Review *review, const ReviewCase *c,
+                            const char *const *directions, Arena *arena);
