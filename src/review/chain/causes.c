@@ -93,7 +93,6 @@ static CauseFacts facts_of(const Chains *chains, Arena *arena)
     facts.trim = find_trim(chains, arena);
     facts.seat = find_seat(chains, arena);
     for (int i = 0; i < PLACE_HOODS; i++) facts.hooded[i] = places->hooded[i];
-    for (int i = 0; i < 3; i++) facts.arrives[i] = places->arrives[i];
     return facts;
 }
 

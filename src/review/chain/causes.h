@@ -45,7 +45,6 @@ typedef struct CauseFacts {
                                 how much it would */
     CausePart   seat;        /* the seat's back behind the eye, what comes straight off it */
     double      hooded[PLACE_HOODS]; /* what each of the hoods would keep off */
-    double      arrives[3];  /* sum of the directions from which it comes to the display */
 } CauseFacts;
 
 /* Sets the case's causes: the greatest CAUSES_MOST, and "all other ways", which add up to the

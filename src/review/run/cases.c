@@ -425,7 +425,8 @@ static RemedyAsk remedies_of(const CaseTools *tools, const SetupSymbol *symbol,
 {
     const Setup *setup = tools->setup;
     int          id = setup->condition ? setup->condition->with_id : NO_ID;
-    return (RemedyAsk){&setup->tools, aim, symbol_middle(symbol), &symbol->display,
+    SymbolLook   look = {&symbol->surface, &symbol->split, aim->eye, setup->tools.threads};
+    return (RemedyAsk){&setup->tools, aim, look, symbol_middle(symbol), &symbol->display,
                        setup->request->forward, tools->profile,
                        id == NO_ID ? NULL : &setup->request->withs[id]};
 }
