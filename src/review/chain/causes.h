@@ -51,6 +51,10 @@ typedef struct CauseFacts {
  * reflected light by these paths, and the groups; that light itself where asked. */
 CauseFacts case_causes(const CauseAsk *ask, ReviewCase *c, Arena *arena);
 
+/* The share of that light that comes via materials without data, alone: as the causes have it,
+ * by the aim, tools and paths of the question. */
+double case_data_share(const CauseAsk *ask, Arena scratch);
+
 /* Sets the case's hiders, by the names of nodes and materials; what has the same name counts as
  * one. */
 void case_hiders(const SymbolSurface *surface, const PathContext *context, Vec3 eye,
