@@ -83,7 +83,7 @@ def broken_decision_laws(case, most):
     is_above = limit["found"] > limit["value"]
     end = case["reflected_interval"][1 if is_above else 0]
     error = abs(contrast(case["luminance_cd_m2"], end) - limit["found"]) / 1.959964
-    half = abs(limit["found"] - limit["low" if is_above else "high"])
+    half = abs(limit["found"] - limit["interval"][0 if is_above else 1])
     panel = math.sqrt(max(half ** 2 - (1.959964 * error) ** 2, 0))
     near = nearest(abs(limit["found"] - limit["value"]), error)
     is_known = case["luminance_cd_m2"]["mirror"] < 0.01 * case["luminance_cd_m2"]["reflected"]
