@@ -145,7 +145,7 @@ run 'doors, mirrored vehicles, mirrored light' changed-long \
 run "another maker's car" other-maker python3 tests/image/other_maker.py $program
 run 'discomfort of every size' glare-sizes python3 tests/image/glare.py --all $program
 run 'verdicts beside their limits' review-laws python3 tests/image/review_laws.py $program \
-    scenes/glance.review.json dimmed 0.2 0.4 0.005
+    scenes/glance.review.json dimmed 0.4 0.45 0.0025
 run "laws of a whole car's review" review-laws-car \
     python3 tests/image/review_laws.py $program scenes/car_dashboard.review.json
 of "$review tests/bench tests/image"

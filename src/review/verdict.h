@@ -149,8 +149,7 @@ extern const char *const remedy_kinds[REMEDY_KINDS]; /* "brightness", "tilt", ..
 typedef struct CaseRemedy {
     RemedyKind  kind;
     const char *what;
-    double      contrast_ratio; /* with it; NaN: a direction to try, nothing that is known says
-                                   how much it gives */
+    double      contrast_ratio; /* with it */
     double      level;          /* of the display with it; NaN: the figure has no meaning */
     LimitVerdict then;          /* the limit that it is to mend, judged again with it */
     Verdict     verdict;        /* the case's with it */

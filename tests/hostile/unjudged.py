@@ -196,6 +196,21 @@ def check_data(report, reviews):
                      max(shares) <= 0.1, f"{name}: {found['verdict']}, {shares}")
 
 
+def check_data_of_variants(report, reviews):
+    """A variant has its own share: a wall that is described then, or no longer is."""
+    plain = {"pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 1]}}
+    data = {"pbrMetallicRoughness": {"baseColorFactor": [0.4, 0.4, 0.4, 1]}}
+    for name, wall, change, told in (("described", BARE, data, "pass"),
+                                     ("left white", GREY, plain, "cannot be judged")):
+        write_scene(reviews.folder, [(wall, WALL, 40)])
+        variants = {"other wall": {"materials": {wall["name"]: change}},
+                    "brighter": {"brightness": {"*": 1.1}}}
+        _, found, _, _ = reviews.review(asked(variants=variants))
+        shares = {v["name"]: v["cases"][0]["verdict"] for v in found["variants"]}
+        report.claim(shares == {"other wall": told, "brighter": found["verdict"]} and
+                     found["verdict"] != told, f"{name}: {found['verdict']}, {shares}")
+
+
 def check_limits(report, reviews):
     """By night there is a limit, by day none: that does not count, and alone is no pass."""
     write_scene(reviews.folder)
@@ -238,7 +253,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         reviews = Reviews(os.path.abspath(sys.argv[1]), folder)
         for check in (check_hidden, check_optional, check_optional_that_fails,
-                      check_hidden_sweep, check_panel, check_data, check_limits, check_older):
+                      check_hidden_sweep, check_panel, check_data, check_data_of_variants,
+                      check_limits, check_older):
             check(report, reviews)
     report.finish()
 

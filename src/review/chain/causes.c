@@ -93,7 +93,6 @@ static CauseFacts facts_of(const Chains *chains, Arena *arena)
     facts.trim = find_trim(chains, arena);
     facts.seat = find_seat(chains, arena);
     for (int i = 0; i < PLACE_HOODS; i++) facts.hooded[i] = places->hooded[i];
-    for (int i = 0; i < 3; i++) facts.arrives[i] = places->arrives[i];
     return facts;
 }
 
@@ -190,6 +189,12 @@ static CaseGroup listed(Growing *group)
     return (CaseGroup){group->list, count};
 }
 
+static double without_data(const Chains *chains)
+{
+    double all = chains->all.cd_m2;
+    return all > 0 ? chains->groups.without_data / all : 0;
+}
+
 static void set_groups(const Chains *chains, ReviewCase *c, Arena *arena)
 {
     Growing of[CAUSE_GROUPS] = {[GROUP_LIGHT] = by_light(chains, arena),
@@ -197,7 +202,7 @@ static void set_groups(const Chains *chains, ReviewCase *c, Arena *arena)
                                 [GROUP_SURFACE] = by_surface(chains, arena)};
     for (int i = 0; i < CAUSE_GROUPS; i++) c->groups[i] = listed(&of[i]);
     double all = chains->all.cd_m2;
-    c->without_data_share = all > 0 ? chains->groups.without_data / all : 0;
+    c->without_data_share = without_data(chains);
     c->guessed_share = all > 0 ? chains->groups.guessed / all : 0;
 }
 
@@ -232,6 +237,14 @@ CauseFacts case_causes(const CauseAsk *ask, ReviewCase *c, Arena *arena)
     CauseFacts facts = facts_of(&chains, arena);
     arena_release(&scratch);
     return facts;
+}
+
+double case_data_share(const CauseAsk *ask, Arena scratch)
+{
+    ChainAsk chains = {.aim = ask->aim, .tools = ask->tools, .paths = ask->paths,
+                       .most = CAUSES_MOST};
+    Chains   found = chains_find(&chains, &scratch);
+    return without_data(&found);
 }
 
 /* ---- what hides it ----------------------------------------------------------------------- */

@@ -45,12 +45,15 @@ typedef struct CauseFacts {
                                 how much it would */
     CausePart   seat;        /* the seat's back behind the eye, what comes straight off it */
     double      hooded[PLACE_HOODS]; /* what each of the hoods would keep off */
-    double      arrives[3];  /* sum of the directions from which it comes to the display */
 } CauseFacts;
 
 /* Sets the case's causes: the greatest CAUSES_MOST, and "all other ways", which add up to the
  * reflected light by these paths, and the groups; that light itself where asked. */
 CauseFacts case_causes(const CauseAsk *ask, ReviewCase *c, Arena *arena);
+
+/* The share of that light that comes via materials without data, alone: as the causes have it,
+ * by the aim, tools and paths of the question. */
+double case_data_share(const CauseAsk *ask, Arena scratch);
 
 /* Sets the case's hiders, by the names of nodes and materials; what has the same name counts as
  * one. */

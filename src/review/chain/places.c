@@ -201,9 +201,6 @@ void place_add(const ChainPlaces *places, const int *alike, const PathHistory *h
         distance = vec3_length(towards);
         towards = vec3_normalize(towards);
     }
-    to->arrives[0] += y * (double)towards.x;
-    to->arrives[1] += y * (double)towards.y;
-    to->arrives[2] += y * (double)towards.z;
     for (int i = 0; i < PLACE_HOODS && places->face.is_upright; i++)
         if (place_is_hooded(&places->face, places->hood_m[i], display, towards, distance))
             to->hooded[i] += y;
@@ -218,5 +215,4 @@ void place_merge(const PlaceSums *from, int part_count, double scale, PlaceSums 
         to->by_seat[i] += scale * from->by_seat[i];
     }
     for (int i = 0; i < PLACE_HOODS; i++) to->hooded[i] += scale * from->hooded[i];
-    for (int i = 0; i < 3; i++) to->arrives[i] += scale * from->arrives[i];
 }

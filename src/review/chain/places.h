@@ -37,7 +37,6 @@ typedef struct PlaceSums {
     double *by_trim;        /* [part] that meets it where it could be of another material */
     double *by_seat;        /* [part] that comes to the display straight off the seat's back */
     double  hooded[PLACE_HOODS]; /* that each hood would keep off */
-    double  arrives[3];     /* times the unit direction from which it comes to the display */
 } PlaceSums;
 
 PlaceFace place_face(const Scene *scene, const int *part_ids, int part_count);

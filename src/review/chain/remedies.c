@@ -5,8 +5,7 @@
 #include <string.h>
 
 #include "base/mathd.h"
-#include "base/parallel.h"
-#include "base/units.h"
+#include "review/chain/leaning.h"
 #include "review/judge.h"
 #include "review/quantity.h"
 
@@ -94,16 +93,6 @@ static void add_with(Remedying *m, RemedyKind kind, const char *what, double lef
     add(m, kind, what, &then);
 }
 
-/* A direction to try, of which no figure is known. */
-static void add_to_try(Remedying *m, RemedyKind kind, const char *what)
-{
-    LimitVerdict then = m->c->limits[m->limit];
-    then.found = then.low = then.high = then.margin = (double)NAN;
-    then.verdict = VERDICT_UNJUDGED;
-    m->list[m->c->remedy_count++] =
-        (CaseRemedy){kind, what, (double)NAN, m->c->level, then, VERDICT_UNJUDGED};
-}
-
 /* Without a part of the light, which other paths found: by its share of theirs. */
 static double left_without(const Remedying *m, double cd_m2)
 {
@@ -183,120 +172,73 @@ static void add_brightness(Remedying *m)
 
 /* ---- tilt -------------------------------------------------------------------------------- */
 
-#define TILTS 7
-static const float TILT_DEG[TILTS] = {0, 3, -3, 6, -6, 9, -9}; /* back is positive */
-#define TILT_PATHS 1024
-#define MIRROR_MOST 0.7 /* of the light: the mirror's new picture tells the rest, too */
-#define GATHERED 0.8    /* length of the mean direction of light that comes from one side */
-#define BESIDE 0.87f    /* cosine of 30 degrees: beside the mirror's direction */
-#define TRY_DEG 5.0f    /* by which a direction is tried */
+#define TILTS 6
+static const double TILT_DEG[TILTS] = {3, -3, 6, -6, 9, -9}; /* back is positive */
+#define TILT_PATHS 1024         /* of each that is tried */
+#define TILT_PRECISION 0.01     /* of the contrast, of the one that is told, */
+#define TILT_MOST 65536         /* in so many paths at most, fresh ones: */
+#define TILT_SEED 0x74696c74u
 
-/* The symbol's middle as a mirror that turns about its level axis. */
-typedef struct Mirror {
-    Vec3 start, normal, up;
-} Mirror;
-
-static Mirror mirror_of(const RemedyAsk *ask)
+/* Of a class that emits nothing all is left. */
+static double shown_share(double after, double before)
 {
-    const SymbolPoint *middle = &ask->middle;
-    Vec3 right = vec3_normalize(vec3_cross(vec3(0, 1, 0), middle->ns));
-    return (Mirror){symbol_point_start(ask->aim->context->scene, middle), middle->ns,
-                    vec3_cross(middle->ns, right)};
+    return before > 0 ? after / before : 1;
 }
 
-static Vec3 mirrored(const Mirror *mirror, float tilt_deg, Vec3 from_eye)
+/* The case with the display leaning back so far, read by paths of that seed. */
+static ReviewCase judged_leaning(const Remedying *m, double back_deg, uint32_t seed,
+                                 ReadingGoal goal)
 {
-    double turn = radians_from_degrees((double)tilt_deg);
-    Vec3   n = vec3_along(vec3_scale(mirror->normal, (float)cos_d(turn)), mirror->up,
-                          (float)sin_d(turn));
-    return vec3_along(from_eye, n, -2 * vec3_dot(from_eye, n));
-}
-
-typedef struct TiltSearch {
-    const RemedyAsk *ask;
-    Mirror           mirror;
-    double           cd_m2[TILTS]; /* mean of what stands in the mirror's direction */
-} TiltSearch;
-
-static void add_light(void *user, const PathHistory *history, const float xyz[3])
-{
-    (void)history;
-    *(double *)user += (double)xyz[1];
-}
-
-static void trace_tilt(void *user, int item, int worker)
-{
-    (void)worker;
-    TiltSearch     *search = user;
-    const ProbeAim *aim = search->ask->aim;
-    Arena           own = arena_reserve((size_t)1 << 20);
-    Vec3           *targets = ARENA_NEW(&own, Vec3, aim->target_count);
-    for (int i = 0; i < aim->target_count; i++) {
-        Vec3 from_eye = vec3_normalize(vec3_sub(aim->targets[i], aim->eye));
-        targets[i] = vec3_add(search->mirror.start,
-                              mirrored(&search->mirror, TILT_DEG[item], from_eye));
-    }
-    double         sum = 0;
-    PathListener   listener = {.on_light = add_light, .user = &sum};
-    PathStatistics statistics = {0};
-    ProbeAim       out = {.context = aim->context, .eye = search->mirror.start,
-                          .targets = targets, .target_count = aim->target_count,
-                          .is_spread = true, .seed = aim->seed};
-    search->ask->tools->kernel->trace(&out, 0, TILT_PATHS, &listener, &statistics);
-    search->cd_m2[item] = sum / TILT_PATHS;
+    const RemedyAsk *ask = m->ask;
+    Arena            own = arena_reserve((size_t)1 << 24);
+    LeaningAsk       how = {ask->aim->context, ask->display, ask->middle.ns, ask->forward};
+    LeaningDisplay  *leaning = display_leaning(&how, back_deg, &own);
+    SymbolSurface    surface = *ask->look.surface;
+    SymbolLook       look = ask->look;
+    ProbeAim         aim = *ask->aim;
+    ReadingTools     tools = *ask->tools;
+    tools.journal = NULL; /* it knows the scene by its files */
+    aim.context = &leaning->context;
+    aim.seed ^= seed;
+    Reading        reading = reading_take(&aim, &goal, &tools, own);
+    SymbolEmission before = symbol_emission(&look, 1);
+    surface.scene = &leaning->scene;
+    look.surface = &surface;
+    SymbolEmission  after = symbol_emission(&look, 1);
+    ReviewCase      out = *m->c;
+    CaseLuminances *l = &out.luminance_cd_m2;
+    l->foreground *= shown_share(after.foreground_xyz[1], before.foreground_xyz[1]);
+    l->background *= shown_share(after.background_xyz[1], before.background_xyz[1]);
+    l->reflected = reading.reflected;
+    judge_contrasts(&out, reading.interval);
+    judge_case(&out, ask->profile, m->arena);
     arena_release(&own);
+    return out;
 }
 
-static const char *tilt_words(float tilt_deg, Arena *arena)
-{
-    return arena_format(arena, "the display leaning %s by %.3g degrees, scattered light "
-                               "as it is",
-                        tilt_deg > 0 ? "back" : "forward", (double)fabsf(tilt_deg));
-}
-
-/* The least that is enough; else that which leaves least light. */
-static void add_traced_tilt(Remedying *m)
-{
-    const CaseLuminances *l = &m->c->luminance_cd_m2;
-    TiltSearch search = {.ask = m->ask, .mirror = mirror_of(m->ask)};
-    double     least = l->reflected;
-    int        at = 0;
-    parallel_for(m->ask->tools->threads, TILTS, trace_tilt, &search);
-    if (!(search.cd_m2[0] > 0)) return;
-    for (int i = 1; i < TILTS; i++) {
-        double left = l->reflected - l->mirror * (1 - search.cd_m2[i] / search.cd_m2[0]);
-        if (!(left < least)) continue;
-        ReviewCase then = with_light(m, left);
-        least = left;
-        at = i;
-        if (keeps_limit(m, &then)) break;
-    }
-    if (at) add_with(m, REMEDY_TILT, tilt_words(TILT_DEG[at], m->arena), least);
-}
-
-/* Turns the mirror away from where the light comes from. */
-static void add_tilt_to_try(Remedying *m)
-{
-    Mirror mirror = mirror_of(m->ask);
-    Vec3   from_eye = vec3_normalize(vec3_sub(mirror.start, m->ask->aim->eye));
-    Vec3   arrives = vec3_from_doubles(m->facts->arrives);
-    float  gathered = vec3_length(arrives) / (float)m->facts->all.cd_m2;
-    arrives = vec3_normalize(arrives);
-    if (!(gathered > (float)GATHERED) ||
-        !(vec3_dot(arrives, mirrored(&mirror, 0, from_eye)) > BESIDE))
-        return;
-    float back = vec3_dot(arrives, mirrored(&mirror, TRY_DEG, from_eye));
-    float forward = vec3_dot(arrives, mirrored(&mirror, -TRY_DEG, from_eye));
-    add_to_try(m, REMEDY_TILT,
-               back < forward ? "the display leaning back by a few degrees"
-                              : "the display leaning forward by a few degrees");
-}
-
+/* The least that is enough; else that which gives most. */
 static void add_tilt(Remedying *m)
 {
     const CaseLuminances *l = &m->c->luminance_cd_m2;
-    if (l->mirror > MIRROR_MOST * l->reflected) add_traced_tilt(m);
-    else add_tilt_to_try(m);
+    ReadingGoal goal = {.brighter = fmax(l->foreground, l->background),
+                        .darker = fmin(l->foreground, l->background), .most = TILT_PATHS};
+    double best = m->c->limits[m->limit].margin;
+    int    at = -1;
+    for (int i = 0; i < TILTS; i++) {
+        ReviewCase then = judged_leaning(m, TILT_DEG[i], 0, goal);
+        if (then.limit_count != m->c->limit_count || !(then.limits[m->limit].margin > best))
+            continue;
+        best = then.limits[m->limit].margin;
+        at = i;
+        if (keeps_limit(m, &then)) break;
+    }
+    if (at < 0) return;
+    goal.precision = TILT_PRECISION;
+    goal.most = TILT_MOST;
+    ReviewCase then = judged_leaning(m, TILT_DEG[at], TILT_SEED, goal);
+    add(m, REMEDY_TILT,
+        arena_format(m->arena, "the display leaning %s by %.3g degrees",
+                     TILT_DEG[at] > 0 ? "back" : "forward", fabs(TILT_DEG[at])), &then);
 }
 
 /* ---- a hood ------------------------------------------------------------------------------ */

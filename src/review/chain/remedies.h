@@ -10,12 +10,8 @@
  *                      sends in the place of its base colour, as if light met it once
  *   hood               the light whose paths would cross it (scene/load/hood.h) is gone, and
  *                      its own is left out; none that would stand before the symbol is offered
- *   tilt               the mirror's light is as what stands in the mirror's new direction,
- *                      which is traced; what scatters is taken to stay. Haze turns with the
- *                      mirror and leaves a bright thing with it, so that the true contrast is
- *                      mostly higher. Where most of the light scatters there is no figure: a
- *                      tilt is a direction to try then, if the light comes from near the
- *                      mirror's direction
+ *   tilt               the light is read again, by fresh paths, with the display leaning where
+ *                      it stands (chain/leaning.h)
  *
  * Units    cd m^-2; metres, world; degrees in words.
  * Memory   texts and lists live in the arena.
@@ -25,11 +21,12 @@
 #pragma once
 #include "review/profile.h"
 #include "review/chain/causes.h"
-#include "review/symbol/symbol_surface.h"
+#include "review/symbol/symbol_sight.h"
 
 typedef struct RemedyAsk {
     const ReadingTools *tools;
     const ProbeAim     *aim;     /* at what is visible of the symbol */
+    SymbolLook          look;    /* at all of it */
     SymbolPoint         middle;  /* of it */
     const ReviewDisplay *display;
     const double       *forward; /* [3] where the vehicle points, as the request says */

@@ -112,15 +112,14 @@ static void add_unjudged(ReviewFacts *facts, const Review *review, const ReviewC
 
 /* ---- what mends it ----------------------------------------------------------------------- */
 
-/* Those with which the case passes first, each in their order; directions to try, of which no
- * figure is known, last. */
+/* Those with which the case passes first, each in their order. */
 static const CaseRemedy *next_mend(const ReviewCase *c, const bool *is_listed)
 {
     const CaseRemedy *best = NULL;
-    int               least = 3;
+    int               least = 2;
     for (int i = 0; i < c->remedy_count; i++) {
         const CaseRemedy *r = &c->remedies[i];
-        int rank = r->verdict == VERDICT_PASS ? 0 : isnan(r->contrast_ratio) ? 2 : 1;
+        int rank = r->verdict == VERDICT_PASS ? 0 : 1;
         if (is_listed[i] || rank >= least) continue;
         best = r;
         least = rank;

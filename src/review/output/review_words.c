@@ -473,7 +473,6 @@ const char *words_remedy(const CaseRemedy *r, Arena *arena)
     static const char *const THEN[4] = {"passes", "still fails", "too close to call",
                                         "cannot be judged"};
     bool is_another = r->then.verdict == VERDICT_PASS && r->verdict != VERDICT_PASS;
-    if (isnan(r->contrast_ratio)) return "a direction to try, without a figure";
     return arena_format(arena, "%s, required %s: %s", words_quantity(&r->then, arena),
                         words_required(&r->then, arena),
                         is_another ? "passes, another limit does not" : THEN[r->verdict]);

@@ -21,6 +21,7 @@
 #include "review/run/glare_found.h"
 #include "review/chain/remedies.h"
 #include "review/run/worst_part.h"
+#include "scene/load/material_data.h"
 #include "text/text.h"
 #include "vision/grey_steps.h"
 
@@ -379,12 +380,20 @@ static void set_to_decide(const ReviewRequest *request, DirectSun direct, Review
     c->decide_times = ceil(c->paths_to_decide / request->precision_paths);
 }
 
-/* A variant asks for no causes: what came via things without data in the review itself counts
- * for it, too. */
-static double data_share_of(const Review *base, const ReviewCase *c)
+/* A variant asks for no causes, and its light may come by other materials than the review's:
+ * its own paths tell, where any of them has no data. Of one whose levels alone differ, and to
+ * find the worst of many points, the review's share counts. */
+static double data_share_of(const CaseTools *tools, const CaseLook *look, const ProbeAim *aim,
+                            const ReviewCase *c, Arena scratch)
 {
-    const ReviewCase *like = base ? review_case_like(base, c) : NULL;
-    return like ? like->without_data_share : 0;
+    const Setup      *setup = tools->setup;
+    const ReviewCase *like = tools->base ? review_case_like(tools->base, c) : NULL;
+    CauseAsk          ask = {.tools = &setup->tools, .aim = aim, .paths = CAUSE_PATHS};
+    int               count;
+    if (!like || look->is_coarse || setup->other || !aim->target_count)
+        return like ? like->without_data_share : 0;
+    scene_without_data(setup->scene, &count, &scratch);
+    return count ? case_data_share(&ask, scratch) : 0;
 }
 
 static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
@@ -394,7 +403,7 @@ static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewC
     ProbeAim aim = see_symbol(tools, look, c, &direct, arena);
     judge_ambient(c, tools->profile,
                   aim.target_count && is_in_sun(direct, c->luminance_cd_m2.reflected));
-    c->without_data_share = data_share_of(tools->base, c);
+    c->without_data_share = data_share_of(tools, look, &aim, c, *arena);
     judge_case(c, tools->profile, arena);
     set_to_decide(tools->setup->request, direct, c);
     return aim;
@@ -425,7 +434,8 @@ static RemedyAsk remedies_of(const CaseTools *tools, const SetupSymbol *symbol,
 {
     const Setup *setup = tools->setup;
     int          id = setup->condition ? setup->condition->with_id : NO_ID;
-    return (RemedyAsk){&setup->tools, aim, symbol_middle(symbol), &symbol->display,
+    SymbolLook   look = {&symbol->surface, &symbol->split, aim->eye, setup->tools.threads};
+    return (RemedyAsk){&setup->tools, aim, look, symbol_middle(symbol), &symbol->display,
                        setup->request->forward, tools->profile,
                        id == NO_ID ? NULL : &setup->request->withs[id]};
 }
@@ -453,6 +463,8 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
         CauseAsk causes = {&tools->setup->tools, &aim, paths, rays, &places, false, false};
         CauseFacts facts = case_causes(&causes, &c, arena);
         judge_case(&c, tools->profile, arena); /* now that its share without data is known */
+        if (c.verdict != VERDICT_TOO_CLOSE)
+            c.paths_to_decide = c.minutes_to_decide = c.decide_times = (double)NAN;
         case_remedies(&remedies, &facts, &c, arena);
     }
     *out = c;
