@@ -73,8 +73,10 @@ def broken_case_laws(case):
             yield f"margin {limit['margin']} of {limit['found']} by {limit['value']}"
     if case["precision_asked"] is None or case["precision_reached"] is None:
         yield "no precision"
-    if (case["paths_to_decide"] is not None) != (case["verdict"] == "too close"):
-        yield f"{case['verdict']}: {case['paths_to_decide']} paths would decide it"
+    if (case["open_by"] is not None) != (case["verdict"] == "too close") or \
+            (case["paths_to_decide"] is not None) != (case["open_by"] == "paths"):
+        yield f"{case['verdict']}, open by {case['open_by']}: {case['paths_to_decide']} paths " \
+              "would decide it"
 
 
 def broken_variant_laws(review):

@@ -297,7 +297,7 @@ static bool is_optional(const char *key, const json_t *object)
                                         "rests_on_line", "inputs", "guessed_share",
                                         "empty_seat", "empty_seat_share",
                                         "symbol_mean", "lit_share", "judged_part_uv",
-                                        "decide_times", "glasses_transmittance"};
+                                        "decide_times", "open_by", "glasses_transmittance"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)
         if (!strcmp(key, ADDED[i])) return true;
     if (!strcmp(key, "kind") && json_object_get(object, "what")) return true; /* a remedy's */

@@ -174,6 +174,30 @@ static bool is_verdict_clear(void *user, MeanInterval reflected, Arena scratch)
     return true;
 }
 
+/* The share of a reading's interval that is known of the sun's image: no path lessens it. */
+static double known_share(DirectSun direct, MeanInterval reflected)
+{
+    double half = 0.5 * (reflected.high - reflected.low);
+    return half > 0 ? fmin(2 * RESPONSE_MIRROR_ERROR * direct.mirror / half, 1) : 0;
+}
+
+/* Would more paths call it? A case that fails by one limit is called, whatever the others. */
+static bool is_worth_paths(void *user, const Reading *reading, Arena scratch)
+{
+    const VerdictAsk *ask = user;
+    ReviewCase   c = *ask->of;
+    MeanInterval in = reading->interval;
+    bool         in_sun = is_in_sun(ask->direct, reading->reflected);
+    if (is_in_sun(ask->direct, in.low) != is_in_sun(ask->direct, in.high)) return true;
+    c.paths = reading->paths;
+    c.luminance_cd_m2.reflected = reading->reflected;
+    set_contrasts(&c, in);
+    judge_ambient(&c, ask->tools->profile, in_sun);
+    judge_case(&c, ask->tools->profile, &scratch);
+    judge_paths(&c, known_share(ask->direct, in));
+    return isfinite(c.paths_to_decide);
+}
+
 /* All that decides whether it is, besides the light: whose case it is, and the limits. */
 static const char *name_of(const VerdictAsk *ask, Arena *arena)
 {
@@ -233,7 +257,7 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictAsk
         goal.question = NULL;
     }
     ReadOn from = {setup_ask(setup, &rest, &goal, scratch),
-                   request->decide_times * request->precision_paths};
+                   request->decide_times * request->precision_paths, is_worth_paths};
     return goal.question ? setup_read_on(setup, &rest, &goal, &from, scratch) : from.reading;
 }
 
@@ -375,9 +399,7 @@ typedef struct CaseAsk {
 /* By what is known of its reading: how much more of it decides. */
 static void set_to_decide(const ReviewRequest *request, DirectSun direct, ReviewCase *c)
 {
-    double half = 0.5 * (c->reflected_range.high - c->reflected_range.low);
-    double known = 2 * RESPONSE_MIRROR_ERROR * direct.mirror;
-    judge_paths(c, half > 0 ? fmin(known / half, 1) : 0);
+    judge_paths(c, known_share(direct, c->reflected_range));
     c->paths_to_decide *= READ_ON_BUDGET;
     c->minutes_to_decide *= c->paths_to_decide;
     c->decide_times = ceil(c->paths_to_decide / request->precision_paths);
@@ -392,15 +414,14 @@ static double data_share_of(const Review *base, const ReviewCase *c)
 }
 
 static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
-                           Arena *arena)
+                           DirectSun *direct, Arena *arena)
 {
-    DirectSun direct = {0, 0};
-    ProbeAim aim = see_symbol(tools, look, c, &direct, arena);
+    *direct = (DirectSun){0, 0};
+    ProbeAim aim = see_symbol(tools, look, c, direct, arena);
     judge_ambient(c, tools->profile,
-                  aim.target_count && is_in_sun(direct, c->luminance_cd_m2.reflected));
+                  aim.target_count && is_in_sun(*direct, c->luminance_cd_m2.reflected));
     c->without_data_share = data_share_of(tools->base, c);
     judge_case(c, tools->profile, arena);
-    set_to_decide(tools->setup->request, direct, c);
     return aim;
 }
 
@@ -409,12 +430,13 @@ static int worst_point(const CaseTools *tools, const CaseLook *look, const Vec3 
                        int count, ReviewCase *c, Arena scratch)
 {
     ReviewCase start = *c, worst;
+    DirectSun  direct;
     int        at = 0, failed = 0;
     for (int i = 0; i < count; i++) {
         Arena      room = scratch;
         CaseLook   one = {look->symbol, points[i], true, true};
         ReviewCase seen = start;
-        judge_look(tools, &one, &seen, &room);
+        judge_look(tools, &one, &seen, &direct, &room);
         failed += seen.verdict == VERDICT_FAIL || seen.verdict == VERDICT_UNJUDGED;
         if (i && !is_worse(&seen, &worst)) continue;
         worst = seen;
@@ -441,12 +463,13 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
     Vec3      *points = setup_eye_points(tools->setup, ask->eye, &count, arena, err);
     ReviewCase c = start_case(tools, ask->eye, ask->symbol);
     CaseLook   look = {.symbol = ask->symbol, .is_bare = ask->is_bare};
+    DirectSun  direct;
     if (!points || !review_goes_on(tools->setup->tools.journal, err)) return false;
     c.display_lux = ask->face_lux;
     c.eye_failed_share = (double)NAN;
     look.eye =
         points[count > 1 ? worst_point(tools, &look, points, count, &c, *arena) : 0];
-    ProbeAim aim = judge_look(tools, &look, &c, arena);
+    ProbeAim aim = judge_look(tools, &look, &c, &direct, arena);
     world_from_scene(tools->setup->scene->origin, look.eye, c.eye_m);
     c.panel = symbol_panel(ask->symbol, arena);
     if (aim.target_count && !ask->is_bare) {
@@ -457,7 +480,10 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
         CauseAsk causes = {&tools->setup->tools, &aim, paths, rays, &places, false, false};
         CauseFacts facts = case_causes(&causes, &c, arena);
         judge_case(&c, tools->profile, arena); /* now that its share without data is known */
+        set_to_decide(tools->setup->request, direct, &c);
         case_remedies(&remedies, &facts, &c, arena);
+    } else {
+        set_to_decide(tools->setup->request, direct, &c);
     }
     *out = c;
     return true;
