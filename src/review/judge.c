@@ -9,6 +9,7 @@
 
 #define ROOT_HALF 0.70710678118654752
 #define UNDECIDED_SHARE 0.1
+#define UNDECIDABLE_SHARE 0.5 /* of what may be true: more is told as what no paths decide */
 #define CLEAR_ERRORS 3.9 /* between figure and limit: 2.9 of a third round's interval, and one
                             by which the figure may be nearer */
 
@@ -186,44 +187,67 @@ static double share_within(double at, double distance)
     return 0.5 * (erfc_d((at - distance) * ROOT_HALF) - erfc_d((at + distance) * ROOT_HALF));
 }
 
-/* The distance from 0 within which a tenth of them lie. */
-static double near_distance(double at)
+/* The distance from 0 within which so much of them lies. */
+static double near_distance(double at, double wanted)
 {
     double low = 0, high = at + 4;
     for (int i = 0; i < 60; i++) {
         double middle = 0.5 * (low + high);
-        *(share_within(at, middle) < UNDECIDED_SHARE ? &low : &high) = middle;
+        *(share_within(at, middle) < wanted ? &low : &high) = middle;
     }
     return low;
 }
 
-/* Times its paths until the limit lies clear of the figure. What the panel leaves in doubt adds
- * to the interval as squares, what is known of the sun's image (`fixed`) as it is. */
-static double times_to_decide(const ReviewCase *c, const LimitVerdict *limit, double fixed)
+/* What a limit leaves open. The three parts of the half of the interval towards it: what
+ * paths lessen, in standard errors; what is known of the sun's image, which adds to that as it
+ * is; what the panel leaves in doubt, which adds as squares. */
+typedef struct OpenLimit {
+    double away; /* between figure and limit */
+    double error, sun, panel;
+} OpenLimit;
+
+static OpenLimit open_limit(const ReviewCase *c, const LimitVerdict *limit, double fixed)
 {
     bool   is_above = limit->found > limit->value;
-    double away = fabs(limit->found - limit->value);
     double half = is_above ? limit->found - limit->low : limit->high - limit->found;
     double share = sampling_share(c, is_above);
-    double error = (1 - fixed) * share * half / NORMAL_QUANTILE;
-    if (!(error > 0)) return (double)INFINITY;
-    double apart = near_distance(away / error) * error - fixed * share * half;
-    double room = apart * apart - half * half * (1 - share * share);
-    double ratio = CLEAR_ERRORS * error;
-    return apart > 0 && room > 0 ? fmax(ratio * ratio / room, 1) : (double)INFINITY;
+    return (OpenLimit){.away = fabs(limit->found - limit->value),
+                       .error = (1 - fixed) * share * half / NORMAL_QUANTILE,
+                       .sun = fixed * share * half,
+                       .panel = half * sqrt(fmax(1 - share * share, 0))};
+}
+
+/* Times its paths until the limit lies clear of the figure, or this within what no paths
+ * lessen. */
+static double times_to_decide(const OpenLimit *open)
+{
+    double fixed = hypot_d(open->sun, open->panel), at = open->away / open->error;
+    if (!(open->error > 0)) return (double)INFINITY;
+    double never = share_within(at, fixed / open->error);
+    if (!(never <= UNDECIDABLE_SHARE)) return (double)INFINITY;
+    double apart = near_distance(at, never + UNDECIDED_SHARE) * open->error;
+    double room = sqrt(apart * apart - open->panel * open->panel) - open->sun;
+    double ratio = CLEAR_ERRORS * open->error / room;
+    return fmax(ratio * ratio, 1);
 }
 
 void judge_paths(ReviewCase *review_case, double fixed)
 {
     ReviewCase *c = review_case;
     c->paths_to_decide = NAN;
+    c->open_by = OPEN_NOT;
     if (c->verdict != VERDICT_TOO_CLOSE) return;
     for (int i = 0; i < c->limit_count; i++) {
         const LimitVerdict *limit = &c->limits[i];
         if (limit->is_advice || limit->verdict != VERDICT_TOO_CLOSE || isnan(limit->found))
             continue;
-        c->paths_to_decide = fmax(c->paths_to_decide,
-                                  (double)c->paths * times_to_decide(c, limit, fixed));
+        OpenLimit open = open_limit(c, limit, fixed);
+        double    paths = (double)c->paths * times_to_decide(&open);
+        if (paths <= c->paths_to_decide) continue;
+        c->paths_to_decide = paths;
+        c->open_by = isfinite(paths)          ? OPEN_BY_PATHS
+                     : open.panel >= open.sun ? OPEN_BY_PANEL
+                                              : OPEN_BY_SUN;
     }
 }
 

@@ -29,12 +29,13 @@ void judge_ambient(ReviewCase *review_case, const Profile *profile, bool sun_on_
  * of what it reflects, and of each of the two luminances. */
 void judge_contrasts(ReviewCase *review_case, MeanInterval reflected);
 
-/* Sets paths_to_decide of a case that was judged: by a reading of so many nine in ten are
- * decided. Errors fall as the root of the paths, but for a share `fixed` of what sampling
- * leaves in doubt, and for the panel's own. How far the true figure lies from the limit is
- * known as well as the figure is: a tenth of the possible ones (normal, as wide as the interval
- * says) lie nearer than is reckoned with. Infinite where the panel's own errors reach the
- * limit: no path lessens those. */
+/* Sets open_by and paths_to_decide of a case that was judged. Errors fall as the root of the
+ * paths, but for a share `fixed` of what sampling leaves in doubt, and for the panel's own.
+ * How far the true figure lies from the limit is known as well as the figure is (normal, as
+ * wide as the interval says). Where it more likely than not lies so near that those errors
+ * alone reach the limit, no paths decide it: infinite. Else by a reading of so many paths nine
+ * in ten are settled: decided, or shown to lie that near. Without such errors all these are
+ * decided. */
 void judge_paths(ReviewCase *review_case, double fixed);
 
 /* From the case's ambient, contrasts and their interval, height, stroke_ratio, visible_share,

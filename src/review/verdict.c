@@ -4,6 +4,9 @@
 #include <math.h>
 
 const char *const verdict_names[4] = {"pass", "fail", "too close", "cannot be judged"};
+const char *const open_names[OPEN_COUNT] = {
+    [OPEN_BY_PATHS] = "paths", [OPEN_BY_PANEL] = "panel error", [OPEN_BY_SUN] = "sun's image"};
+
 const char *const unjudged_names[UNJUDGED_COUNT] = {
     [UNJUDGED_HIDDEN] = "hidden", [UNJUDGED_PANEL] = "panel not usable",
     [UNJUDGED_DATA] = "no optical data", [UNJUDGED_LIMIT] = "no limit",
@@ -55,6 +58,11 @@ ReviewCase review_case_unknown(void)
     c.glare = review_glare_unknown();
     c.whole = case_whole_unknown();
     return c;
+}
+
+bool case_is_undecidable(const ReviewCase *c)
+{
+    return c->open_by == OPEN_BY_PANEL || c->open_by == OPEN_BY_SUN;
 }
 
 bool review_case_counts(const ReviewCase *c)

@@ -41,6 +41,14 @@ extern const char *const unjudged_names[UNJUDGED_COUNT]; /* NULL, "hidden", "pan
  * of 2 : 1 is then missed or met by what nobody measured. */
 #define UNJUDGED_DATA_SHARE 0.1
 
+/* What keeps a case open that is too close: sampling, which more paths lessen; or, whatever
+ * their number, what its panel states of its own errors, or what is known of the sun's image in
+ * its mirror. */
+typedef enum OpenBy {
+    OPEN_NOT, OPEN_BY_PATHS, OPEN_BY_PANEL, OPEN_BY_SUN, OPEN_COUNT
+} OpenBy;
+extern const char *const open_names[OPEN_COUNT]; /* NULL, "paths", "panel error", ... */
+
 typedef enum Ambient { AMBIENT_NIGHT, AMBIENT_TWILIGHT, AMBIENT_DAY, AMBIENT_SUN } Ambient;
 extern const char *const ambient_names[4]; /* "night", "twilight", "day", "sun" */
 
@@ -228,8 +236,9 @@ typedef struct ReviewCase {
     double  precision_asked;     /* of the contrast, relative: coarser where the verdict is
                                     clear; NaN: nothing is visible */
     double  precision_reached;   /* its standard error, relative; NaN likewise */
-    double  paths_to_decide;     /* of a case that is too close: nine of ten such are decided
-                                    by fewer (judge_paths, read_on.h); infinite: none; NaN */
+    OpenBy  open_by;             /* what keeps a case open that is too close */
+    double  paths_to_decide;     /* of it: nine of ten such are settled by fewer (judge_paths,
+                                    read_on.h); infinite: by none; NaN */
     double  decide_times;        /* the same over the request's precision_paths, rounded up */
     double  minutes_to_decide;   /* as fast as its reading went, here; NaN: not known */
     double  visible_share;       /* of the box about its foreground, 0..1 */
@@ -276,6 +285,9 @@ typedef struct ReviewCase {
 } ReviewCase;
 
 CaseGlare review_glare_unknown(void); /* all NaN */
+
+/* Is it too close, and would no number of paths decide it? */
+bool case_is_undecidable(const ReviewCase *c);
 
 /* A case of which no figure is known: all are NaN, and nothing is seen. */
 ReviewCase review_case_unknown(void);

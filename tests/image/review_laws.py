@@ -41,8 +41,8 @@ def contrast_ends(case):
 
 
 def broken_mean_laws(case):
-    """The part that is judged is no better than the symbol's mean, whose contrast is of the same
-    light: with the veil where the profile counts it."""
+    """The part that is judged is no better than the symbol's mean, whose contrast is of the
+    same light: with the veil where the profile counts it."""
     light, mean = case["luminance_cd_m2"], case["symbol_mean"]
     if mean is None or mean["reflected"] is None:
         return
@@ -130,6 +130,10 @@ def broken_case_laws(case, most):
     if case["precision_asked"] is None or case["precision_reached"] is None:
         yield "no precision"
     yield from broken_decision_laws(case, most)
+    paths, by = case["paths_to_decide"], case["open_by"]
+    if (by is not None) != (case["verdict"] == "too close") or \
+            (paths is not None) != (by == "paths"):
+        yield f"{case['verdict']}, open by {by}: {paths} paths would decide it"
 
 
 def broken_variant_laws(review):

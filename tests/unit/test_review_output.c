@@ -6,7 +6,7 @@
 
 #include "base/count.h"
 #include "review/output/review_json.h"
-#include "review/output/review_json_read.h"
+#include "review/export/review_json_read.h"
 #include "review/output/review_words.h"
 #include "review/export/review_junit.h"
 #include "review_page_fixture.h"
@@ -297,7 +297,7 @@ static bool is_optional(const char *key, const json_t *object)
                                         "rests_on_line", "inputs", "guessed_share",
                                         "empty_seat", "empty_seat_share",
                                         "symbol_mean", "lit_share", "judged_part_uv",
-                                        "decide_times", "glasses_transmittance",
+                                        "decide_times", "open_by", "glasses_transmittance",
                                         "middle_eye_contrast_ratio", "glasses",
                                         "glasses_display_loss"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)

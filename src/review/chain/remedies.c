@@ -100,7 +100,8 @@ static double left_without(const Remedying *m, double cd_m2)
     return (1 - share) * m->c->luminance_cd_m2.reflected;
 }
 
-/* Of the limits of contrast that count and are missed the one that is missed by most; -1. */
+/* Of the limits of contrast that count and are missed, or that no paths decide, the one that is
+ * missed by most; -1. */
 static int limit_to_mend(const ReviewCase *c)
 {
     int worst = -1;
@@ -108,8 +109,8 @@ static int limit_to_mend(const ReviewCase *c)
         const LimitVerdict *limit = &c->limits[i];
         LimitKind           kind = limit_kind_named(limit->kind);
         bool is_known = limit->verdict == VERDICT_FAIL || limit->verdict == VERDICT_TOO_CLOSE;
-        if (limit->is_advice || !is_known || !(limit->margin < 0) ||
-            !limit_kinds[kind].is_contrast)
+        bool is_missed = limit->margin < 0 || case_is_undecidable(c);
+        if (limit->is_advice || !is_known || !is_missed || !limit_kinds[kind].is_contrast)
             continue;
         if (worst < 0 || limit->margin < c->limits[worst].margin) worst = i;
     }

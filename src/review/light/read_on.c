@@ -30,11 +30,6 @@ static void widen(Reading *reading, double factor)
     in->high = reading->reflected + factor * (in->high - reading->reflected);
 }
 
-static bool is_clear(const ReadingQuestion *question, const Reading *reading, Arena scratch)
-{
-    return question->is_decided(question->user, reading->interval, scratch);
-}
-
 Reading setup_read_on(const Setup *setup, const ProbeAim *aim, const ReadingGoal *goal,
                       const ReadOn *from, Arena scratch)
 {
@@ -44,7 +39,7 @@ Reading setup_read_on(const Setup *setup, const ProbeAim *aim, const ReadingGoal
     long        left = from->budget - reading.paths;
     plain.question = NULL;
     plain.precision = 0;
-    for (int round = 1; !is_clear(goal->question, &reading, scratch); round++) {
+    for (int round = 1; from->is_worth(goal->question->user, &reading, scratch); round++) {
         plain.most = read_on_paths(reading.paths, left);
         if (!plain.most) break;
         own.seed = hash_combine(own.seed, SEED);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* read_on.h -- reads on where a question is not decided, until it is or a budget is spent.
+/* read_on.h -- reads on where a question is open, until it is decided, no paths would decide
+ * it, or a budget is spent.
  *
  * Each round reads afresh, by eight times the paths of the reading before it; the last takes
  * what is left of the budget. A look by which a verdict may be called is one more chance to
@@ -15,6 +16,8 @@
 typedef struct ReadOn {
     Reading reading; /* that is there */
     long    budget;  /* paths of all readings, that one among them; pilots do not count */
+    /* Is the question of the goal open after a reading, and would more paths decide it? */
+    bool (*is_worth)(void *user, const Reading *reading, Arena scratch);
 } ReadOn;
 
 /* goal: that of the reading, with its question. */

@@ -108,6 +108,7 @@ static const Member CASE[] = {
     OWN(COUNT, ReviewCase, paths),
     {"precision_asked", MEMBER_FIGURE, offsetof(ReviewCase, precision_asked), .use = SINCE},
     {"precision_reached", MEMBER_FIGURE, offsetof(ReviewCase, precision_reached), .use = SINCE},
+    {"open_by", MEMBER_OPEN, offsetof(ReviewCase, open_by), .use = SINCE},
     {"paths_to_decide", MEMBER_FIGURE, offsetof(ReviewCase, paths_to_decide), .use = SINCE},
     {"decide_times", MEMBER_FIGURE, offsetof(ReviewCase, decide_times), .use = SINCE},
     OWN(FIGURE, ReviewCase, contrast_with_veil), OWN(FIGURE, ReviewCase, height_arcmin),
@@ -271,6 +272,7 @@ static json_t *member_json(const Member *member, const void *item)
     case MEMBER_COUNT: return json_integer(*(const long *)at);
     case MEMBER_JUDGED: return judged_json(item);
     case MEMBER_REASON: return text(unjudged_names[*(const Unjudged *)at]);
+    case MEMBER_OPEN: return text(open_names[*(const OpenBy *)at]);
     case MEMBER_VERDICT: return json_string(verdict_names[*(const Verdict *)at]);
     case MEMBER_AMBIENT: return json_string(ambient_names[*(const Ambient *)at]);
     case MEMBER_WORD: return json_string(member->words[*(const int *)at]);

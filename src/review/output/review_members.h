@@ -22,7 +22,8 @@ typedef enum MemberKind {
     MEMBER_LIST,    /* likewise */
     MEMBER_LIMIT,   /* of a case: the limit that limit_id means, or null */
     MEMBER_JUDGED,  /* of a case: the limit that made its verdict (case_worst_limit), or null */
-    MEMBER_REASON   /* Unjudged; null: it can be judged */
+    MEMBER_REASON,  /* Unjudged; null: it can be judged */
+    MEMBER_OPEN     /* OpenBy; null: it is not open */
 } MemberKind;
 
 /* Older reviews may lack it; it is written and not read back. */

@@ -323,16 +323,35 @@ const char *words_case(const ReviewCase *c, Arena *arena)
                         c->eye ? c->eye : "?", c->condition ? c->condition : "?");
 }
 
+/* Why no paths decide it, and what would: "the limit lies within ...; what helps: ...". */
+static const char *words_undecidable(const ReviewCase *c, Arena *arena)
+{
+    const char *brighter = "", *helps = "";
+    for (int i = 0; i < c->remedy_count; i++)
+        if (c->remedies[i].kind == REMEDY_BRIGHTNESS) brighter = c->remedies[i].what;
+    if (c->open_by == OPEN_BY_PANEL)
+        helps = arena_format(arena, "; what helps: the panel measured more exactly%s%s",
+                             *brighter ? ", or " : "", brighter);
+    else if (*brighter)
+        helps = arena_format(arena, "; what helps: %s", brighter);
+    return arena_format(arena, "; no number of paths decides it: the limit lies within %s%s",
+                        c->open_by == OPEN_BY_PANEL
+                            ? "the panel's own stated error"
+                            : "what is known of the sun's image in the display",
+                        helps);
+}
+
 const char *words_decide(const ReviewCase *c, Arena *arena)
 {
+    if (case_is_undecidable(c)) return words_undecidable(c, arena);
     if (!(c->minutes_to_decide > 0)) return "";
-    if (isinf(c->minutes_to_decide))
-        return "; no time decides it: the limit lies within the panel's own error, or on the "
-               "figure";
     const char *option = c->decide_times <= DECIDE_TIMES
                              ? "--decide"
                              : arena_format(arena, "--decide-times %.0f", c->decide_times);
-    return arena_format(arena, "; %s calls it within %s, nine times in ten", option,
+    bool has_error = c->panel.emission_error > 0 || c->panel.reflection_error > 0;
+    return arena_format(arena, "; %s calls it%s within %s, nine times in ten", option,
+                        has_error ? ", or shows that only the panel's own error keeps it open,"
+                                  : "",
                         words_minutes(fmax(c->minutes_to_decide, 1), arena));
 }
 

@@ -124,7 +124,8 @@ const char *words_glare(double value, MeanInterval range, const char *none, Aren
 /* "sources above 2000 cd/m²: 3; DGP with its factor for low light". */
 const char *words_glare_settings(const CaseGlare *glare, Arena *arena);
 
-/* Behind a case that is too close: what calls it, in which time; "": that is not known. */
+/* Behind a case that is too close: what calls it, in which time, or why no number of paths does
+ * and what would help; "": that is not known. */
 const char *words_decide(const ReviewCase *c, Arena *arena);
 
 /* Why it cannot be judged: "nothing of it is seen: wheel (leather) hides 100 %". */

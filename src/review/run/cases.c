@@ -3,16 +3,12 @@
 
 #include <math.h>
 
-#include "base/file.h"
 #include "base/sampler.h"
 #include "base/units.h"
-#include "camera/camera.h"
-#include "guide/guide_file.h"
-#include "render/identity.h"
-#include "render/train.h"
 #include "review/judge.h"
 #include "review/keep/journal.h"
 #include "review/eye/eye_reading.h"
+#include "review/light/lesson.h"
 #include "review/light/read_on.h"
 #include "review/light/response_suns.h"
 #include "review/light/setup_eyes.h"
@@ -130,6 +126,30 @@ static bool is_verdict_clear(void *user, MeanInterval reflected, Arena scratch)
     return true;
 }
 
+/* The share of a reading's interval that is known of the sun's image: no path lessens it. */
+static double known_share(DirectSun direct, MeanInterval reflected)
+{
+    double half = 0.5 * (reflected.high - reflected.low);
+    return half > 0 ? fmin(2 * RESPONSE_MIRROR_ERROR * direct.mirror / half, 1) : 0;
+}
+
+/* Would more paths call it? A case that fails by one limit is called, whatever the others. */
+static bool is_worth_paths(void *user, const Reading *reading, Arena scratch)
+{
+    const VerdictAsk *ask = user;
+    ReviewCase   c = *ask->of;
+    MeanInterval in = reading->interval;
+    bool         in_sun = is_in_sun(ask->direct, reading->reflected);
+    if (is_in_sun(ask->direct, in.low) != is_in_sun(ask->direct, in.high)) return true;
+    c.paths = reading->paths;
+    c.luminance_cd_m2.reflected = reading->reflected;
+    set_contrasts(&c, in);
+    judge_ambient(&c, ask->tools->profile, in_sun);
+    judge_case(&c, ask->tools->profile, &scratch);
+    judge_paths(&c, known_share(ask->direct, in));
+    return isfinite(c.paths_to_decide);
+}
+
 /* All that decides whether it is, besides the light: whose case it is, and the limits. */
 static const char *name_of(const VerdictAsk *ask, Arena *arena)
 {
@@ -189,7 +209,7 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictAsk
         goal.question = NULL;
     }
     ReadOn from = {setup_ask(setup, &rest, &goal, scratch),
-                   request->decide_times * request->precision_paths};
+                   request->decide_times * request->precision_paths, is_worth_paths};
     return goal.question ? setup_read_on(setup, &rest, &goal, &from, scratch) : from.reading;
 }
 
@@ -372,9 +392,7 @@ typedef struct CaseAsk {
 /* By what is known of its reading: how much more of it decides. */
 static void set_to_decide(const ReviewRequest *request, DirectSun direct, ReviewCase *c)
 {
-    double half = 0.5 * (c->reflected_range.high - c->reflected_range.low);
-    double known = 2 * RESPONSE_MIRROR_ERROR * direct.mirror;
-    judge_paths(c, half > 0 ? fmin(known / half, 1) : 0);
+    judge_paths(c, known_share(direct, c->reflected_range));
     c->paths_to_decide *= READ_ON_BUDGET;
     c->minutes_to_decide *= c->paths_to_decide;
     c->decide_times = ceil(c->paths_to_decide / request->precision_paths);
@@ -397,15 +415,14 @@ static double data_share_of(const CaseTools *tools, const CaseLook *look, const 
 }
 
 static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
-                           Arena *arena)
+                           DirectSun *direct, Arena *arena)
 {
-    DirectSun direct = {0, 0};
-    ProbeAim aim = see_symbol(tools, look, c, &direct, arena);
+    *direct = (DirectSun){0, 0};
+    ProbeAim aim = see_symbol(tools, look, c, direct, arena);
     judge_ambient(c, tools->profile,
-                  aim.target_count && is_in_sun(direct, c->luminance_cd_m2.reflected));
+                  aim.target_count && is_in_sun(*direct, c->luminance_cd_m2.reflected));
     c->without_data_share = data_share_of(tools, look, &aim, c, *arena);
     judge_case(c, tools->profile, arena);
-    set_to_decide(tools->setup->request, direct, c);
     return aim;
 }
 
@@ -414,12 +431,13 @@ static int worst_point(const CaseTools *tools, const CaseLook *look, const Vec3 
                        int count, ReviewCase *c, Arena scratch)
 {
     ReviewCase start = *c, worst;
+    DirectSun  direct;
     int        at = 0, failed = 0;
     for (int i = 0; i < count; i++) {
         Arena      room = scratch;
         CaseLook   one = {look->symbol, points[i], true, true};
         ReviewCase seen = start;
-        judge_look(tools, &one, &seen, &room);
+        judge_look(tools, &one, &seen, &direct, &room);
         failed += seen.verdict == VERDICT_FAIL || seen.verdict == VERDICT_UNJUDGED;
         if (i && !is_worse(&seen, &worst)) continue;
         worst = seen;
@@ -447,12 +465,13 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
     Vec3      *points = setup_eye_points(tools->setup, ask->eye, &count, arena, err);
     ReviewCase c = start_case(tools, ask->eye, ask->symbol);
     CaseLook   look = {.symbol = ask->symbol, .is_bare = ask->is_bare};
+    DirectSun  direct;
     if (!points || !review_goes_on(tools->setup->tools.journal, err)) return false;
     c.display_lux = ask->face_lux;
     c.eye_failed_share = (double)NAN;
     look.eye =
         points[count > 1 ? worst_point(tools, &look, points, count, &c, *arena) : 0];
-    ProbeAim aim = judge_look(tools, &look, &c, arena);
+    ProbeAim aim = judge_look(tools, &look, &c, &direct, arena);
     world_from_scene(tools->setup->scene->origin, look.eye, c.eye_m);
     c.panel = symbol_panel(ask->symbol, arena);
     if (aim.target_count && !ask->is_bare) {
@@ -463,9 +482,10 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
         CauseAsk causes = {&tools->setup->tools, &aim, paths, rays, &places, false, false};
         CauseFacts facts = case_causes(&causes, &c, arena);
         judge_case(&c, tools->profile, arena); /* now that its share without data is known */
-        if (c.verdict != VERDICT_TOO_CLOSE)
-            c.paths_to_decide = c.minutes_to_decide = c.decide_times = (double)NAN;
+        set_to_decide(tools->setup->request, direct, &c);
         case_remedies(&remedies, &facts, &c, arena);
+    } else {
+        set_to_decide(tools->setup->request, direct, &c);
     }
     *out = c;
     return true;
@@ -473,82 +493,14 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
 
 /* ---- before all cases -------------------------------------------------------------------- */
 
-/* The picture from which guides are trained: one about the symbols. */
-#define LESSON_WIDTH 480
-#define LESSON_HEIGHT 270
-#define LESSON_DEG 60.0
-
-static int condition_id(const Setup *setup)
-{
-    return (int)(setup->condition - setup->request->conditions);
-}
-
-static const char *lesson_file(const Setup *setup, Vec3 eye, Vec3 towards, Arena *arena)
-{
-    Text text = {.arena = arena};
-    identity_line(&text, "lesson", "%016llx%016llx, condition %d",
-                  (unsigned long long)setup->planned.high,
-                  (unsigned long long)setup->planned.low,
-                  condition_id(setup));
-    identity_vector(&text, "eye", eye);
-    identity_vector(&text, "towards", towards);
-    JournalKey key = journal_key(text.data);
-    return arena_format(arena, "%s/%016llx%016llx.lesson", setup->lessons,
-                        (unsigned long long)key.high, (unsigned long long)key.low);
-}
-
-static bool read_lesson(Setup *setup, const char *file, Arena *arena)
-{
-    GuideScene scene = train_guide_scene(&setup->context);
-    Error      ignored;
-    return file_exists(file) &&
-           guide_read(file, &scene, arena, &setup->context.guide, &ignored);
-}
-
-/* A guide from the setup's folder, or a new one. */
-static void take_lesson(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena)
-{
-    SceneCamera    look = camera_look_at(eye, vec3_add(eye, towards),
-                                         (float)radians_from_degrees(LESSON_DEG));
-    Camera         camera = camera_from_scene(&look, LESSON_WIDTH, LESSON_HEIGHT);
-    TrainOptions   train = {setup->tools.kernel, setup->tools.threads};
-    PathStatistics cost;
-    const char    *file = setup->lessons ? lesson_file(setup, eye, towards, arena) : NULL;
-    if (file && read_lesson(setup, file, arena)) return;
-    setup->context.guide = train_guide(&setup->context, &camera, &train, arena, &cost);
-    Error ignored; /* unkept, it is trained again: the same lesson, of the same seed */
-    if (file) guide_write(file, setup->context.guide, *arena, &ignored);
-}
-
-static bool is_variant(const Setup *setup)
-{
-    return setup->request->change != NULL;
-}
-
-/* Takes the guide that the review itself trained under this condition. */
-static bool inherit_lesson(Setup *setup)
-{
-    GuideScene scene = train_guide_scene(&setup->context);
-    if (!setup->inherited || !is_variant(setup)) return false;
-    setup->context.guide =
-        inherited_guide(setup->inherited, setup->request, condition_id(setup), &scene);
-    return setup->context.guide != NULL;
-}
-
 bool setup_learn(Setup *setup, const SetupSymbol *symbols, int count, Arena *arena, Error *err)
 {
     Vec3 eye, sum = vec3(0, 0, 0);
-    if (inherit_lesson(setup)) return true;
+    if (lesson_inherit(setup)) return true;
     if (!setup_eye_middle(setup, &setup->request->eyes[0], *arena, &eye, err)) return false;
     for (int i = 0; i < count; i++) sum = vec3_add(sum, symbol_middle(&symbols[i]).position);
     Vec3 towards = vec3_sub(vec3_scale(sum, 1 / (float)count), eye);
-    if (!(vec3_dot(towards, towards) > 0)) return true;
-    bool leaves = setup->inherited && !is_variant(setup);
-    take_lesson(setup, eye, towards, leaves ? inherited_room(setup->inherited) : arena);
-    GuideScene scene = train_guide_scene(&setup->context);
-    if (leaves)
-        inherited_keep_guide(setup->inherited, condition_id(setup), setup->context.guide,
-                             &scene);
+    if (vec3_dot(towards, towards) > 0) lesson_take(setup, eye, towards, arena);
     return true;
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/output/review_json_read.h"
+#include "review/export/review_json_read.h"
 
 #include <math.h>
 #include <string.h>
@@ -161,6 +161,10 @@ static bool read_value(const JsonView *view, const Member *member, void *item, E
         *(Verdict *)at = (Verdict)word;
         return true;
     case MEMBER_REASON: return read_reason(view, key, at, err);
+    case MEMBER_OPEN:
+        if (!read_word(view, key, open_names + 1, OPEN_COUNT - 1, &word, err)) return false;
+        *(OpenBy *)at = (OpenBy)(word + 1);
+        return true;
     case MEMBER_AMBIENT:
         if (!read_word(view, key, ambient_names, 4, &word, err)) return false;
         *(Ambient *)at = (Ambient)word;
@@ -184,7 +188,7 @@ static bool read_value(const JsonView *view, const Member *member, void *item, E
 static bool may_be_null(MemberKind kind)
 {
     return kind == MEMBER_FIGURE || kind == MEMBER_TEXT || kind == MEMBER_IF ||
-           kind == MEMBER_REASON;
+           kind == MEMBER_REASON || kind == MEMBER_OPEN;
 }
 
 /* The item is all zeros. Keys of a later version are passed over. */

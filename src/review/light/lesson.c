@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "review/light/lesson.h"
+
+#include "base/file.h"
+#include "base/units.h"
+#include "camera/camera.h"
+#include "guide/guide_file.h"
+#include "render/identity.h"
+#include "render/train.h"
+#include "review/keep/journal.h"
+#include "text/text.h"
+
+/* The picture from which guides are trained: one about the symbols. */
+#define LESSON_WIDTH 480
+#define LESSON_HEIGHT 270
+#define LESSON_DEG 60.0
+
+static int condition_id(const Setup *setup)
+{
+    return (int)(setup->condition - setup->request->conditions);
+}
+
+static const char *lesson_file(const Setup *setup, Vec3 eye, Vec3 towards, Arena *arena)
+{
+    Text text = {.arena = arena};
+    identity_line(&text, "lesson", "%016llx%016llx, condition %d",
+                  (unsigned long long)setup->planned.high,
+                  (unsigned long long)setup->planned.low,
+                  condition_id(setup));
+    identity_vector(&text, "eye", eye);
+    identity_vector(&text, "towards", towards);
+    JournalKey key = journal_key(text.data);
+    return arena_format(arena, "%s/%016llx%016llx.lesson", setup->lessons,
+                        (unsigned long long)key.high, (unsigned long long)key.low);
+}
+
+static bool read_lesson(Setup *setup, const char *file, Arena *arena)
+{
+    GuideScene scene = train_guide_scene(&setup->context);
+    Error      ignored;
+    return file_exists(file) &&
+           guide_read(file, &scene, arena, &setup->context.guide, &ignored);
+}
+
+/* A guide from the setup's folder, or a new one. */
+static void train(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena)
+{
+    SceneCamera    look = camera_look_at(eye, vec3_add(eye, towards),
+                                         (float)radians_from_degrees(LESSON_DEG));
+    Camera         camera = camera_from_scene(&look, LESSON_WIDTH, LESSON_HEIGHT);
+    TrainOptions   options = {setup->tools.kernel, setup->tools.threads};
+    PathStatistics cost;
+    const char    *file = setup->lessons ? lesson_file(setup, eye, towards, arena) : NULL;
+    if (file && read_lesson(setup, file, arena)) return;
+    setup->context.guide = train_guide(&setup->context, &camera, &options, arena, &cost);
+    Error ignored; /* unkept, it is trained again: the same lesson, of the same seed */
+    if (file) guide_write(file, setup->context.guide, *arena, &ignored);
+}
+
+static bool is_variant(const Setup *setup)
+{
+    return setup->request->change != NULL;
+}
+
+bool lesson_inherit(Setup *setup)
+{
+    GuideScene scene = train_guide_scene(&setup->context);
+    if (!setup->inherited || !is_variant(setup)) return false;
+    setup->context.guide =
+        inherited_guide(setup->inherited, setup->request, condition_id(setup), &scene);
+    return setup->context.guide != NULL;
+}
+
+void lesson_take(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena)
+{
+    bool leaves = setup->inherited && !is_variant(setup);
+    train(setup, eye, towards, leaves ? inherited_room(setup->inherited) : arena);
+    GuideScene scene = train_guide_scene(&setup->context);
+    if (leaves)
+        inherited_keep_guide(setup->inherited, condition_id(setup), setup->context.guide,
+                             &scene);
+}

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* lesson.h -- what a setup's paths are taught of a condition's light before they are counted.
+ *
+ * Memory   the guide comes from the arena, or from the room that variants inherit it from
+ *          (inherited.h).
+ * Threads  starts its own; the same guide for any count.
+ */
+#pragma once
+#include "review/light/setup.h"
+
+/* Of a variant: takes the guide that the review itself trained under this condition. False:
+ * there is none. */
+bool lesson_inherit(Setup *setup);
+
+/* A guide for an eye, m, that looks towards what is judged: from the setup's folder of lessons,
+ * or a new one, which is kept there. One that is damaged is learnt again. */
+void lesson_take(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena);
