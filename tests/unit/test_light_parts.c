@@ -183,4 +183,44 @@ ARENA_TEST(an_even_rise_chooses_its_end)
     assert_true(at_end >= 90); /* by the parts' means alone about 75 */
 }
 
+/* Where the light is even all is judged, not the part of luck; of a rise that samples hardly
+ * tell, all or its brighter half. */
+ARENA_TEST(no_part_is_chosen_by_luck)
+{
+    Cells       cells;
+    double      known[CELLS] = {0}, means[CELLS];
+    TargetLight sampled[CELLS];
+    see(&cells, NULL);
+    for (int rises = 0; rises < 2; rises++) {
+        int all = 0, darker = 0;
+        for (int i = 0; i < CELLS; i++) means[i] = 20 + 0.5 * rises * (i % COLUMNS);
+        for (uint32_t seed = 0; seed < 200; seed++) {
+            int column = COLUMNS, row;
+            sample(&cells, means, 80, seed, sampled);
+            int part = light_parts_choose(&cells.parts, sampled, known, arena);
+            all += part == LIGHT_PARTS_ALL;
+            if (part != LIGHT_PARTS_ALL) light_parts_place(&cells.parts, part, &column, &row);
+            darker += 2 * column + WIDE < COLUMNS;
+        }
+        if (!rises) assert_true(all >= 170);
+        if (rises) assert_true(darker <= 6);
+    }
+}
+
+/* A sun that is known to lie on one half is not outvoted by samples that say little. */
+ARENA_TEST(what_is_known_needs_no_samples)
+{
+    Cells       cells;
+    double      known[CELLS];
+    TargetLight none[CELLS] = {{0, 0, 0}};
+    int         column, row;
+    see(&cells, NULL);
+    for (int i = 0; i < CELLS; i++) known[i] = i % COLUMNS < COLUMNS / 2 ? 5 : 0;
+    light_parts_place(&cells.parts, light_parts_choose(&cells.parts, none, known, arena),
+                      &column, &row);
+    assert_true(column + WIDE <= COLUMNS / 2);
+    for (int i = 0; i < CELLS; i++) known[i] = 5;
+    assert_int_equal(light_parts_choose(&cells.parts, none, known, arena), LIGHT_PARTS_ALL);
+}
+
 TEST_PROGRAM(make_arena, drop_arena)

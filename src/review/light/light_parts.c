@@ -6,6 +6,8 @@
 
 #define COUNTS_FROM 0.95 /* of the most cells that a part shows */
 #define EQUAL 1e-6       /* parts that differ less are alike */
+#define EVEN 0.01        /* of the mean light: what is known differs less among even parts */
+#define SURE 2.0         /* standard errors by which samples must tell a part from another */
 
 int light_parts_count(const LightParts *parts)
 {
@@ -143,52 +145,123 @@ static double share_that_counts(const LightParts *parts, const double *means,
     return spread > by_chance ? 1 - by_chance / spread : 0;
 }
 
-/* Where a part lies along one axis. */
-static double place_along(const LightParts *parts, int part, int axis)
+static double mean_of(const double *values, int count)
 {
-    int place[2];
-    light_parts_place(parts, part, &place[0], &place[1]);
-    return place[axis];
+    double sum = 0;
+    for (int i = 0; i < count; i++) sum += values[i];
+    return count ? sum / count : 0;
 }
 
-/* Takes the slope along an axis out of `left`, by least squares, and adds it to `plane`. */
-static void take_slope(const LightParts *parts, int axis, double *left, double *plane)
+/* How values rise from cell to cell along an axis. */
+typedef struct Rise {
+    double slope, middle; /* 0 in the middle */
+    double variance;      /* of the slope by chance */
+} Rise;
+
+static double place_of_cell(const LightParts *parts, int target, int axis)
 {
-    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
-    int    count = light_parts_count(parts);
-    for (int i = 0; i < count; i++) {
-        if (isnan(left[i])) continue;
-        double at = place_along(parts, i, axis);
-        n++;
+    int cell = parts->cell_of[target];
+    return axis ? cell / parts->columns : cell % parts->columns;
+}
+
+/* By least squares, less what chance explains of it; taken out of the values. */
+static Rise take_rise(const LightParts *parts, int axis, double chance, double *values)
+{
+    double n = parts->aim.target_count, x = 0, y = 0, xx = 0, xy = 0;
+    for (int i = 0; i < parts->aim.target_count; i++) {
+        double at = place_of_cell(parts, i, axis);
         x += at;
-        y += left[i];
+        y += values[i];
         xx += at * at;
-        xy += at * left[i];
+        xy += at * values[i];
     }
     double spread = n > 0 ? xx - x * x / n : 0;
-    double slope = spread > 0 ? (xy - x * y / n) / spread : 0;
-    for (int i = 0; i < count && n > 0; i++) {
-        double along = slope * (place_along(parts, i, axis) - x / n);
-        left[i] -= along;
-        plane[i] += along;
+    if (!(spread > 0)) return (Rise){0, 0, 0};
+    Rise rise = {(xy - x * y / n) / spread, x / n, chance / spread};
+    double square = rise.slope * rise.slope;
+    rise.slope *= square > rise.variance ? 1 - rise.variance / square : 0;
+    for (int i = 0; i < parts->aim.target_count; i++)
+        values[i] -= rise.slope * (place_of_cell(parts, i, axis) - rise.middle);
+    return rise;
+}
+
+/* From where a rise is 0 to the middle of a part, or of all of them: LIGHT_PARTS_ALL. */
+static double along_rise(const LightParts *parts, const Rise *rise, int part, int axis)
+{
+    int place[2];
+    if (part < 0) return 0;
+    light_parts_place(parts, part, &place[0], &place[1]);
+    return place[axis] + 0.5 * ((axis ? parts->high : parts->wide) - 1) - rise->middle;
+}
+
+/* What samples say of parts, each less the mean of all cells. */
+typedef struct PartsSaid {
+    Rise          rise[2];
+    const double *rest;   /* [part] beside the rises, the share that counts of it */
+    const int    *counts; /* [part] */
+    double        chance; /* the variance of a cell's, as far as it counts in `rest` */
+} PartsSaid;
+
+static double said_of(const LightParts *parts, const PartsSaid *said, int part)
+{
+    double sum = part < 0 ? 0 : said->rest[part];
+    for (int k = 0; k < 2; k++)
+        sum += said->rise[k].slope * along_rise(parts, &said->rise[k], part, k);
+    return sum;
+}
+
+/* Of the difference between what is said of two parts. */
+static double error_between(const LightParts *parts, const PartsSaid *said, int a, int b)
+{
+    double variance = 0;
+    for (int k = 0; k < 2; k++) {
+        double apart = along_rise(parts, &said->rise[k], a, k) -
+                       along_rise(parts, &said->rise[k], b, k);
+        variance += said->rise[k].variance * apart * apart;
     }
+    if (a >= 0) variance += said->chance / said->counts[a];
+    if (b >= 0) variance += said->chance / said->counts[b];
+    return sqrt(variance);
+}
+
+/* values: of each target by samples, beside what is known; they are used up. */
+static PartsSaid samples_say(const LightParts *parts, const TargetLight *sampled,
+                             const double *known, Arena *arena)
+{
+    PartsSaid said;
+    int       count = light_parts_count(parts), targets = parts->aim.target_count;
+    double   *values = ARENA_NEW(arena, double, targets);
+    double   *rest = ARENA_NEW(arena, double, count);
+    int      *counts = ARENA_NEW(arena, int, count);
+    double    chance = chance_of(parts, sampled, known);
+    for (int i = 0; i < targets; i++) values[i] = beside(&sampled[i], known[i]);
+    for (int k = 0; k < 2; k++) said.rise[k] = take_rise(parts, k, chance, values);
+    double mean = mean_of(values, targets);
+    light_parts_worst(parts, values, rest, counts, *arena);
+    double share = share_that_counts(parts, rest, counts, chance);
+    for (int i = 0; i < count; i++) rest[i] = share * (rest[i] - mean);
+    said.rest = rest;
+    said.counts = counts;
+    said.chance = share * share * chance;
+    return said;
 }
 
 int light_parts_choose(const LightParts *parts, const TargetLight *sampled,
                        const double *known, Arena scratch)
 {
     int     count = light_parts_count(parts), targets = parts->aim.target_count;
-    double *values = ARENA_NEW(&scratch, double, targets);
     double *means = ARENA_NEW(&scratch, double, count);
     double *with = ARENA_NEW(&scratch, double, count);
-    int    *counts = ARENA_NEW(&scratch, int, count);
-    for (int i = 0; i < targets; i++) values[i] = beside(&sampled[i], known[i]);
-    light_parts_worst(parts, values, means, counts, scratch);
-    light_parts_worst(parts, known, with, NULL, scratch);
-    take_slope(parts, 0, means, with);
-    take_slope(parts, 1, means, with);
-    double share =
-        share_that_counts(parts, means, counts, chance_of(parts, sampled, known));
-    for (int i = 0; i < count; i++) with[i] += share * means[i];
-    return worst_of(parts, with);
+    double  even = mean_of(known, targets), light = 0;
+    int     by_known = light_parts_worst(parts, known, means, NULL, scratch);
+    for (int i = 0; i < targets; i++) light += known[i] + beside(&sampled[i], known[i]);
+    if (by_known >= 0 && !(means[by_known] - even > EVEN * light / targets))
+        by_known = LIGHT_PARTS_ALL;
+    PartsSaid said = samples_say(parts, sampled, known, &scratch);
+    for (int i = 0; i < count; i++) with[i] = means[i] + said_of(parts, &said, i);
+    int    worst = worst_of(parts, with);
+    if (worst < 0) return LIGHT_PARTS_ALL;
+    double without = (by_known < 0 ? even : means[by_known]) + said_of(parts, &said, by_known);
+    double error = error_between(parts, &said, worst, by_known);
+    return with[worst] - without > SURE * error ? worst : by_known;
 }

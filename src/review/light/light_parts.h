@@ -34,9 +34,13 @@ typedef struct TargetLight {
     float paths, sum, squares;
 } TargetLight;
 
-/* The worst part by known[target] and what samples found besides. Parts that differ by no more
- * than chance does would be chosen by luck, not by light: the even rise of what samples found
- * counts, and what they found beside that by the share of its spread over the parts that
- * chance does not explain (Efron and Morris, J. Am. Stat. Assoc. 70 (1975) 311). */
+#define LIGHT_PARTS_ALL (-1) /* in place of a part: all that is seen */
+
+/* The worst part by known[target] and what samples found besides; LIGHT_PARTS_ALL where no part
+ * stands out. Parts that differ by no more than chance does would be chosen by luck, not by
+ * light: the even rise of what samples found counts, and what they found beside that, each by
+ * the share that chance does not explain (Efron and Morris, J. Am. Stat. Assoc. 70 (1975) 311).
+ * Samples have a say only where a part is worse than that of what is known, or than all, by two
+ * standard errors. */
 int light_parts_choose(const LightParts *parts, const TargetLight *sampled,
                        const double *known, Arena scratch);

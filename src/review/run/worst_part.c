@@ -9,7 +9,8 @@
 
 #define CELLS_MOST 1024
 #define SUN_PATHS 2048   /* the direct sun's, of all cells together */
-#define FIELD_PATHS 2048
+#define FIELD_PATHS 2048 /* where the direct sun tells parts apart; else */
+#define SHADE_PATHS 8192 /* they tell a slope of 15 % in the cabins that are shipped */
 #define FIELD_SEED 0x6669656cu /* whatever the review's: all seeds judge the same part */
 #define LIT_POINTS 4096  /* that tell the share in the sun: within half a percent */
 
@@ -22,6 +23,13 @@ static double add_sun(const Setup *setup, const LightParts *parts, double *known
     ProbeSuns sun = {&towards, 1, (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG), false};
     ResponseOptions options = {setup->tools.kernel, 0, SUN_PATHS, setup->tools.threads, 0};
     return sun_parts_light(parts, &options, &sun, bands, known, scratch);
+}
+
+static bool is_shade(const double *known, int targets)
+{
+    for (int i = 0; i < targets; i++)
+        if (known[i] > 0) return false;
+    return true;
 }
 
 /* The part, and the mean of all that paths find. The sun's image is not known by itself as a
@@ -39,7 +47,8 @@ static int read_all(const Setup *setup, const LightParts *parts, CaseWhole *whol
     without.without_mirrored_sun = mirror > 0;
     aim.context = &without;
     aim.seed = FIELD_SEED;
-    Reading mean = setup_field(setup, &aim, FIELD_PATHS, mirror, found, scratch);
+    long    paths = is_shade(known, targets) ? SHADE_PATHS : FIELD_PATHS;
+    Reading mean = setup_field(setup, &aim, paths, mirror, found, scratch);
     whole->reflected = mean.reflected;
     whole->reflected_range = mean.interval;
     return light_parts_choose(parts, found, known, scratch);
@@ -48,9 +57,9 @@ static int read_all(const Setup *setup, const LightParts *parts, CaseWhole *whol
 static int part_by_sun(const Setup *setup, const LightParts *parts, Arena scratch)
 {
     double *known = ARENA_NEW(&scratch, double, parts->aim.target_count);
-    double *means = ARENA_NEW(&scratch, double, light_parts_count(parts));
+    TargetLight *none = ARENA_NEW(&scratch, TargetLight, parts->aim.target_count);
     add_sun(setup, parts, known, scratch);
-    return light_parts_worst(parts, known, means, NULL, scratch);
+    return light_parts_choose(parts, none, known, scratch);
 }
 
 /* NaN: there is no sun. */
@@ -107,7 +116,7 @@ WorstPart worst_part_find(const Setup *setup, const PartAsk *ask, Arena *arena)
     if (parts.aim.target_count) {
         int part = ask->is_coarse ? part_by_sun(setup, &parts, scratch)
                                   : read_all(setup, &parts, &out.whole, scratch);
-        symbol_part_box(ask->symbol, &parts, part, uv);
+        if (part != LIGHT_PARTS_ALL) symbol_part_box(ask->symbol, &parts, part, uv);
         if (!ask->is_coarse) out.whole.lit_share = lit_share(setup, ask, scratch);
     }
     arena_release(&scratch);
@@ -124,6 +133,5 @@ bool worst_part_is_better(const CaseWhole *whole, MeanInterval reading)
 
 void worst_part_take_all(const SetupSymbol *symbol, WorstPart *part, Arena *arena)
 {
-    if (!aim_at_box(&symbol->surface, symbol->split.box, part, arena))
-        aim_at_all(&symbol->surface, part, arena);
+    aim_at_all(&symbol->surface, part, arena);
 }
