@@ -2,6 +2,7 @@
 /* Figures as people read them: with their interval, and no more digits than that allows. */
 #include "fixture.h"
 
+#include "text/effect_text.h"
 #include "text/interval_text.h"
 
 static void assert_says(double value, double low, double high, const char *wanted)
@@ -37,6 +38,23 @@ TEST(what_is_read_is_what_was_written)
         if (!(fabs(around - half) <= 0.17 * half && fabs(read - value) <= 0.17 * half))
             fail_msg("%g +- %g reads %s", value, half, text);
         assert_null(strchr(text, 'e'));
+    }
+}
+
+/* An effect and its error end at one place, and neither says more than is known. */
+TEST(an_effect_has_the_digits_of_its_error)
+{
+    static const struct { double share, half, least; const char *words; } ROWS[] = {
+        {0.20834, 0.0053, 0.001, "+20.8 ± 0.5 %"}, {-0.587, 0.021, 0.001, "−58.7 ± 2.1 %"},
+        {0.1419, 1.1e-6, 0.001, "+14.2 ± less than 0.1 %"},
+        {1.2345, 0.123, 0.001, "+123 ± 12 %"}, {12, 1.5, 0.001, "+1200 ± 150 %"},
+        {0.004, 0.005, 0.001, "none above 0.9 %"},
+        {-0.3, 0.9, 0.001, "none above 120 %"}, {0.0001, 0.0001, 0.001, EFFECT_NONE},
+        {0.5734, 0.00053, 0.01, "+57 ± less than 1 %"}, {NAN, NAN, 0.001, "–"}};
+    for (size_t i = 0; i < sizeof ROWS / sizeof *ROWS; i++) {
+        MeanInterval range = {ROWS[i].share - ROWS[i].half, ROWS[i].share + ROWS[i].half};
+        assert_string_equal(effect_text(ROWS[i].share, range, ROWS[i].least, test_memory()),
+                            ROWS[i].words);
     }
 }
 

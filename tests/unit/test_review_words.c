@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A review's figures as people read them. */
-#include "review/output/effect_words.h"
 #include "review/output/review_facts.h"
 #include "review/output/review_rests.h"
 #include "review/output/review_words.h"
@@ -112,23 +111,6 @@ TEST(digits_follow_the_interval)
     assert_string_equal(words_found(&limit, &arena), "420 cd/m²");
 }
 
-/* An effect and its error end at one place, and neither says more than is known. */
-TEST(an_effect_has_the_digits_of_its_error)
-{
-    static const struct { double share, half, least; const char *words; } ROWS[] = {
-        {0.20834, 0.0053, 0.001, "+20.8 ± 0.5 %"}, {-0.587, 0.021, 0.001, "−58.7 ± 2.1 %"},
-        {0.1419, 1.1e-6, 0.001, "+14.2 ± less than 0.1 %"},
-        {1.2345, 0.123, 0.001, "+123 ± 12 %"}, {12, 1.5, 0.001, "+1200 ± 150 %"},
-        {0.004, 0.005, 0.001, "none above 0.9 %"},
-        {-0.3, 0.9, 0.001, "none above 120 %"}, {0.0001, 0.0001, 0.001, EFFECT_NONE},
-        {0.5734, 0.00053, 0.01, "+57 ± less than 1 %"}, {NAN, NAN, 0.001, "–"}};
-    for (size_t i = 0; i < sizeof ROWS / sizeof *ROWS; i++) {
-        MeanInterval range = {ROWS[i].share - ROWS[i].half, ROWS[i].share + ROWS[i].half};
-        assert_string_equal(effect_words(ROWS[i].share, range, ROWS[i].least, &arena),
-                            ROWS[i].words);
-    }
-}
-
 static const char *fact(const ReviewFacts *facts, const char *name)
 {
     for (int i = 0; i < facts->count; i++)
@@ -179,7 +161,6 @@ TEST(sunglasses_are_named_with_what_they_take)
     assert_non_null(strstr(fact(&facts, "Seen through"),
                            "they pass 5.0 % as much of the display's own light as of any "
                            "other, passed alike it has 3.11 : 1"));
-    assert_string_equal(fact(&(ReviewFacts){.count = 0}, "Seen through"), "");
 }
 
 /* Columns of a telephone that do not hold the longest word stand below each other; each cell

@@ -8,9 +8,9 @@
 #include <string.h>
 
 #include "page/page.h"
-#include "review/output/effect_words.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_words.h"
+#include "text/effect_text.h"
 
 /* ---- the order --------------------------------------------------------------------------- */
 
@@ -58,7 +58,7 @@ static const ReviewVariantFound **rank(const Review *review, Arena *arena)
 
 static const char *difference_words(const ReviewDifference *d, Arena *arena)
 {
-    return effect_words(d->margin, d->margin_range, SHOWN_SHARE, arena);
+    return effect_text(d->margin, d->margin_range, SHOWN_SHARE, arena);
 }
 
 static const char *difference_class(const ReviewDifference *d)
@@ -441,7 +441,7 @@ static void add_effect_bar(Text *html, const ReviewSensitivity *s, const ReviewS
 static const char *slope_words(const ReviewSensitivity *s, const ReviewSlope *slope,
                                Arena *arena)
 {
-    const char *effect = effect_words(slope->slope, slope->range, SHOWN_SHARE / s->step, arena);
+    const char *effect = effect_text(slope->slope, slope->range, SHOWN_SHARE / s->step, arena);
     if (words_same(effect, EFFECT_NONE)) return effect;
     return arena_format(arena, "%s per %s", effect, s->unit);
 }

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/output/effect_words.h"
+#include "text/effect_text.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "review/output/review_words.h"
 #include "text/interval_text.h"
 
 static const char BETWEEN[] = " +- "; /* interval_text's */
@@ -29,7 +28,8 @@ static const char *signed_words(double value, double half, double least, Arena *
 static const char *at_most_words(double most, Arena *arena)
 {
     double place = pow(10, floor(log10(most)) - 1);
-    return words_figure(place * ceil(most / place - 1e-9), arena);
+    double up = place * ceil(most / place - 1e-9);
+    return arena_format(arena, up < 100 ? "%.2g" : "%.0f", up);
 }
 
 static double half_of(MeanInterval range)
@@ -42,7 +42,7 @@ bool effect_is_none(double share, MeanInterval range, double least)
     return fabs(share) < 0.5 * least && half_of(range) < 0.5 * least;
 }
 
-const char *effect_words(double share, MeanInterval range, double least, Arena *arena)
+const char *effect_text(double share, MeanInterval range, double least, Arena *arena)
 {
     if (isnan(share)) return "–";
     if (effect_is_none(share, range, least)) return EFFECT_NONE;
