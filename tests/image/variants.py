@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """variants.py [--all] PARHELION -- what a review says of its variants is what separate reviews
 of scenes changed by hand say; differences are sharper than values; slopes are finite
-differences; what mends it does, and a little less does not; pictures stand side by side, each from where
-its eye is.
+differences; what mends it does, and a little less does not; pictures stand side by side, each
+from where its eye is.
 Without --all two of the variants, and what is refused.
 """
 import math

@@ -46,8 +46,8 @@ TEST(a_part_that_grows_does_not_run_back)
     assert_near(all.done, 10, 1e-12);
 }
 
-/* Of 100 s that are left a part has 20 s; a quarter of it took 15 s: it is to take 45 s more, as
- * far as a quarter is believed, instead of 15. */
+/* Of 100 s that are left a part has 20 s; a quarter of it took 15 s: it is to take 45 s more,
+ * as far as a quarter is believed, instead of 15. */
 TEST(a_part_goes_by_its_own_pace_the_more_of_it_is_done)
 {
     Progress all = shown(10);

@@ -305,8 +305,8 @@ static bool find_with(const RequestReading *reading, const JsonView *view,
                       ReviewCondition *condition, Error *err)
 {
     const ReviewRequest *request = reading->request;
-    FieldWords names = field_names_of(request->withs, sizeof *request->withs, request->with_count,
-                                      view->arena);
+    FieldWords names = field_names_of(request->withs, sizeof *request->withs,
+                                      request->with_count, view->arena);
     return request_find_name(view, "with", names, "with", &condition->with_id, err);
 }
 

@@ -55,7 +55,8 @@ static RenderOptions options_of(const FrameAsk *ask)
         .layers = ask->exposure ? LAYER_VARIANCE
                                 : render_layers(ask->setup->scene, LAYER_VARIANCE | LAYER_ID |
                                                                        LAYER_DISPLAYS),
-        .threads = ask->setup->tools.threads, .stops_at_once = true, .within = &ask->work->progress,
+        .threads = ask->setup->tools.threads, .stops_at_once = true,
+        .within = &ask->work->progress,
         .within_weight = work_share(ask->work, kind_of(ask),
                                     work_of_frame(request, kind_of(ask)))};
 }
