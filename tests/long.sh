@@ -139,7 +139,7 @@ run 'symbols half in the sun, twenty edges' worst-part-long \
 run 'years recounted, every hour' year-long python3 tests/image/year.py --all $program
 run 'all variants of a review, slopes, mends' variants-long \
     python3 tests/image/variants.py --all $program
-run 'budgets are spent to the path' decide python3 tests/image/decide.py $program
+run 'open cases decided by what they name' decide python3 tests/image/decide.py --all $program
 run 'doors, mirrored vehicles, mirrored light' changed-long \
     python3 tests/image/changed.py --all $program
 run "another maker's car" other-maker python3 tests/image/other_maker.py $program

@@ -78,6 +78,7 @@ typedef struct Run {
 static void render_one_tile(void *context, int item, int worker)
 {
     Run     *run = context;
+    if (run->options->stops_at_once && signals_stop_requested()) return;
     FilmRect rect = render_tile(run->options->crop, item);
     run->result.kernel->render(&run->job, rect, &run->counts[worker].statistics);
     uint64_t paths = sample_shares_sum(&run->job.shares, rect, run->job.first_sample,
@@ -169,9 +170,10 @@ static void run_passes(Run *run)
         run->job.first_sample = options->first_sample + done;
         run->job.end_sample = run->job.first_sample + samples;
         parallel_for(options->threads, render_tile_count(options->crop), render_one_tile, run);
+        run->result.stopped_by = signals_stop_requested();
+        if (options->stops_at_once && run->result.stopped_by) return;
         run->result.samples = done + samples;
         run->result.complete = noise_reached(run) || run->result.samples == total;
-        run->result.stopped_by = signals_stop_requested();
         take_snapshot(run);
         keep_checkpoint(run);
         show_pass(run);
@@ -226,7 +228,7 @@ static void render_film(const RenderSetup *setup, const RenderOptions *options, 
                        : progress_start(options->progress, "render", "samples", most);
     run.progress.first = paths_of_first(options, &result->shares, result->samples);
     run.checkpoint_s = run.progress.begun_s;
-    signals_watch();
+    if (!options->within) signals_watch();
     run_passes(&run);
     *result = run.result;
 }
@@ -253,7 +255,7 @@ bool render_write_checkpoint(const CheckpointName *name, const RenderOptions *op
 static bool find_field(RenderSetup *setup, const RenderOptions *options, Arena *arena,
                        Error *err)
 {
-    const TrainOptions train = {setup->kernel, options->threads};
+    const TrainOptions train = {setup->kernel, options->threads, false};
     double begun_s = monotonic_seconds();
     if (options->field && file_exists(options->field)) {
         GuideScene scene = train_guide_scene(&setup->context);

@@ -45,6 +45,7 @@ typedef struct RenderOptions {
     const LightGroups *lights; /* of LAYER_LIGHT; NULL: none */
     int      threads;          /* at least 1 */
     const char *isa;           /* kernel.h's names; NULL: the best there is */
+    bool     stops_at_once;    /* not after the pass in hand: the film is no frame then */
     ProgressMode progress;
     Progress    *within;       /* the frame is a part of that and shows nothing of its own; */
     double       within_weight; /* of this weight. NULL: it is by itself */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* signals.h -- what the user or the batch system asks of a running render.
  *
- * The first INT, TERM or HUP asks it to stop after the pass in hand; a second one ends the
+ * The first INT, TERM or HUP asks it to stop after the pass in hand (a review: at once); a
+ * second one ends the
  * process at once with status 130, 143 or 129. A HUP that was ignored when the process began
  * (nohup) stays ignored. USR1 asks for a snapshot.
  *

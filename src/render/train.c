@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/parallel.h"
+#include "render/signals.h"
 #include "render/tiles.h"
 
 #define STEPS_MAX 16384.0     /* of the raster */
@@ -17,11 +18,18 @@ typedef struct Lesson {
     GuideTraining *training;
     FilmRect      raster;
     WorkerCounts *counts;
+    bool          stops_at_once;
 } Lesson;
+
+static bool is_stopped(const Lesson *lesson)
+{
+    return lesson->stops_at_once && signals_stop_requested();
+}
 
 static void find_places(void *context, int item, int worker)
 {
     Lesson *lesson = context;
+    if (is_stopped(lesson)) return;
     lesson->kernel->find_places(&lesson->job, render_tile(lesson->raster, item),
                                 &lesson->counts[worker].statistics);
 }
@@ -29,6 +37,7 @@ static void find_places(void *context, int item, int worker)
 static void learn_cell(void *context, int item, int worker)
 {
     Lesson *lesson = context;
+    if (is_stopped(lesson)) return;
     lesson->kernel->learn(&lesson->job, (uint32_t)item, &lesson->counts[worker].statistics);
 }
 
@@ -64,6 +73,7 @@ static void keep_cell(void *context, int item, int worker)
 static void try_lights(void *context, int item, int worker)
 {
     Lesson *lesson = context;
+    if (is_stopped(lesson)) return;
     lesson->kernel->try_lights(&lesson->job, (uint32_t)item,
                                &lesson->counts[worker].statistics);
 }
@@ -108,7 +118,8 @@ static Lesson lesson_start(const Camera *camera, const TrainOptions *options, Ar
 {
     FilmRect raster = raster_of(camera);
     Lesson   lesson = {.kernel = options->kernel, .raster = raster,
-                       .counts = ARENA_NEW(arena, WorkerCounts, options->threads)};
+                       .counts = ARENA_NEW(arena, WorkerCounts, options->threads),
+                       .stops_at_once = options->stops_at_once};
     lesson.job = (LessonJob){
         .camera = camera, .seed = SEED, .columns = raster.x1,
         .stretch = {(float)camera->width / (float)raster.x1,
@@ -144,6 +155,8 @@ const LightGuide *train_guide(const PathContext *context, const Camera *camera,
     trainee.guide = &nobody;
     lesson.job.context = &trainee;
     parallel_for(options->threads, render_tile_count(lesson.raster), find_places, &lesson);
+    *cost = (PathStatistics){0};
+    if (is_stopped(&lesson)) return NULL;
     GuidePlace *places = all_places(&lesson, arena, &count);
     GuideTraining *training = guide_training_start(
         places, count, places_a_cell(camera, count), arena);
@@ -161,5 +174,5 @@ const LightGuide *train_guide(const PathContext *context, const Camera *camera,
     parallel_for(options->threads, (int)guide->cell_count, weigh_cell, &lesson);
     guide->asks = true;
     *cost = worker_counts_sum(lesson.counts, options->threads);
-    return guide;
+    return is_stopped(&lesson) ? NULL : guide;
 }

@@ -239,8 +239,7 @@ void judge_paths(ReviewCase *review_case, double fixed)
     if (c->verdict != VERDICT_TOO_CLOSE) return;
     for (int i = 0; i < c->limit_count; i++) {
         const LimitVerdict *limit = &c->limits[i];
-        if (limit->is_advice || limit->verdict != VERDICT_TOO_CLOSE || isnan(limit->found))
-            continue;
+        if (!limit_is_open(limit)) continue;
         OpenLimit open = open_limit(c, limit, fixed);
         double    paths = (double)c->paths * times_to_decide(&open);
         if (paths <= c->paths_to_decide) continue;
@@ -278,4 +277,8 @@ void judge_case(ReviewCase *review_case, const Profile *profile, Arena *arena)
     }
     if (!counted || is_unjudged(c, false)) c->verdict = VERDICT_UNJUDGED;
     c->unjudged = why_unjudged(c, counted);
+    if (c->verdict != VERDICT_TOO_CLOSE) {
+        c->open_by = OPEN_NOT;
+        c->paths_to_decide = c->decide_times = c->minutes_to_decide = NAN;
+    }
 }

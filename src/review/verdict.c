@@ -60,6 +60,11 @@ ReviewCase review_case_unknown(void)
     return c;
 }
 
+bool limit_is_open(const LimitVerdict *limit)
+{
+    return !limit->is_advice && limit->verdict == VERDICT_TOO_CLOSE && !isnan(limit->found);
+}
+
 bool case_is_undecidable(const ReviewCase *c)
 {
     return c->open_by == OPEN_BY_PANEL || c->open_by == OPEN_BY_SUN;

@@ -286,6 +286,9 @@ typedef struct ReviewCase {
 
 CaseGlare review_glare_unknown(void); /* all NaN */
 
+/* Does it count, and lie within the interval of its figure? */
+bool limit_is_open(const LimitVerdict *limit);
+
 /* Is it too close, and would no number of paths decide it? */
 bool case_is_undecidable(const ReviewCase *c);
 

@@ -51,6 +51,17 @@ class Work:
         self.report, self.program, self.folder, self.common = report, program, folder, common
         write_scene(self.path("scene.gltf"))
         self.names = set(os.listdir(folder))
+        self.started = []
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        """Whatever a claim or a timeout left running ends."""
+        for running in self.started:
+            if running.poll() is None:
+                running.kill()
+                running.communicate()
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -64,8 +75,10 @@ class Work:
                               text=True, timeout=PATIENCE_S, **kept)
 
     def start(self, *options, **kept):
-        return subprocess.Popen(self.words(*options), cwd=self.folder, stdout=subprocess.PIPE,
-                                stderr=subprocess.PIPE, text=True, **kept)
+        self.started.append(subprocess.Popen(
+            self.words(*options), cwd=self.folder, stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE, text=True, **kept))
+        return self.started[-1]
 
     def wait_for(self, name):
         until = time.monotonic() + PATIENCE_S
@@ -353,8 +366,8 @@ def main():
     parser.add_argument("program")
     arguments = parser.parse_args()
     report, program = Report(), os.path.abspath(arguments.program)
-    with tempfile.TemporaryDirectory() as folder:
-        work = Work(report, program, folder, "--max-bounces", "2")
+    with tempfile.TemporaryDirectory() as folder, \
+            Work(report, program, folder, "--max-bounces", "2") as work:
         little = ("--size", "32x24")
         if arguments.small:
             check_stop(work, *little, "--spp", "64")

@@ -295,6 +295,36 @@ def keys_of(schema):
             yield from keys_of(value)
 
 
+# ---- names that it gives elsewhere -------------------------------------------------------
+
+# What the names in an object of that key are names of.
+NAMED = {"visible": "unknown eye", "polarity": "unknown symbol", "eyes": "unknown eye",
+         "levels": "unknown level", "panels": "no material", "contents": "no display",
+         "brightness": "no display", "night": "no display", "glazings": "no material",
+         "materials": "no material", "nodes": "no node", "finishes": "no display",
+         "hoods": "no display"}
+
+
+def check_names(report, requests):
+    """Of each map from names, a name with one letter more: told is what it should be a name of,
+    and which was meant."""
+    met = set()
+    for place in places(GOOD):
+        *above, name = place
+        if not above or above[-1] not in NAMED or name == "*" or \
+                len(above) == 1 or not isinstance(value_at(GOOD, above), dict):
+            continue
+        document = copy.deepcopy(GOOD)
+        names = value_at(document, above)
+        names[name + "x"] = names.pop(name)
+        status, said = requests.ask("name", json.dumps(document))
+        report.claim(is_refusal(status, said) and NAMED[above[-1]] in said and
+                     name + "x" in said and f"did you mean {name}?" in said,
+                     f"{text_of(place)}x: {said}")
+        met.add(above[-1])
+    report.claim(met == set(NAMED), f"not asked of {set(NAMED) - met}")
+
+
 # ---- files that it names -----------------------------------------------------------------
 
 HEAD = "time,lat,lon\n"
@@ -417,6 +447,7 @@ def main(program, step):
         write_files(folder)
         check_whole(report, requests)
         check_keys(report, requests, step)
+        check_names(report, requests)
         check_files(report, requests)
         check_pictures(report, requests)
         check_explain(report, requests)

@@ -24,6 +24,9 @@ from review import PANEL, dashboard, moment, request  # noqa: E402
 
 FILE_LIMIT = 20000  # bytes: room for what a review finds, none for its page
 PATIENCE_S = 300
+PICTURE = {"size": [400, 225], "noise": 0.3, "worst": 1}
+STOPS = [0.1, 0.3, 0.5, 0.6, 0.7, 0.8, 0.9]  # shares of the work of one that is not stopped
+STOP_S = 2                                   # of two threads
 
 
 def cabin():
@@ -69,9 +72,20 @@ def is_of_review(path):
 class Work:
     def __init__(self, report, program, folder):
         self.report, self.program, self.folder = report, os.path.abspath(program), folder
+        self.started = []
         shutil.copy(PANEL, self.path("ips.panel"))
         cabin().write(self.path("dash.gltf"))
         self.ask(document("suns"))
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        """Whatever a claim or a timeout left running ends."""
+        for running in self.started:
+            if running.poll() is None:
+                running.kill()
+                running.communicate()
 
     def path(self, *names):
         return os.path.join(self.folder, *names)
@@ -84,8 +98,9 @@ class Work:
         return [self.program, "review", "r.json", "-o", "out", "--quiet", *options]
 
     def start(self, *options):
-        return subprocess.Popen(self.words(*options), cwd=self.folder, text=True,
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.started.append(subprocess.Popen(self.words(*options), cwd=self.folder, text=True,
+                                             stdout=subprocess.PIPE, stderr=subprocess.PIPE))
+        return self.started[-1]
 
     def run(self, *options, **kept):
         return subprocess.run(self.words(*options), cwd=self.folder, capture_output=True,
@@ -177,6 +192,53 @@ def check_stop(work, wanted):
     work.claim_whole(done.returncode, done.stderr, wanted, "after TERM")
 
 
+def cpu_s(pid):
+    """Of a running process, so that others' load does not count."""
+    with open(f"/proc/{pid}/stat", encoding="utf-8") as file:
+        fields = file.read().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def wait_until(running, seconds):
+    """Until it has worked so long."""
+    while running.poll() is None and cpu_s(running.pid) < seconds:
+        time.sleep(0.01)
+    return running.poll() is None
+
+
+def check_prompt(work):
+    """With a picture that is long work, TERM at any moment ends it within STOP_S of work; all
+    that it then has goes on to the files of a review that nobody stopped."""
+    asked = request(precision={"contrast": 0.05}, frames=PICTURE,
+                    conditions=[moment("grey", type="constant", luminance=3000)])
+    work.clear()
+    work.ask(asked)
+    whole = work.start("--threads", "2")
+    _, status, used = os.wait4(whole.pid, 0)
+    whole.returncode = os.waitstatus_to_exitcode(status)
+    wanted, all_s = work.files(), used.ru_utime + used.ru_stime
+    stops, slowest = 0, 0
+    for share in STOPS:
+        work.clear()
+        running = work.start("--threads", "2")
+        if wait_until(running, share * all_s):
+            before = cpu_s(running.pid)
+            running.send_signal(signal.SIGTERM)
+            _, status, used = os.wait4(running.pid, 0)
+            running.returncode = os.waitstatus_to_exitcode(status)
+            took = used.ru_utime + used.ru_stime - before
+            stops += running.returncode == 143
+            slowest = max(slowest, took)
+            work.report.claim(running.returncode in (0, 1) or took < STOP_S,
+                              f"TERM after {before:.1f} s of {all_s:.1f}: {took:.1f} s more")
+        running.communicate(timeout=PATIENCE_S)
+    done = work.run()
+    work.claim_whole(done.returncode, done.stderr, wanted, f"after {stops} stops")
+    work.report.claim(stops >= len(STOPS) / 2, f"only {stops} were stopped")
+    print(f"{stops} stops, of {slowest:.1f} s of work at most, of {all_s:.1f} s")
+    work.ask(document("suns"))
+
+
 # ---- responses ---------------------------------------------------------------------------
 
 def check_plan(work):
@@ -257,8 +319,7 @@ def main():
     given = parser.parse_args()
     report = Report()
     random.seed(given.kills)
-    with tempfile.TemporaryDirectory() as folder:
-        work = Work(report, given.program, folder)
+    with tempfile.TemporaryDirectory() as folder, Work(report, given.program, folder) as work:
         wanted, took = reference(work)
         check_plan(work)
         check_damage(work, wanted)
@@ -266,6 +327,7 @@ def main():
             check_reuse(work, wanted)
             check_full_disk(work, wanted)
             check_stop(work, wanted)
+            check_prompt(work)
         check_kills(work, wanted, took, given.kills)
     return report.finish()
 

@@ -53,21 +53,16 @@ def broken_mean_laws(case):
         yield f"contrast {mean['contrast_ratio']} of the mean, of luminances that give {by_it}"
 
 
-def nearest(away, error):
-    """A tenth of all that is normal about `away`, `error` wide, lies as near to 0 or nearer."""
+def share_within(away, error, distance):
+    """Of all that is normal about `away`, `error` wide."""
     normal = statistics.NormalDist(away, error)
-    low, high = 0, away + 4 * error
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        below = normal.cdf(middle) - normal.cdf(-middle) < 0.1
-        low, high = (middle, high) if below else (low, middle)
-    return low
+    return normal.cdf(distance) - normal.cdf(-distance)
 
 
 def broken_decision_laws(case, most):
-    """Paths decide what is too close, and that alone; none do where the limit may well lie
-    within what the panel itself leaves in doubt (or the sun in its mirror, of which a case
-    does not say how surely that is known)."""
+    """Paths decide what is too close, and that alone; none do where the limit lies, more likely
+    than not, within what the panel itself leaves in doubt (or the sun in its mirror, of which
+    a case does not say how surely that is known)."""
     paths, times, limit = case["paths_to_decide"], case["decide_times"], case["judged"]
     if case["verdict"] != "too close":
         if paths is not None or times is not None:
@@ -85,11 +80,10 @@ def broken_decision_laws(case, most):
     error = abs(contrast(case["luminance_cd_m2"], end) - limit["found"]) / 1.959964
     half = abs(limit["found"] - limit["interval"][0 if is_above else 1])
     panel = math.sqrt(max(half ** 2 - (1.959964 * error) ** 2, 0))
-    near = nearest(abs(limit["found"] - limit["value"]), error)
+    never = share_within(abs(limit["found"] - limit["value"]), error, panel)
     is_known = case["luminance_cd_m2"]["mirror"] < 0.01 * case["luminance_cd_m2"]["reflected"]
-    if paths is not None and near < 0.98 * panel or \
-            paths is None and is_known and near > 1.02 * panel:
-        yield f"{paths} paths would decide it: {near} from the limit, the panel knows {panel}"
+    if paths is not None and never > 0.52 or paths is None and is_known and never < 0.48:
+        yield f"{paths} paths would decide it: by {never} it lies within the panel's error"
 
 
 def broken_case_laws(case, most):

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """variants.py [--all] PARHELION -- what a review says of its variants is what separate reviews
 of scenes changed by hand say; differences are sharper than values; slopes are finite
-differences; what mends it does, and a little less does not; pictures stand side by side.
+differences; what mends it does, and a little less does not; pictures stand side by side, each
+from where its eye is.
 Without --all two of the variants, and what is refused.
 """
 import math
+import operator
 import os
 import shutil
 import sys
@@ -12,7 +14,7 @@ import tempfile
 
 from exr import Frame
 from gltf import png
-from review import PANEL, Report, Reviewer, dashboard, moment, request
+from review import EYE, PANEL, Report, Reviewer, dashboard, moment, request
 
 OLED = os.path.join(os.path.dirname(PANEL), "oled_centre.panel")
 LEVEL = 0.3
@@ -203,6 +205,35 @@ def check_curves(report, reviewer):
     check_pair(report, reviewer, "curves", base["variants"][2]["frames"], 3)
 
 
+def middle_of(path):
+    """Where the brighter half of a picture lies, in its own widths from the middle."""
+    frame = Frame(path.replace(".png", ".exr"))
+    green = frame.channels["G"]
+    bright = [i % frame.width for i, value in enumerate(green) if value > max(green) / 2]
+    return sum(x + 0.5 for x in bright) / len(bright) / frame.width - 0.5
+
+
+def check_moved_camera(report, reviewer):
+    """An eye that is a camera, moved aside: its picture is the one from there, a pinhole's."""
+    aside, half_high = 0.03, math.tan(math.radians(4))
+    document = request(conditions=[moment("grey", type="constant", luminance=30)],
+                       variants={"aside": {"eyes": {"eye": {"move_m": [aside, 0, 0]}}}})
+    document["precision"] = {"contrast": 0.05, "paths": 8192}
+    document["frames"] = {"size": [192, 108], "noise": 0.5, "worst": 1}
+    _, review = reviewer.review(document, "moved")
+    frames = review["variants"][0]["frames"]
+    before, after = (middle_of(os.path.join(reviewer.folder, "moved", frames[key]))
+                     for key in ("before", "after"))
+    ahead = [-x / math.dist(EYE, [0, 0, 0]) for x in EYE]
+    right = [-ahead[2] / math.hypot(ahead[0], ahead[2]), 0,
+             ahead[0] / math.hypot(ahead[0], ahead[2])]
+    seen = [-EYE[0] - aside, -EYE[1], -EYE[2]]
+    due = sum(map(operator.mul, right, seen)) / sum(map(operator.mul, ahead, seen)) / \
+        (2 * half_high * 192 / 108)
+    report.claim(abs(before) < 0.01 and abs(after - due) < 0.01,
+                 f"camera moved: the bar at {before}, then {after}; a pinhole says {due}")
+
+
 def check_slopes(report, reviewer):
     """Against two reviews by other random numbers, a step apart."""
     document = asked(sensitivity={
@@ -312,6 +343,7 @@ def main(program, whole):
         more.write(os.path.join(folder, "bars.gltf"))
         check_variants(report, reviewer, VARIANTS if whole else SOME)
         if whole:
+            check_moved_camera(report, reviewer)
             check_curves(report, reviewer)
             check_slopes(report, reviewer)
             check_mend(report, reviewer)

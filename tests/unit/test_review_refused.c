@@ -232,7 +232,7 @@ TEST(conditions_are_checked)
         {"'with':{'somebody':['a.gltf']},", "", "/conditions/0/with",
          "is 'somebody', but the file has no 'with'"},
         {"{'text':'dark-on-light'}", "{'txt':'dark-on-light'}", "/conditions/1/polarity/txt",
-         "the nearest known one is 'text'"},
+         "unknown symbol; did you mean text?"},
         {"{'text':'dark-on-light'}", "'dark'", "/conditions/1/polarity", "is 'dark', wanted"},
         {"'contents':{'cluster':'p.png'}", "'contents':{'cluster':'q.png'}",
          "/conditions/0/contents/cluster", "cannot be read"},

@@ -50,6 +50,36 @@ TEST(a_shared_machine_is_slower_in_all_kinds)
     }
 }
 
+/* A second of work of a kind, of which so many more were waited for a processor. */
+static void work_a_second(Work *work, WorkKind kind, double waited_s)
+{
+    work->mark_s -= 1 + waited_s;
+    work->mark_waited_s -= waited_s;
+    work_add(work, kind, 1);
+}
+
+static void assert_within(const Work *work, double left, double times)
+{
+    double told = work_left_s(work);
+    if (told < left / times || told > left * times) fail_msg("%g s left of %g", told, left);
+}
+
+/* Others' load begins and ends: it is no kind's, and what is left goes by that of late. */
+TEST(a_load_that_comes_and_goes_is_not_the_kinds)
+{
+    for (double waited = 0; waited <= 15; waited += 3) {
+        Work work = planned(200, 100);
+        for (int i = 0; i < 40; i++) work_a_second(&work, WORK_CASE, 0);
+        assert_within(&work, 160 + 100, 1.05);
+        for (int i = 0; i < 40; i++) work_a_second(&work, WORK_CASE, waited);
+        assert_within(&work, (120 + 100) * (1 + waited), 1.5);
+        for (int i = 0; i < 10; i++) work_a_second(&work, WORK_FRAME, waited);
+        assert_within(&work, (120 + 90) * (1 + waited), 1.4);
+        for (int i = 0; i < 80; i++) work_a_second(&work, WORK_FRAME, 0);
+        assert_within(&work, 120 + 10, 1.6);
+    }
+}
+
 TEST(what_is_planned_anew_is_left)
 {
     Work     work = planned(10, 10);

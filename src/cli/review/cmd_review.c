@@ -299,6 +299,7 @@ static bool make_later(const ReviewRun *run, ReviewFolder *folder, ReviewOutcome
     for (int i = -1; i < COUNT_OF(later); i++) {
         if (i >= 0 && !later[i].is_wanted) continue;
         if (i >= 0 && !later[i].make(run, folder, outcome, arena, err)) return false;
+        if (!review_goes_on(run->means.journal, err)) return false;
         outcome->review.to_come = still_to_come(later, i + 1, COUNT_OF(later), arena);
         if (!review_folder_write(folder, outcome, arena, err)) return false;
     }

@@ -109,8 +109,3 @@ bool frame_kept_begin(FrameKept *kept, RenderOptions *options, Error *err)
     options->user = kept;
     return file_check_writable(kept->checkpoint, err);
 }
-
-bool frame_kept_pause(const FrameKept *kept, const RenderResult *so_far, Error *err)
-{
-    return !kept->journal || write_checkpoint(kept, so_far, err);
-}

@@ -30,8 +30,5 @@ bool frame_kept_is_whole(const FrameKept *kept);
  * must outlive the render. */
 bool frame_kept_begin(FrameKept *kept, RenderOptions *options, Error *err);
 
-/* The user asked to stop: a checkpoint of what is done. */
-bool frame_kept_pause(const FrameKept *kept, const RenderResult *so_far, Error *err);
-
 /* All files are written. */
 bool frame_kept_end(const FrameKept *kept, Error *err);

@@ -48,13 +48,13 @@ static void train(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena)
     SceneCamera    look = camera_look_at(eye, vec3_add(eye, towards),
                                          (float)radians_from_degrees(LESSON_DEG));
     Camera         camera = camera_from_scene(&look, LESSON_WIDTH, LESSON_HEIGHT);
-    TrainOptions   options = {setup->tools.kernel, setup->tools.threads};
+    TrainOptions   options = {setup->tools.kernel, setup->tools.threads, true};
     PathStatistics cost;
     const char    *file = setup->lessons ? lesson_file(setup, eye, towards, arena) : NULL;
     if (file && read_lesson(setup, file, arena)) return;
     setup->context.guide = train_guide(&setup->context, &camera, &options, arena, &cost);
     Error ignored; /* unkept, it is trained again: the same lesson, of the same seed */
-    if (file) guide_write(file, setup->context.guide, *arena, &ignored);
+    if (file && setup->context.guide) guide_write(file, setup->context.guide, *arena, &ignored);
 }
 
 static bool is_variant(const Setup *setup)
@@ -76,7 +76,7 @@ void lesson_take(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena)
     bool leaves = setup->inherited && !is_variant(setup);
     train(setup, eye, towards, leaves ? inherited_room(setup->inherited) : arena);
     GuideScene scene = train_guide_scene(&setup->context);
-    if (leaves)
+    if (leaves && setup->context.guide)
         inherited_keep_guide(setup->inherited, condition_id(setup), setup->context.guide,
                              &scene);
 }

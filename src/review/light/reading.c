@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/sampler.h"
+#include "render/signals.h"
 #include "review/light/question.h"
 #include "review/light/response_suns.h"
 
@@ -96,6 +97,7 @@ static void read_batch(void *user, int item, int worker)
     aim.seed = hash_combine(hash_u32(aim.seed), (uint32_t)item);
     aim.is_spread = true;
     for (int first = stream->first; first < stream->end; first += PIECE) {
+        if (signals_stop_requested()) return;
         int end = first + PIECE < stream->end ? first + PIECE : stream->end;
         stream->kernel->look(&aim, first, end, looks, &statistics);
         add_looks(&stream->batches[item], looks, end - first, aim.by_display);
@@ -324,6 +326,13 @@ static Reading take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingT
 
 /* ---- what is kept ------------------------------------------------------------------------ */
 
+/* Where it was asked to stop a reading may be cut off: nobody goes on with it
+ * (review_goes_on). */
+static void keep(Journal *journal, JournalKey key, const void *answer, size_t size)
+{
+    if (!signals_stop_requested()) journal_add(journal, key, answer, size);
+}
+
 static JournalKey key_of(const ProbeAim *aim, const ReadingGoal *goal,
                          const ReadingTools *tools, Arena scratch)
 {
@@ -390,7 +399,7 @@ static void keep_parts(Journal *journal, JournalKey key, const ReadingParts *par
     pack_batches(parts->fresh, displays, &to);
     memcpy(to, paths, sizeof paths);
     memcpy(to + sizeof paths, &parts->seconds, sizeof parts->seconds);
-    journal_add(journal, key, bytes, parts_bytes(displays));
+    keep(journal, key, bytes, parts_bytes(displays));
 }
 
 static bool find_parts(const Journal *journal, JournalKey key, int displays,
@@ -422,7 +431,7 @@ static Reading take_shared(const ProbeAim *aim, const ReadingGoal *goal,
         return reading;
     reading = take(aim, goal, tools, parts, scratch);
     keep_parts(tools->journal, shared, parts, displays_of(aim), scratch);
-    journal_add(tools->journal, key, &reading, sizeof reading);
+    keep(tools->journal, key, &reading, sizeof reading);
     return reading;
 }
 
@@ -436,7 +445,7 @@ Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const Reading
     JournalKey key = key_of(aim, goal, tools, scratch);
     if (journal_find(tools->journal, key, &reading, sizeof reading)) return reading;
     reading = take(aim, goal, tools, NULL, scratch);
-    journal_add(tools->journal, key, &reading, sizeof reading);
+    keep(tools->journal, key, &reading, sizeof reading);
     return reading;
 }
 
@@ -520,7 +529,7 @@ static void find_field(const ProbeAim *aim, const FieldAsk *ask, const ReadingTo
     trace_field(aim, ask, tools, batches, targets, scratch);
     memcpy(kept, targets, targets_bytes(aim));
     pack_batches(batches, displays, &to);
-    journal_add(tools->journal, key, kept, bytes);
+    keep(tools->journal, key, kept, bytes);
 }
 
 Reading reading_field(const ProbeAim *aim, const FieldAsk *asked, const ReadingTools *tools,

@@ -9,6 +9,8 @@
  * means 95 %. Intervals come from the means of independent batches of paths, and their upper
  * ends from the brightest paths, too (confidence.h).
  *
+ * Where it is asked to stop (render/signals.h), a reading ends at once and means nothing.
+ *
  * Units    cd m^-2 (a luxmeter: lx).
  * Memory   scratch only.
  * Threads  starts its own; the same numbers for any count.

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "base/mathd.h"
+
 #define FOUND_LIKELY 6      /* symbols of a rectangle in which text is found */
 #define CASE 0.28           /* of an eye's point, with its causes */
 #define CASE_BARE 0.15
@@ -20,11 +22,14 @@
 #define WORST_BARE 0.9       /* without */
 #define PRIOR_S 5            /* of all work: as much as is thought of it */
 #define PRIOR_KIND 0.2       /* of a kind: as much as of all others */
+#define RECENT_S 30          /* by which others' load is judged: older time fades */
+#define RECENT_PRIOR_S 1
+#define OWN_LEAST 0.02       /* of the time, however much of it was waiting */
 #define UNTIMED 0.05         /* of its weight's time: less was done before */
 
 static const double WEIGHT[WORK_KINDS] = {
     [WORK_OPEN] = 0.5,  [WORK_LEARN] = 1.5, [WORK_LOOK] = 1.25,      [WORK_RESPONSE] = 3.2,
-    [WORK_METER] = 0.1, [WORK_OWN] = 0.1,   [WORK_FALSE_SUNS] = 3.5, [WORK_SKIES] = 1.3};
+    [WORK_METER] = 0.1, [WORK_OWN] = 0.1,   [WORK_FALSE_SUNS] = 3.5, [WORK_SKIES] = 0.5};
 
 double work_of(WorkKind kind)
 {
@@ -161,7 +166,13 @@ WorkPlan work_of_review(const ReviewRequest *request, bool mend)
 
 /* ---- how fast it goes -------------------------------------------------------------------- */
 
-/* Seconds for a weight of 1. */
+/* How much longer all takes than by itself. */
+static double stretch_of(const Work *work)
+{
+    return (work->recent_s + RECENT_PRIOR_S) / (work->recent_own_s + RECENT_PRIOR_S);
+}
+
+/* Seconds for a weight of 1, by itself. */
 static double pace_of(const Work *work, int kind)
 {
     double all = (sum_of(&work->seconds) + PRIOR_S) / (sum_of(&work->timed) + PRIOR_S);
@@ -173,7 +184,7 @@ double work_left_s(const Work *work)
     double left = 0;
     for (int k = 0; k < WORK_KINDS; k++)
         left += fmax(work->planned.of[k] - work->done.of[k], 0) * pace_of(work, k);
-    return left;
+    return left * stretch_of(work);
 }
 
 /* The share that is done is that of the time, and never runs back. */
@@ -183,6 +194,7 @@ static void show(Work *work)
     double    elapsed = monotonic_seconds() - progress->begun_s, left = work_left_s(work);
     double    share = elapsed + left > 0 ? elapsed / (elapsed + left) : 0;
     progress->left_s = left;
+    progress->more_s = 0;
     progress->left_from = fmax(progress->done, share * progress->total);
     progress_update(progress, progress->left_from);
 }
@@ -190,17 +202,30 @@ static void show(Work *work)
 Work work_start(ProgressMode mode, const WorkPlan *planned)
 {
     Progress progress = progress_start(mode, "review", "steps", sum_of(planned));
-    return (Work){.progress = progress, .planned = *planned, .mark_s = progress.begun_s};
+    return (Work){.progress = progress, .planned = *planned, .mark_s = progress.begun_s,
+                  .mark_waited_s = thread_waited_seconds()};
+}
+
+/* Seconds since the last part that the work had by itself. */
+static double own_seconds(Work *work)
+{
+    double now = monotonic_seconds(), waited = thread_waited_seconds();
+    double took = now - work->mark_s, kept = exp_d(-took / RECENT_S);
+    double own = fmax(took - (waited - work->mark_waited_s), OWN_LEAST * took);
+    work->mark_s = now;
+    work->mark_waited_s = waited;
+    work->recent_s = kept * work->recent_s + took;
+    work->recent_own_s = kept * work->recent_own_s + own;
+    return own;
 }
 
 void work_add(Work *work, WorkKind kind, double weight)
 {
-    double now = monotonic_seconds(), took = now - work->mark_s;
-    work->mark_s = now;
+    double own = own_seconds(work);
     work->done.of[kind] += weight;
-    if (took >= UNTIMED * weight) {
+    if (own >= UNTIMED * weight) {
         work->timed.of[kind] += weight;
-        work->seconds.of[kind] += took;
+        work->seconds.of[kind] += own;
     }
     show(work);
 }
@@ -214,7 +239,7 @@ void work_replan(Work *work, const WorkPlan *before, const WorkPlan *now)
 double work_share(const Work *work, WorkKind kind, double weight)
 {
     const Progress *progress = &work->progress;
-    double left = work_left_s(work), own = weight * pace_of(work, kind);
+    double left = work_left_s(work), own = weight * pace_of(work, kind) * stretch_of(work);
     return left > 0 ? fmin(own / left, 1) * (progress->total - progress->done) : 0;
 }
 

@@ -7,6 +7,10 @@
  * goes by the pace of all others. What is left is the sum over kinds of the weight that is left
  * times its pace.
  *
+ * Others' load on the machine stretches all kinds alike: paces are those of the time that the
+ * work had by itself, without waiting for a processor, and what is left is stretched as much as
+ * the last half minute was.
+ *
  * Threads  a Work has one thread at a time.
  */
 #pragma once
@@ -37,7 +41,8 @@ typedef struct WorkPlan {
 typedef struct Work {
     Progress progress; /* shows it */
     WorkPlan planned, done, timed, seconds; /* timed: of what is done, what `seconds` tell */
-    double   mark_s;   /* when the last part of it was done */
+    double   mark_s, mark_waited_s; /* when the last part of it was done */
+    double   recent_s, recent_own_s; /* of late, and of that by itself */
 } Work;
 
 Work work_start(ProgressMode mode, const WorkPlan *planned);

@@ -297,20 +297,17 @@ static bool find_level(const RequestReading *reading, const JsonView *view,
                        ReviewCondition *condition, Error *err)
 {
     const ReviewRequest *request = reading->request;
-    const char **names = ARENA_NEW(view->arena, const char *, request->level_count);
-    for (int i = 0; i < request->level_count; i++) names[i] = request->levels[i].name;
-    return request_find_name(view, "level", (FieldWords){names, request->level_count},
-                             "levels", &condition->level_id, err);
+    return request_find_name(view, "level", request_level_names(request, view->arena), "levels",
+                             &condition->level_id, err);
 }
 
 static bool find_with(const RequestReading *reading, const JsonView *view,
                       ReviewCondition *condition, Error *err)
 {
     const ReviewRequest *request = reading->request;
-    const char **names = ARENA_NEW(view->arena, const char *, request->with_count);
-    for (int i = 0; i < request->with_count; i++) names[i] = request->withs[i].name;
-    return request_find_name(view, "with", (FieldWords){names, request->with_count}, "with",
-                             &condition->with_id, err);
+    FieldWords names = field_names_of(request->withs, sizeof *request->withs,
+                                      request->with_count, view->arena);
+    return request_find_name(view, "with", names, "with", &condition->with_id, err);
 }
 
 /* An object with symbols' names as keys. */
@@ -319,12 +316,11 @@ static bool read_polarities(const RequestReading *reading, const JsonView *view,
 {
     FieldMembers         members;
     const ReviewRequest *request = reading->request;
-    if (!field_members(view, "polarity", request->symbol_count, &members, err)) return false;
-    const char **names = ARENA_NEW(view->arena, const char *, request->symbol_count);
-    for (int i = 0; i < request->symbol_count; i++) names[i] = request->symbols[i].name;
-    if (!json_view_check_keys(&members.view, names, request->symbol_count, err)) return false;
-    for (int i = 0; i < request->symbol_count; i++)
-        if (!request_polarity_read(&members.view, names[i], &condition->polarity[i], err))
+    FieldWords names = field_names_of(request->symbols, sizeof *request->symbols,
+                                      request->symbol_count, view->arena);
+    if (!field_named_members(view, "polarity", names, "symbol", &members, err)) return false;
+    for (int i = 0; i < names.count; i++)
+        if (!request_polarity_read(&members.view, names.word[i], &condition->polarity[i], err))
             return false;
     return true;
 }

@@ -184,11 +184,8 @@ static bool read_lookers(const RequestReading *reading, const JsonView *view, Re
     int                  listed;
     if (!field_list(view, "eyes", EYES_MAX, &listed, err)) return false;
     gaze->for_eye = ARENA_NEW(view->arena, bool, request->eye_count);
-    const char **names = ARENA_NEW(view->arena, const char *, request->eye_count);
-    for (int i = 0; i < request->eye_count; i++) {
-        gaze->for_eye[i] = !listed;
-        names[i] = request->eyes[i].name;
-    }
+    FieldWords names = request_eye_names(request, view->arena);
+    for (int i = 0; i < request->eye_count; i++) gaze->for_eye[i] = !listed;
     for (int i = 0; i < listed; i++) {
         json_t  *item = json_array_get(json_object_get(view->object, "eyes"), (size_t)i);
         char    *place = arena_format(view->arena, "eyes/%d", i);
@@ -197,8 +194,7 @@ static bool read_lookers(const RequestReading *reading, const JsonView *view, Re
         if (!json_is_string(item))
             return json_view_wrong_kind(view, place, item, "an eye's name", err);
         alone.object = json_pack("{s:O}", place, item);
-        bool found = request_find_name(&alone, place, (FieldWords){names, request->eye_count},
-                                       "eyes", &eye, err);
+        bool found = request_find_name(&alone, place, names, "eyes", &eye, err);
         json_decref(alone.object);
         if (!found) return false;
         gaze->for_eye[eye] = true;
@@ -338,20 +334,18 @@ static bool read_visible(const RequestReading *reading, const JsonView *view, Re
 {
     const ReviewRequest *request = reading->request;
     int          count = request->eye_count;
-    const char **names = ARENA_NEW(view->arena, const char *, count);
+    FieldWords   names = request_eye_names(request, view->arena);
     FieldMembers members;
     out->optional_for = ARENA_NEW(view->arena, bool, count);
-    for (int i = 0; i < count; i++) names[i] = request->eyes[i].name;
     if (!json_is_object(json_object_get(view->object, "visible"))) {
         for (int i = 0; i < count; i++)
             if (!read_optional(view, "visible", &out->optional_for[i], err)) return false;
         return true;
     }
-    if (!field_members(view, "visible", count, &members, err) ||
-        !json_view_check_keys(&members.view, names, count, err))
-        return false;
+    if (!field_named_members(view, "visible", names, "eye", &members, err)) return false;
     for (int i = 0; i < count; i++)
-        if (!read_optional(&members.view, names[i], &out->optional_for[i], err)) return false;
+        if (!read_optional(&members.view, names.word[i], &out->optional_for[i], err))
+            return false;
     return true;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/request/request_fields.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 #define XXH_INLINE_ALL
@@ -173,6 +174,37 @@ bool field_members(const JsonView *view, const char *key, int most, FieldMembers
     return true;
 }
 
+FieldWords field_names_of(const void *structs, size_t size, int count, Arena *arena)
+{
+    const char **names = ARENA_NEW(arena, const char *, count);
+    const char  *at = structs;
+    for (int i = 0; i < count; i++, at += size) memcpy(&names[i], at, sizeof names[i]);
+    return (FieldWords){names, count};
+}
+
+bool field_knows(const JsonView *view, const char *name, FieldWords names, const char *what,
+                 Error *err)
+{
+    char advice[256];
+    for (int i = 0; i < names.count; i++)
+        if (!strcmp(names.word[i], name)) return true;
+    return field_fails(view, name, err, "unknown %s; %s", what,
+                       names.count ? nearest_word_advice(name, names.word, names.count, advice,
+                                                         sizeof advice)
+                                   : "the review has none");
+}
+
+bool field_named_members(const JsonView *view, const char *key, FieldWords names,
+                         const char *what, FieldMembers *out, Error *err)
+{
+    FieldMembers members;
+    if (!field_members(view, key, INT_MAX, &members, err)) return false;
+    for (int i = 0; i < members.count; i++)
+        if (!field_knows(&members.view, members.name[i], names, what, err)) return false;
+    *out = members;
+    return true;
+}
+
 /* ---- files ------------------------------------------------------------------------------- */
 
 /* A URI of the document as a path: `place` is where it stands. */
@@ -256,6 +288,17 @@ bool request_contents_read(const JsonView *view, ReviewContent **out, int *count
         if (!field_file(&members.view, members.name[i], &(*out)[i].path, err)) return false;
     }
     return true;
+}
+
+FieldWords request_eye_names(const ReviewRequest *request, Arena *arena)
+{
+    return field_names_of(request->eyes, sizeof *request->eyes, request->eye_count, arena);
+}
+
+FieldWords request_level_names(const ReviewRequest *request, Arena *arena)
+{
+    return field_names_of(request->levels, sizeof *request->levels, request->level_count,
+                          arena);
 }
 
 bool request_find_name(const JsonView *view, const char *key, FieldWords names,

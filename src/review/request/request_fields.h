@@ -72,6 +72,18 @@ typedef struct FieldMembers {
 bool field_members(const JsonView *view, const char *key, int most, FieldMembers *out,
                    Error *err);
 
+/* Names that the request gives elsewhere: the first member of each of so many structs, each of
+ * `size` bytes. */
+FieldWords field_names_of(const void *structs, size_t size, int count, Arena *arena);
+
+/* Is a name one of these? Else "unknown eye", where what is "eye", with the nearest. */
+bool field_knows(const JsonView *view, const char *name, FieldWords names, const char *what,
+                 Error *err);
+
+/* field_members, each of which has one of these names. */
+bool field_named_members(const JsonView *view, const char *key, FieldWords names,
+                         const char *what, FieldMembers *out, Error *err);
+
 /* The file that a URI under `key` means: relative, percent-encoded, readable. */
 bool field_file(const JsonView *view, const char *key, const char **out, Error *err);
 
@@ -95,6 +107,10 @@ void request_note_input(RequestReading *reading, const char *path, uint64_t hash
 
 /* The same, of a file whose bytes are to be hashed. */
 bool request_note_file(RequestReading *reading, const char *path, Error *err);
+
+/* The names of all eyes, and of all levels. */
+FieldWords request_eye_names(const ReviewRequest *request, Arena *arena);
+FieldWords request_level_names(const ReviewRequest *request, Arena *arena);
 
 /* What displays show instead: "contents". */
 bool request_contents_read(const JsonView *view, ReviewContent **out, int *count, Error *err);

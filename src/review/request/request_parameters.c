@@ -74,10 +74,10 @@ static bool read_at(const JsonView *view, ReviewParameter *out, Error *err)
 static bool check_eye(const RequestReading *reading, const JsonView *view,
                       const ReviewParameter *parameter, Error *err)
 {
+    int eye;
     return parameter->kind != PARAMETER_EYE ||
-           review_eye_named(reading->request, parameter->target) ||
-           field_fails(view, "eye", err,
-                       "is no eye of the review, wanted a name of its 'eyes'");
+           request_find_name(view, "eye", request_eye_names(reading->request, view->arena),
+                             "eyes", &eye, err);
 }
 
 static bool read_parameter(RequestReading *reading, const FieldMembers *members, int i,

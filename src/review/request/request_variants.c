@@ -87,17 +87,16 @@ static bool read_levels(VariantReading *v, Error *err)
 {
     const ReviewRequest *request = v->reading->request;
     ReviewVariant       *variant = v->variant;
+    FieldWords names = request_level_names(request, arena_of(v));
+    JsonView   levels;
     if (!request_levels_of(&v->view, request->max_level, &variant->levels,
                            &variant->level_count, err))
         return false;
     for (int i = 0; i < variant->level_count; i++) {
         const char *name = variant->levels[i].name;
-        bool        is_known = false;
-        for (int k = 0; k < request->level_count; k++)
-            is_known |= !strcmp(request->levels[k].name, name);
-        if (!is_known)
-            return field_fails(&v->view, arena_format(arena_of(v), "levels/%s", name), err,
-                               "is no level of the review, wanted a name of its 'levels'");
+        if (!json_view_child(&v->view, "levels", true, &levels, err) ||
+            !field_knows(&levels, name, names, "level", err))
+            return false;
         say(v, arena_format(arena_of(v), "level '%s'", name));
     }
     return true;
@@ -358,12 +357,10 @@ static bool read_eye(VariantReading *v, const FieldMembers *members, int i, Erro
     const char          *name = members->name[i];
     if (!json_view_child(&members->view, name, true, &view, err) ||
         !json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
-        !field_wanted(&view, "move_m", err))
+        !field_wanted(&view, "move_m", err) ||
+        !field_knows(&members->view, name, request_eye_names(request, arena_of(v)), "eye", err))
         return false;
     const ReviewEye *eye = review_eye_named(request, name);
-    if (!eye)
-        return field_fails(&members->view, name, err,
-                           "is no eye of the review, wanted a name of its 'eyes'");
     double *move = v->variant->eye_moves[eye - request->eyes];
     if (!field_numbers(&view, "move_m", (JsonRange){-METRES_MAX, METRES_MAX, 3}, move, NULL,
                        err))

@@ -107,46 +107,46 @@ typedef struct VerdictAsk {
     DirectSun         direct; /* of the reflected light */
 } VerdictAsk;
 
+/* With so much reflected; false: sun or day, which of them is open. */
+static bool judge_with(const VerdictAsk *ask, double reflected, MeanInterval within,
+                       ReviewCase *out, Arena *arena)
+{
+    bool in_sun = is_in_sun(ask->direct, within.low);
+    *out = *ask->of;
+    if (in_sun != is_in_sun(ask->direct, within.high)) return false;
+    out->luminance_cd_m2.reflected = reflected;
+    set_contrasts(out, within);
+    judge_ambient(out, ask->tools->profile, in_sun);
+    judge_case(out, ask->tools->profile, arena);
+    return true;
+}
+
 /* Is each limit that counts met, or missed, wherever in the interval the light lies? */
 static bool is_verdict_clear(void *user, MeanInterval reflected, Arena scratch)
 {
-    const VerdictAsk *ask = user;
-    ReviewCase c = *ask->of;
-    bool       in_sun = is_in_sun(ask->direct, reflected.low);
-    if (in_sun != is_in_sun(ask->direct, reflected.high)) return false;
-    c.luminance_cd_m2.reflected = 0.5 * (reflected.low + reflected.high);
-    set_contrasts(&c, reflected);
-    judge_ambient(&c, ask->tools->profile, in_sun);
-    judge_case(&c, ask->tools->profile, &scratch);
-    for (int i = 0; i < c.limit_count; i++) {
-        const LimitVerdict *limit = &c.limits[i];
-        bool counts = !limit->is_advice && !isnan(limit->found);
-        if (counts && limit->verdict == VERDICT_TOO_CLOSE) return false;
-    }
+    ReviewCase c;
+    if (!judge_with(user, 0.5 * (reflected.low + reflected.high), reflected, &c, &scratch))
+        return false;
+    for (int i = 0; i < c.limit_count; i++)
+        if (limit_is_open(&c.limits[i])) return false;
     return true;
 }
 
 /* The share of a reading's interval that is known of the sun's image: no path lessens it. */
 static double known_share(DirectSun direct, MeanInterval reflected)
 {
-    double half = 0.5 * (reflected.high - reflected.low);
-    return half > 0 ? fmin(2 * RESPONSE_MIRROR_ERROR * direct.mirror / half, 1) : 0;
+    double range = reflected.high - reflected.low;
+    return range > 0 ? fmin(4 * RESPONSE_MIRROR_ERROR * direct.mirror / range, 1) : 0;
 }
 
 /* Would more paths call it? A case that fails by one limit is called, whatever the others. */
 static bool is_worth_paths(void *user, const Reading *reading, Arena scratch)
 {
     const VerdictAsk *ask = user;
-    ReviewCase   c = *ask->of;
-    MeanInterval in = reading->interval;
-    bool         in_sun = is_in_sun(ask->direct, reading->reflected);
-    if (is_in_sun(ask->direct, in.low) != is_in_sun(ask->direct, in.high)) return true;
+    ReviewCase        c;
+    if (!judge_with(ask, reading->reflected, reading->interval, &c, &scratch)) return true;
     c.paths = reading->paths;
-    c.luminance_cd_m2.reflected = reading->reflected;
-    set_contrasts(&c, in);
-    judge_ambient(&c, ask->tools->profile, in_sun);
-    judge_case(&c, ask->tools->profile, &scratch);
-    judge_paths(&c, known_share(ask->direct, in));
+    judge_paths(&c, known_share(ask->direct, reading->interval));
     return isfinite(c.paths_to_decide);
 }
 
@@ -415,14 +415,15 @@ static double data_share_of(const CaseTools *tools, const CaseLook *look, const 
 }
 
 static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
-                           DirectSun *direct, Arena *arena)
+                           Arena *arena)
 {
-    *direct = (DirectSun){0, 0};
-    ProbeAim aim = see_symbol(tools, look, c, direct, arena);
+    DirectSun direct = {0, 0};
+    ProbeAim aim = see_symbol(tools, look, c, &direct, arena);
     judge_ambient(c, tools->profile,
-                  aim.target_count && is_in_sun(*direct, c->luminance_cd_m2.reflected));
+                  aim.target_count && is_in_sun(direct, c->luminance_cd_m2.reflected));
     c->without_data_share = data_share_of(tools, look, &aim, c, *arena);
     judge_case(c, tools->profile, arena);
+    set_to_decide(tools->setup->request, direct, c);
     return aim;
 }
 
@@ -431,13 +432,12 @@ static int worst_point(const CaseTools *tools, const CaseLook *look, const Vec3 
                        int count, ReviewCase *c, Arena scratch)
 {
     ReviewCase start = *c, worst;
-    DirectSun  direct;
     int        at = 0, failed = 0;
     for (int i = 0; i < count; i++) {
         Arena      room = scratch;
         CaseLook   one = {look->symbol, points[i], true, true};
         ReviewCase seen = start;
-        judge_look(tools, &one, &seen, &direct, &room);
+        judge_look(tools, &one, &seen, &room);
         failed += seen.verdict == VERDICT_FAIL || seen.verdict == VERDICT_UNJUDGED;
         if (i && !is_worse(&seen, &worst)) continue;
         worst = seen;
@@ -465,13 +465,12 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
     Vec3      *points = setup_eye_points(tools->setup, ask->eye, &count, arena, err);
     ReviewCase c = start_case(tools, ask->eye, ask->symbol);
     CaseLook   look = {.symbol = ask->symbol, .is_bare = ask->is_bare};
-    DirectSun  direct;
     if (!points || !review_goes_on(tools->setup->tools.journal, err)) return false;
     c.display_lux = ask->face_lux;
     c.eye_failed_share = (double)NAN;
     look.eye =
         points[count > 1 ? worst_point(tools, &look, points, count, &c, *arena) : 0];
-    ProbeAim aim = judge_look(tools, &look, &c, &direct, arena);
+    ProbeAim aim = judge_look(tools, &look, &c, arena);
     world_from_scene(tools->setup->scene->origin, look.eye, c.eye_m);
     c.panel = symbol_panel(ask->symbol, arena);
     if (aim.target_count && !ask->is_bare) {
@@ -482,10 +481,7 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
         CauseAsk causes = {&tools->setup->tools, &aim, paths, rays, &places, false, false};
         CauseFacts facts = case_causes(&causes, &c, arena);
         judge_case(&c, tools->profile, arena); /* now that its share without data is known */
-        set_to_decide(tools->setup->request, direct, &c);
         case_remedies(&remedies, &facts, &c, arena);
-    } else {
-        set_to_decide(tools->setup->request, direct, &c);
     }
     *out = c;
     return true;
@@ -501,7 +497,7 @@ bool setup_learn(Setup *setup, const SetupSymbol *symbols, int count, Arena *are
     for (int i = 0; i < count; i++) sum = vec3_add(sum, symbol_middle(&symbols[i]).position);
     Vec3 towards = vec3_sub(vec3_scale(sum, 1 / (float)count), eye);
     if (vec3_dot(towards, towards) > 0) lesson_take(setup, eye, towards, arena);
-    return true;
+    return review_goes_on(setup->tools.journal, err);
 }
 
 /* ---- all cases --------------------------------------------------------------------------- */

@@ -25,12 +25,13 @@ bool frame_camera(const FrameAsk *ask, SceneCamera *out, Arena scratch, Error *e
     const Scene *scene = ask->setup->scene;
     int          id;
     Vec3         from;
+    if (!setup_eye_middle(ask->setup, ask->eye, scratch, &from, err)) return false;
     if (ask->eye->kind == EYE_CAMERA) {
         if (!review_camera_find(scene, ask->eye, scratch, &id, err)) return false;
         *out = scene->cameras[id];
+        out->world_from_camera.origin = from;
         return true;
     }
-    if (!setup_eye_middle(ask->setup, ask->eye, scratch, &from, err)) return false;
     *out = camera_look_at(from, ask->look_at,
                           (float)radians_from_degrees(YFOV_DEG));
     return true;
@@ -54,7 +55,8 @@ static RenderOptions options_of(const FrameAsk *ask)
         .layers = ask->exposure ? LAYER_VARIANCE
                                 : render_layers(ask->setup->scene, LAYER_VARIANCE | LAYER_ID |
                                                                        LAYER_DISPLAYS),
-        .threads = ask->setup->tools.threads, .within = &ask->work->progress,
+        .threads = ask->setup->tools.threads, .stops_at_once = true,
+        .within = &ask->work->progress,
         .within_weight = work_share(ask->work, kind_of(ask),
                                     work_of_frame(request, kind_of(ask)))};
 }
@@ -185,7 +187,7 @@ static bool render(const FrameAsk *ask, FrameKept *kept, const SceneCamera *came
     const Setup *setup = ask->setup;
     RenderSetup  render = {.kernel = setup->tools.kernel, .bvh = setup->bvh,
                           .context = setup->context};
-    TrainOptions train = {setup->tools.kernel, options->threads};
+    TrainOptions train = {setup->tools.kernel, options->threads, true};
     Arena       *arena = kept->arena;
     if (!frame_kept_begin(kept, options, err)) return false;
     render.camera = camera_from_scene(camera, options->width, options->height);
@@ -196,8 +198,7 @@ static bool render(const FrameAsk *ask, FrameKept *kept, const SceneCamera *came
         !render_prepared(&render, options, arena, result, err))
         return false;
     if (!result->stopped_by) return true;
-    return frame_kept_pause(kept, result, err) &&
-           error_set(err, (ErrorCode)(128 + result->stopped_by), "stopped");
+    return error_set(err, (ErrorCode)(128 + result->stopped_by), "stopped");
 }
 
 bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)

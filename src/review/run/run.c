@@ -274,7 +274,9 @@ static bool run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *ou
         MomentShare share = share_of(run, condition);
         if (is_moment && !moment_share_has_any(&share)) continue;
         if (!is_moment) group = group_of(request, i, is_done, arena);
-        if (!run_watched(run, condition, &group, arena, out, err)) return false;
+        if (!run_watched(run, condition, &group, arena, out, err) ||
+            !review_goes_on(run->means.journal, err)) /* else its last reading may be cut off */
+            return false;
         done += is_moment ? 1 : group.count;
         if (run->news.on_condition && !run->news.on_condition(run->news.user, out, done,
                                                               err)) return false;

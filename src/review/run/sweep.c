@@ -463,11 +463,11 @@ static void plan_work(const Sweep *sweep, const SweepGroup *group, Arena scratch
         plan.of[responses_kind(&sweep->asks[i])] += responses_work(&sweep->asks[i]);
     for (int i = 0; i < sweep->ask_count; i++)
         if (responses_work(&sweep->asks[i]) > 0) plan.of[WORK_OWN] += 2 * work_of(WORK_OWN);
+    if (!is_bare && !run->share.count)
+        plan.of[WORK_FALSE_SUNS] = run->request->eye_count * work_of(WORK_FALSE_SUNS);
     for (int i = 0; i < group->count; i++) {
         SweepSuns suns = sweep_suns(group->conditions[i], 1, &scratch);
         plan.of[WORK_SKIES] += work_of(WORK_SKIES);
-        if (!is_bare && !run->share.count)
-            plan.of[WORK_FALSE_SUNS] += run->request->eye_count * work_of(WORK_FALSE_SUNS);
         for (int k = 0; k < sweep->sight_count; k++)
             if (!sweep->sights[k].is_left)
                 plan.of[is_bare ? WORK_BARE_SIGHT : WORK_SIGHT] +=
@@ -549,11 +549,8 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
                       .sights = ARENA_NEW(&scratch, SightFigures, sweep->sight_count),
                       .tables = ARENA_NEW(&scratch, SweepTable, sweep->sight_count)};
     sweep->lit->is_ready = sweep->lit->is_lit = false;
-    if (!sweep->run->share.count && !sweep->run->base) {
+    if (!sweep->run->share.count && !sweep->run->base)
         false_sun_times(sweep, scratch, arena, &out->review);
-        work_add(sweep->run->work, WORK_FALSE_SUNS,
-                 sweep->run->request->eye_count * work_of(WORK_FALSE_SUNS));
-    }
     if (!report_with_riders(sweep, &to, scratch, err)) return false;
     keep_tables(&to);
     out->review.sweep_count += sweep->sight_count;
@@ -568,6 +565,9 @@ static bool sweep_all(Sweep *sweep, const SweepGroup *group, Arena *scratch, Are
     plan_work(sweep, group, *scratch);
     work_add(sweep->run->work, WORK_OPEN, work_of(WORK_OPEN));
     if (!sweep_make_probes(sweep, scratch, err)) return false;
+    if (!sweep->run->share.count && !sweep->run->base)
+        work_add(sweep->run->work, WORK_FALSE_SUNS,
+                 sweep->run->request->eye_count * work_of(WORK_FALSE_SUNS));
     report_responses(sweep, arena, out);
     PathContext dark = sweep->setup->context;
     for (int i = 0; i < group->count; i++) {
