@@ -380,13 +380,20 @@ const char *words_precision(const ReviewCase *c, Arena *arena)
                         words_share(c->precision_asked, arena));
 }
 
+static const char *words_seen(const ReviewCase *c, Arena *arena)
+{
+    if (!(c->visible_share > 0)) return "nothing of it is seen";
+    return arena_format(arena, "%s of it is seen, more than %s is required",
+                        words_share(c->visible_share, arena), words_share(SEEN_LEAST, arena));
+}
+
 const char *words_unjudged(const ReviewCase *c, Arena *arena)
 {
     const LimitVerdict *limit = case_worst_limit(c);
     switch (c->unjudged) {
     case UNJUDGED_HIDDEN:
-        return arena_format(arena, "nothing of it is seen%s%s%s", c->hider_count ? ": " : "",
-                            words_hiders(c, arena),
+        return arena_format(arena, "%s%s%s%s", words_seen(c, arena),
+                            c->hider_count ? ": " : "", words_hiders(c, arena),
                             c->is_optional ? "; this eye need not see it" : "");
     case UNJUDGED_PANEL:
         return arena_format(arena, "the panel of its display says of itself that it is not "

@@ -227,7 +227,8 @@ static ReviewCase hidden_case(const SweepReport *to, const Sight *sight,
     c.panel = symbol_panel(sight->symbol, to->arena);
     c.is_optional = review_is_optional(request, sight->symbol->symbol_id, sight->eye);
     if (review_eye_is_wide(sight->eye)) c.eye_failed_share = 1;
-    if (!(sight->seen.visible_share > 0))
+    c.visible_share = sight->seen.visible_share;
+    if (!review_is_seen(c.visible_share))
         case_hiders(&sight->symbol->surface, &to->sweep->setup->context, sight->from, &c,
                     to->arena);
     return c;
