@@ -554,10 +554,13 @@ const char *words_mend(const ReviewMend *m, Arena *arena)
     const ReviewTrial *at = trial_at(m, m->value);
     const char *margin = at ? words_margin(at->margin, arena) : "–";
     const char *value = value_words(m, m->value, arena);
+    if (!m->is_found && (!at || isnan(at->margin)))
+        return arena_format(arena, "%s: no value that was tried makes everything pass: no "
+                            "margin is known, what is asked cannot be judged", m->name);
     if (!m->is_found)
         return arena_format(arena, "%s: no value that was tried makes everything pass; nearest "
                             "came %s: least margin %s%s%s", m->name, value, margin,
-                            at && at->worst ? ", " : "", at && at->worst ? at->worst : "");
+                            at->worst ? ", " : "", at->worst ? at->worst : "");
     if (isnan(m->outside))
         return arena_format(arena, "%s: everything passes as it stands, at %s", m->name, value);
     return arena_format(arena, "%s: with %s instead of %.3g everything passes, its least "
