@@ -148,7 +148,7 @@ def check_leaning(report, reviewer):
     one that lies flat, whose tilt is about the vehicle's own level axis."""
     upright, flat = Cabin(PANEL, [0, 0.1, 0.8]), Cabin(PANEL, [0, 0.5, 0.35])
     flat.scene.document["nodes"][0]["rotation"] = [-0.5 ** 0.5, 0, 0, 0.5 ** 0.5]
-    for name, cabin, sun in (("upright", upright, (180, 8)), ("flat", flat, (0, 55))):
+    for name, cabin, sun in (("upright", upright, (180, 8)), ("flat", flat, (0, 47))):
         document = asked(cabin, *sun, 0.05)
         case = reviewed(reviewer, cabin, document, name)
         check_list(report, case, name)
