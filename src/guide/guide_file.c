@@ -84,7 +84,7 @@ static bool check_tree(const LightGuide *guide, Error *err)
                                  i, node->cell, guide->cell_count);
             continue;
         }
-        if (node->child <= i || node->child + 1 >= guide->node_count || node->axis < 0 ||
+        if (node->child <= i || node->child >= guide->node_count - 1 || node->axis < 0 ||
             node->axis > 2 || !isfinite(node->plane))
             return error_set(err, ERROR_INPUT, "damaged field: node %u of %u does not part "
                                                "its box", i, guide->node_count);

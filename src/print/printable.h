@@ -6,7 +6,9 @@
  * Escaped as JSON does it, "\u001B", are the control characters C0 and C1 (U+0000 to 001F and
  * 007F to 009F), the separators of lines and paragraphs (U+2028, 2029), the controls of the
  * bidirectional algorithm (Unicode Standard Annex 9, table 3: U+061C, 200E, 200F, 202A to 202E,
- * 2066 to 2069) and U+FFFE and FFFF, which XML 1.0 does not allow. A byte that is no UTF-8
+ * 2066 to 2069), what shows nothing and does not join letters (general category Cf: U+00AD,
+ * 180E, 200B, 2060 to 2064, 206A to 206F, FEFF, FFF9 to FFFB: two names would look the same)
+ * and U+FFFE and FFFF, which XML 1.0 does not allow. A byte that is no UTF-8
  * becomes "\x9B". Escapes are ASCII, so that escaping once more changes nothing.
  *
  * Threads  no shared state. Fails: never.

@@ -124,7 +124,7 @@ static double value_at(const ProfileLimit *limit, double height_arcmin)
 /* Nothing, or not a contrast, of the case can be judged, whatever its figures. */
 static bool is_unjudged(const ReviewCase *c, bool is_contrast)
 {
-    return !(c->visible_share > 0) || c->panel.is_unusable ||
+    return !review_is_seen(c->visible_share) || c->panel.is_unusable ||
            (is_contrast && c->without_data_share > UNJUDGED_DATA_SHARE);
 }
 
@@ -132,7 +132,7 @@ static LimitVerdict judge_limit(const ProfileLimit *limit, const ReviewCase *c,
                                 const Profile *profile)
 {
     const LimitKindFacts *kind = &limit_kinds[limit->kind];
-    bool   is_visible = c->visible_share > 0;
+    bool   is_visible = review_is_seen(c->visible_share);
     Figure figure = is_visible ? figure_of(limit->kind, c, profile) : (Figure){NAN, NAN, NAN};
     LimitVerdict judged = {
         .name = limit->name, .kind = kind->name, .unit = kind->unit, .source = limit->source,
@@ -164,7 +164,7 @@ static Verdict worse(Verdict one, Verdict other)
 static Unjudged why_unjudged(const ReviewCase *c, int counted)
 {
     if (c->verdict != VERDICT_UNJUDGED) return UNJUDGED_NOT;
-    if (!(c->visible_share > 0)) return UNJUDGED_HIDDEN;
+    if (!review_is_seen(c->visible_share)) return UNJUDGED_HIDDEN;
     if (c->panel.is_unusable) return UNJUDGED_PANEL;
     if (!counted) return UNJUDGED_LIMIT;
     return c->without_data_share > UNJUDGED_DATA_SHARE ? UNJUDGED_DATA : UNJUDGED_FIGURE;

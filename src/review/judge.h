@@ -7,10 +7,10 @@
  * listed and does not count, nor does a limit of which the program measures no figure: of a
  * width, and of a shape that has no strokes their ratio (`found` NaN).
  *
- * A case cannot be judged (`unjudged`, in this order) where nothing of it is seen, where its
- * panel says of itself that it is not usable, where no limit that counts applies to it, where
- * more than UNJUDGED_DATA_SHARE of the light that it reflects came via materials without data
- * (its contrasts: a height that fails fails all the same), and where a figure is NaN.
+ * A case cannot be judged (`unjudged`, in this order) where half of it is hidden or more, where
+ * its panel says of itself that it is not usable, where no limit that counts applies to it,
+ * where more than UNJUDGED_DATA_SHARE of the light that it reflects came via materials without
+ * data (its contrasts: a height that fails fails all the same), and where a figure is NaN.
  *
  * Memory   lists come from the arena.
  * Threads  pure functions but for the case that is passed in.

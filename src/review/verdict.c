@@ -70,6 +70,11 @@ bool case_is_undecidable(const ReviewCase *c)
     return c->open_by == OPEN_BY_PANEL || c->open_by == OPEN_BY_SUN;
 }
 
+bool review_is_seen(double visible_share)
+{
+    return visible_share > SEEN_LEAST;
+}
+
 bool review_case_counts(const ReviewCase *c)
 {
     if (c->verdict != VERDICT_UNJUDGED) return true;

@@ -28,7 +28,7 @@ int verdict_rank(Verdict verdict);
 /* Why a case cannot be judged. */
 typedef enum Unjudged {
     UNJUDGED_NOT,     /* it can */
-    UNJUDGED_HIDDEN,  /* nothing of it is seen */
+    UNJUDGED_HIDDEN,  /* less than SEEN_LEAST of it is seen */
     UNJUDGED_PANEL,   /* its panel says of itself that it is not usable */
     UNJUDGED_DATA,    /* more than UNJUDGED_DATA_SHARE of the light by things without data */
     UNJUDGED_LIMIT,   /* no limit that counts applies to it */
@@ -48,6 +48,11 @@ typedef enum OpenBy {
     OPEN_NOT, OPEN_BY_PATHS, OPEN_BY_PANEL, OPEN_BY_SUN, OPEN_COUNT
 } OpenBy;
 extern const char *const open_names[OPEN_COUNT]; /* NULL, "paths", "panel error", ... */
+
+/* The least share of the box about a symbol's foreground that an eye must see: of a half or
+ * less, what is seen may be another symbol, such as 3 for 38 or for 8. */
+#define SEEN_LEAST 0.5
+bool review_is_seen(double visible_share);
 
 typedef enum Ambient { AMBIENT_NIGHT, AMBIENT_TWILIGHT, AMBIENT_DAY, AMBIENT_SUN } Ambient;
 extern const char *const ambient_names[4]; /* "night", "twilight", "day", "sun" */

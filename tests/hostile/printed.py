@@ -21,12 +21,13 @@ from report import Report  # noqa: E402
 from review import EPW, PANEL, dashboard, weather_row  # noqa: E402
 
 # Erases the line, goes back, colours, begins a link (OSC 8), turns the direction of reading,
-# begins a line of its own.
+# shows nothing, begins a line of its own.
 FORGED = "forged: passes"
 CODES = ("\x1b[2K\r\b\x7f\x9b1A\u0085\u061c\u200e\u200f\u2028\u2029\u202a\u202e\u2066\u2069"
+         "\u00ad\u200b\u2060\ufeff"
          f"\x1b]8;;file:x\x07\t\n{FORGED}\v\f")
-OBEYED = re.compile("[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069"
-                    "\ufffe\uffff]")
+OBEYED = re.compile("[\x00-\x1f\x7f-\x9f\u00ad\u061c\u180e\u200b\u200e\u200f\u2028-\u202e"
+                    "\u2060-\u206f\ufeff\ufff9-\ufffb\ufffe\uffff]")
 NO_UTF8 = "\udcff\udc9b"  # as Python has bytes that are none
 
 

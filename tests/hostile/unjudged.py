@@ -5,6 +5,7 @@ which the profile has no limit. Each is "cannot be judged" with its reason, on t
 page, in JSON and in JUnit, with status 1; what need not be seen, or is not asked, does not
 count.
 """
+import html
 import json
 import os
 import re
@@ -106,6 +107,11 @@ def check_hidden(report, reviews):
     report.claim("Cannot be judged" in summary and "0.00 : 1" not in summary and
                  "0 : 1" not in re.sub("<svg.*?</svg>", "", summary, flags=re.S) and
                  "What mends it" not in summary, "hidden: the summary")
+    alone = asked(sensitivity={"peak": {"brightness": 0.5, "display": "*", "range": [1, 2]}})
+    del alone["symbols"]["letter"]
+    done = reviews.run(alone, "--mend", "peak")
+    report.claim(done.returncode == 1 and "no margin is known" in done.stdout and
+                 "nearest" not in done.stdout, f"hidden, mended: {done.stdout}")
 
 
 def check_optional(report, reviews):
@@ -138,6 +144,33 @@ def check_optional_that_fails(report, reviews):
     report.claim(case["verdict"] == "fail" and done.returncode == 1, f"seen: {case['verdict']}")
 
 
+def check_partly_hidden(report, reviews):
+    """A plate half way to the eye, its edge's shadow at a share of the bar: of a half and less
+    nobody reads it; what is judged says how much of it is hidden."""
+    sweep = {"name": "suns", "level": "low", "sweep": {"sky": "sky", "sun": {
+        "azimuth_deg": [0, 0, 1], "elevation_deg": [30, 30, 1]}}}
+    for cover in (0.25, 0.75, 0.97):
+        edge = (-0.075 + 0.05 * cover + 0.02) / 2
+        write_scene(reviews.folder, [(POST[0], [edge - 0.045, 0.005, 0.35], 0.45)])
+        both = asked()
+        both["conditions"].append(sweep)
+        done, found, headline, is_green = reviews.review(both)
+        cases = found["cases"] + [s["worst"] for s in found["sweeps"]]
+        for case in (c for c in cases if c["symbol"] == "bar"):
+            report.claim(abs(case["visible_share"] - 1 + cover) < 0.02,
+                         f"{cover} hidden: seen {case['visible_share']}")
+            is_hidden = cover > 0.5
+            report.claim((case["reason"] == "hidden") == is_hidden and
+                         (case["contrast_ratio"] is None) == is_hidden and
+                         not case["remedies"],
+                         f"{cover} hidden: {case['verdict']}, {case['contrast_ratio']}")
+        if cover < 0.5:
+            report.claim("plate 0 (post) hides 25" in done.stdout, done.stdout)
+        else:
+            report.claim(done.returncode == 1 and not is_green and
+                         "more than 50 % is required" in headline, headline)
+
+
 def check_hidden_sweep(report, reviews):
     """Seen from behind, also by a box of places: none of them reads it."""
     write_scene(reviews.folder)
@@ -148,7 +181,8 @@ def check_hidden_sweep(report, reviews):
         "places": {"centre_m": [0, 0, -0.7], "half_size_m": [0.05, 0.05, 0],
                    "grid": [2, 2, 1]}})
     done, found, headline, _ = reviews.review(document)
-    report.claim(done.returncode == 1 and "its own back" in headline, f"behind: '{headline}'")
+    report.claim(done.returncode == 1 and "the display's own back" in html.unescape(headline),
+                 f"behind: '{headline}'")
     for worst in (s["worst"] for s in found["sweeps"]):
         report.claim(worst["reason"] == "hidden" and worst["contrast_ratio"] is None and
                      worst["limit"] is None and worst["hidden_by"],
@@ -253,8 +287,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         reviews = Reviews(os.path.abspath(sys.argv[1]), folder)
         for check in (check_hidden, check_optional, check_optional_that_fails,
-                      check_hidden_sweep, check_panel, check_data, check_data_of_variants,
-                      check_limits, check_older):
+                      check_partly_hidden, check_hidden_sweep, check_panel, check_data,
+                      check_data_of_variants, check_limits, check_older):
             check(report, reviews)
     report.finish()
 

@@ -276,7 +276,7 @@ static Outlook look_out(World *world)
 {
     static ReadingTools tools;
     tools = tools_of(2);
-    OutlookAsk ask = {&world->context, &tools, vec3(0, 0, 0), vec3(0, 0, 1),
+    OutlookAsk ask = {&world->context, &tools, vec3(0, 0, 1e-4f), vec3(0, 0, 1),
                       outlook_up(vec3(0, 0, 1)), eye};
     return outlook_take(&ask, &world->arena);
 }

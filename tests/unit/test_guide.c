@@ -408,4 +408,18 @@ ARENA_TEST(a_field_with_impossible_lamps_is_refused)
     unlink(path);
 }
 
+/* Of a file whose hash is right. */
+ARENA_TEST(children_that_are_nowhere_are_refused)
+{
+    const uint32_t wrong[] = {UINT32_MAX, UINT32_MAX - 1, 2 * CELLS - 1, 2 * CELLS - 2, 2, 1};
+    LightGuide    *guide = odd_guide(&arena);
+    char           path[] = "test_guide.field";
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        guide->nodes[2].child = wrong[i];
+        assert_done(guide_write(path, guide, arena, &err));
+        refused(path, &has_none, "node 2 of 5 does not part its box", arena);
+    }
+    unlink(path);
+}
+
 TEST_PROGRAM(make_arena, drop_arena)

@@ -294,7 +294,9 @@ ARENA_TEST(nothing_visible_is_no_verdict_on_legibility)
     c.visible_share = 0;
     assert_int_equal(judged(c, NULL, 0, false, &arena).verdict, VERDICT_UNJUDGED);
     c = case_of(9, 0);
-    c.visible_share = 0.01;
+    c.visible_share = 0.5; /* of 38 a 3 is left */
+    assert_unjudged(judged(c, &limit, 1, false, &arena), UNJUDGED_HIDDEN);
+    c.visible_share = 0.51;
     assert_int_equal(judged(c, &limit, 1, false, &arena).verdict, VERDICT_PASS);
 }
 

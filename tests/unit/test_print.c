@@ -8,12 +8,16 @@
 
 /* ---- what is obeyed ---------------------------------------------------------------------- */
 
-/* Unicode's general category Cc, Zl and Zp, and the characters of UAX 9's tables 1 to 3. */
-static bool is_obeyed(unsigned code)
+/* Unicode's general category Cc, Zl and Zp, the characters of UAX 9's tables 1 to 3, and of
+ * category Cf what shows nothing and joins no letters. */
+static bool is_escaped(unsigned code)
 {
     static const unsigned LISTED[] = {0x61c,  0x200e, 0x200f, 0x2028, 0x2029, 0x202a,
                                       0x202b, 0x202c, 0x202d, 0x202e, 0x2066, 0x2067,
-                                      0x2068, 0x2069, 0xfffe, 0xffff};
+                                      0x2068, 0x2069, 0xfffe, 0xffff, 0xad,   0x180e,
+                                      0x200b, 0x2060, 0x2061, 0x2062, 0x2063, 0x2064,
+                                      0x206a, 0x206b, 0x206c, 0x206d, 0x206e, 0x206f,
+                                      0xfeff, 0xfff9, 0xfffa, 0xfffb};
     bool is = code < 0x20 || (code >= 0x7f && code < 0xa0);
     for (size_t i = 0; i < sizeof LISTED / sizeof *LISTED; i++) is = is || code == LISTED[i];
     return is;
@@ -28,7 +32,7 @@ ARENA_TEST(a_character_is_itself_or_its_escape)
         snprintf(escape, sizeof escape, "\\u%04X", code);
         Arena scratch = arena;
         assert_string_equal(arena_printable(&scratch, bytes),
-                            is_obeyed(code) ? escape : bytes);
+                            is_escaped(code) ? escape : bytes);
     }
 }
 

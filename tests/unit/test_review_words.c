@@ -132,6 +132,7 @@ TEST(what_cannot_be_judged_says_what_would_have_it_judged)
         ReviewCase *c = &review.cases[0];
         c->verdict = VERDICT_UNJUDGED;
         c->unjudged = ROWS[i].why;
+        c->visible_share = ROWS[i].why != UNJUDGED_HIDDEN;
         c->panel = (CasePanel){.verdict = "not usable", .reason = "63 % of the samples",
                                .is_unusable = true};
         ReviewFacts facts = review_facts_of(&review, c, NULL, &arena);

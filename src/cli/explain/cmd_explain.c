@@ -238,8 +238,8 @@ static void print_text(const Explained *explained, Arena *arena)
     print_where(&explained->of);
     if (explained->of.hider_count)
         print("hidden     %s\n", words_hiders(&explained->of, arena));
-    if (!(explained->of.visible_share > 0)) {
-        print("nothing of it is seen\n");
+    if (!review_is_seen(explained->of.visible_share)) {
+        print("%s\n", words_unjudged(&explained->of, arena));
         return;
     }
     print_light(explained, *arena);

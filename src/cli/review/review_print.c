@@ -40,11 +40,13 @@ static void print_case(const ReviewCase *c, Arena scratch)
 {
     print("%-16s %s, %s, %s", verdict_names[c->verdict], c->condition, c->eye, c->symbol);
     print_judged(c, &scratch);
-    if (c->visible_share > 0)
+    if (review_is_seen(c->visible_share))
         print(", reflected %s cd/m2",
               interval_text(c->luminance_cd_m2.reflected, c->reflected_range.low,
                             c->reflected_range.high, &scratch));
     print_whole(c, &scratch);
+    if (c->hider_count && review_is_seen(c->visible_share))
+        print("; %s", words_hiders(c, &scratch));
     print("%s%s\n", words_precision(c, &scratch), words_decide(c, &scratch));
 }
 

@@ -272,7 +272,7 @@ void case_hiders(const SymbolSurface *surface, const PathContext *context, Vec3 
     SymbolHiding hiding = symbol_hiding(surface, context, eye, arena);
     CaseHider   *list = ARENA_NEW(arena, CaseHider, scene->part_count + 1);
     c->hider_count = 0;
-    add_hider(list, &c->hider_count, "its own back, which is turned to the eye",
+    add_hider(list, &c->hider_count, "the display's own back",
               hiding.turned_away);
     for (int i = 0; i < scene->part_count; i++)
         if (hiding.by_part[i] > 0)

@@ -191,7 +191,7 @@ static ReviewCase judged_leaning(const Remedying *m, double back_deg, uint32_t s
                                  ReadingGoal goal)
 {
     const RemedyAsk *ask = m->ask;
-    Arena            own = arena_reserve((size_t)1 << 24);
+    Arena            own = arena_reserve((size_t)1 << 28);
     LeaningAsk       how = {ask->aim->context, ask->display, ask->middle.ns, ask->forward};
     LeaningDisplay  *leaning = display_leaning(&how, back_deg, &own);
     SymbolSurface    surface = *ask->look.surface;

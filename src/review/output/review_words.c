@@ -380,13 +380,20 @@ const char *words_precision(const ReviewCase *c, Arena *arena)
                         words_share(c->precision_asked, arena));
 }
 
+static const char *words_seen(const ReviewCase *c, Arena *arena)
+{
+    if (!(c->visible_share > 0)) return "nothing of it is seen";
+    return arena_format(arena, "%s of it is seen, more than %s is required",
+                        words_share(c->visible_share, arena), words_share(SEEN_LEAST, arena));
+}
+
 const char *words_unjudged(const ReviewCase *c, Arena *arena)
 {
     const LimitVerdict *limit = case_worst_limit(c);
     switch (c->unjudged) {
     case UNJUDGED_HIDDEN:
-        return arena_format(arena, "nothing of it is seen%s%s%s", c->hider_count ? ": " : "",
-                            words_hiders(c, arena),
+        return arena_format(arena, "%s%s%s%s", words_seen(c, arena),
+                            c->hider_count ? ": " : "", words_hiders(c, arena),
                             c->is_optional ? "; this eye need not see it" : "");
     case UNJUDGED_PANEL:
         return arena_format(arena, "the panel of its display says of itself that it is not "
@@ -547,10 +554,13 @@ const char *words_mend(const ReviewMend *m, Arena *arena)
     const ReviewTrial *at = trial_at(m, m->value);
     const char *margin = at ? words_margin(at->margin, arena) : "–";
     const char *value = value_words(m, m->value, arena);
+    if (!m->is_found && (!at || isnan(at->margin)))
+        return arena_format(arena, "%s: no value that was tried makes everything pass: no "
+                            "margin is known, what is asked cannot be judged", m->name);
     if (!m->is_found)
         return arena_format(arena, "%s: no value that was tried makes everything pass; nearest "
                             "came %s: least margin %s%s%s", m->name, value, margin,
-                            at && at->worst ? ", " : "", at && at->worst ? at->worst : "");
+                            at->worst ? ", " : "", at->worst ? at->worst : "");
     if (isnan(m->outside))
         return arena_format(arena, "%s: everything passes as it stands, at %s", m->name, value);
     return arena_format(arena, "%s: with %s instead of %.3g everything passes, its least "

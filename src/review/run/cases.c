@@ -317,8 +317,8 @@ static void keep_reading(const Reading *reading, const CaseLook *look, ReviewCas
     c->visibility = visibility_of(c, &look->symbol->split);
 }
 
-/* *c holds all that does not depend on the eye. The aim has no targets where nothing is
- * visible; *direct: of what is reflected. */
+/* *c holds all that does not depend on the eye. The aim has no targets where it is not
+ * seen; *direct: of what is reflected. */
 static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
                            DirectSun *direct, Arena *arena)
 {
@@ -328,7 +328,7 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
         symbol_visibility(&symbol->surface, &setup->context, look->eye, NULL);
     c->visible_share = seen.visible_share;
     start_look(tools, look, c, arena);
-    if (!(seen.visible_share > 0)) return (ProbeAim){.target_count = 0};
+    if (!review_is_seen(seen.visible_share)) return (ProbeAim){.target_count = 0};
     SymbolLook shown = {&symbol->surface, &symbol->split, look->eye, setup->tools.threads};
     SymbolEmission emission = symbol_emission(&shown, c->level);
     set_shown(&c->luminance_cd_m2, &emission, seen.transmittance);

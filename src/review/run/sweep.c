@@ -135,8 +135,7 @@ static SweepSun refine(const SweepReport *to, const Sight *sight, SweepSun sun)
 {
     for (int round = 0;; round++) {
         Arena     scratch = to->scratch;
-        SweepSuns near =
-            sweep_suns_about(to->sweep->setup->condition, &sun, round, &scratch);
+        SweepSuns near = sweep_suns_about(to->sweep->setup->condition, &sun, round, &scratch);
         if (near.count < 2) return sun;
         sun = near.list[judge_others(to, sight, &near, &scratch).worst];
     }
@@ -218,18 +217,19 @@ static void set_when(const SweepReport *to, const SweepSun *sun, ReviewCase *c)
 static ReviewCase hidden_case(const SweepReport *to, const Sight *sight,
                               const ReviewSweep *sweep)
 {
-    const ReviewRequest *request = to->sweep->run->request;
-    ReviewCase c = review_case_unknown();
+    const Sweep *of = to->sweep;
+    ReviewCase   c = review_case_unknown();
     c.condition = sweep->condition;
     c.eye = sweep->eye;
     c.symbol = sweep->symbol;
     c.display = sight->symbol->display_name;
     c.panel = symbol_panel(sight->symbol, to->arena);
-    c.is_optional = review_is_optional(request, sight->symbol->symbol_id, sight->eye);
+    c.is_optional = review_is_optional(of->run->request, sight->symbol->symbol_id, sight->eye);
     if (review_eye_is_wide(sight->eye)) c.eye_failed_share = 1;
-    if (!(sight->seen.visible_share > 0))
-        case_hiders(&sight->symbol->surface, &to->sweep->setup->context, sight->from, &c,
-                    to->arena);
+    if (!review_is_seen(sight->seen.visible_share)) {
+        c.visible_share = sight->seen.visible_share;
+        case_hiders(&sight->symbol->surface, &of->setup->context, sight->from, &c, to->arena);
+    }
     return c;
 }
 

@@ -115,7 +115,8 @@ static void aim_sight(Sweep *sweep, Sight *sight, Arena *arena)
     sight->probe.aim =
         (ProbeAim){.context = &setup->context, .eye = sight->from,
                    .seed = review_seed(setup->request, EYE_SEED)};
-    symbol_aim(surface, is_visible, arena, &sight->probe.aim);
+    if (review_is_seen(sight->seen.visible_share))
+        symbol_aim(surface, is_visible, arena, &sight->probe.aim);
     if (!sight->probe.aim.target_count) return;
     LightParts *parts = ARENA_NEW(arena, LightParts, 1);
     *parts = symbol_parts(sight->symbol, &sight->probe.aim, SUN_PATHS, arena);
