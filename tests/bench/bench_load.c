@@ -95,7 +95,7 @@ static void make_context(Bench *bench, Arena *arena)
 
 static bool measure(Bench *bench, Arena *arena, Error *err)
 {
-    const TrainOptions train = {bench->kernel, bench->threads};
+    const TrainOptions train = {bench->kernel, bench->threads, false};
     PathStatistics     ignored = {0};
     begin(bench);
     end(bench, "start");

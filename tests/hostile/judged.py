@@ -184,9 +184,10 @@ class Page:
             cells = cells_of(row)
             if len(cells) >= 8:
                 self.list[cells[1].split("nothing")[0].strip(), cells[2]] = cells
-        grid = re.search(r'<div class="grid">(.*?)</table>', text, re.S)
-        self.grid = re.findall(r'<td class="(\w+)"><a[^>]*title="(.*?)"><b>(.*?)</b>',
-                               grid.group(1) if grid else "", re.S)
+        grid = re.search(r'<div class="grid[^"]*">(.*?)</table>', text, re.S)
+        self.grid = re.findall(
+            r'<td class="(\w+)"><a[^>]*title="([^"]*)"><i>.*?</i>\s*<b>(.*?)</b>',
+            grid.group(1) if grid else "", re.S)
         self.cards = {}
         for kind, body in re.findall(r'<details class="case (\w+)"[^>]*>(.*?)</summary>', text,
                                      re.S):
