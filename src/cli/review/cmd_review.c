@@ -453,7 +453,7 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
     if (!review_check(&request, *arena, err) ||
         (folder.target && !review_files_check(folder.target, &request, *arena, err)))
         return false;
-    WorkPlan all = work_of_review(&request, folder.mend != NULL);
+    WorkPlan all = work_of_review(&request, folder.mend);
     Work     work = work_start(words->cli.progress, &all);
     ReviewRun run = {.request = &request, .profile = profile,
                      .means = {.root = words->root, .state = words->state,

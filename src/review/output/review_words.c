@@ -533,12 +533,15 @@ const char *words_empty_seat(const ReviewCase *c, Arena *arena)
                         words_share(c->empty_seat_share, arena));
 }
 
-/* The last trial at a value: one by fresh paths overrides. NULL: there is none. */
+/* Of the trials at a value, by the same paths and by fresh ones, that of the least margin.
+ * NULL: there is none. */
 static const ReviewTrial *trial_at(const ReviewMend *mend, double value)
 {
     const ReviewTrial *found = NULL;
-    for (int i = 0; i < mend->trial_count; i++)
-        if (mend->trials[i].value == value) found = &mend->trials[i];
+    for (int i = 0; i < mend->trial_count; i++) {
+        const ReviewTrial *trial = &mend->trials[i];
+        if (trial->value == value && !(found && trial->margin >= found->margin)) found = trial;
+    }
     return found;
 }
 

@@ -151,12 +151,22 @@ static int varied(const ReviewRequest *request)
     return count;
 }
 
-WorkPlan work_of_review(const ReviewRequest *request, bool mend)
+WorkPlan work_of_trial(const ReviewRequest *request, const ReviewParameter *parameter)
 {
-    int      runs = varied(request) + (mend ? WORK_TRIALS : 0), worst = request->frames.worst;
+    WorkPlan plan = work_of_conditions(request, true);
+    if (parameter->kind == PARAMETER_BRIGHTNESS)
+        plan.of[WORK_RESPONSE] = plan.of[WORK_METER] = plan.of[WORK_OWN] = 0;
+    return plan;
+}
+
+WorkPlan work_of_review(const ReviewRequest *request, const ReviewParameter *mend)
+{
+    int      worst = request->frames.worst;
     WorkPlan all = work_of_conditions(request, false);
     WorkPlan bare = work_of_conditions(request, true);
-    work_plan_add(&all, &bare, runs);
+    WorkPlan trial = mend ? work_of_trial(request, mend) : (WorkPlan){{0}};
+    work_plan_add(&all, &bare, varied(request));
+    work_plan_add(&all, &trial, WORK_TRIALS);
     all.of[WORK_FRAME] = worst * work_of_frame(request, WORK_FRAME);
     all.of[WORK_LAYERS] = worst * work_of_frame(request, WORK_LAYERS);
     all.of[WORK_PAIR] =

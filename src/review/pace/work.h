@@ -90,5 +90,9 @@ WorkPlan work_of_conditions(const ReviewRequest *request, bool is_bare);
 /* How many values --mend is thought to try. */
 #define WORK_TRIALS 10
 
-/* Variants, sensitivities and pictures included; mend: the search of --mend, too. */
-WorkPlan work_of_review(const ReviewRequest *request, bool mend);
+/* A value of a parameter that is tried: of brightness alone by the review's own responses. */
+WorkPlan work_of_trial(const ReviewRequest *request, const ReviewParameter *parameter);
+
+/* Variants, sensitivities and pictures included; mend: the parameter of --mend, whose search
+ * is, too; or NULL. */
+WorkPlan work_of_review(const ReviewRequest *request, const ReviewParameter *mend);

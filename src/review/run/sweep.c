@@ -20,6 +20,8 @@
 #define WORST_READ 3          /* steps that are read again, at most */
 #define WORST_APART_DEG 5.0   /* the suns of two of them, at least: a response's angular
                                  resolution */
+#define REFINED 4             /* steps about which the worst is looked for, at most */
+#define REFINED_APART_DEG 3.0 /* the suns of two of them, at least */
 #define PICK_SEED 0x40000000u
 #define SWEEP_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
 
@@ -130,14 +132,23 @@ static SunFigures judge_others(const SweepReport *to, const Sight *sight, const 
     return figures;
 }
 
-/* Where about a sun it is worst. */
-static SweepSun refine(const SweepReport *to, const Sight *sight, SweepSun sun)
+/* A sun about a step, and the margin there, as the probes tell it. */
+typedef struct Refined {
+    SweepSun sun;
+    double   margin;
+} Refined;
+
+/* Where about a step it is worst. */
+static Refined refine(const SweepReport *to, const Sight *sight, const SunFigures *figures,
+                      int step)
 {
+    Refined at = {to->suns->list[step], (double)figures->margin[step]};
     for (int round = 0;; round++) {
         Arena     scratch = to->scratch;
-        SweepSuns near = sweep_suns_about(to->sweep->setup->condition, &sun, round, &scratch);
-        if (near.count < 2) return sun;
-        sun = near.list[judge_others(to, sight, &near, &scratch).worst];
+        SweepSuns near = sweep_suns_about(to->sweep->setup->condition, &at.sun, round, &scratch);
+        if (near.count < 2) return at;
+        SunFigures of = judge_others(to, sight, &near, &scratch);
+        at = (Refined){near.list[of.worst], (double)of.margin[of.worst]};
     }
 }
 
@@ -268,18 +279,43 @@ static const LimitVerdict *const *limits_asked(const SweepReport *to, const Sigh
     return asked;
 }
 
-/* The worst of those that fail for sure and lie far from all that were read; -1: none. */
-static int next_failing(const SweepReport *to, const SunFigures *figures, const SweepSun *read,
-                        int count)
+/* Steps that lie far from others. */
+typedef struct FarSteps {
+    double apart_deg;
+    bool   fail; /* for sure; else whatever their verdict */
+} FarSteps;
+
+/* The worst of them; -1: none. */
+static int next_far(const SweepReport *to, const SunFigures *figures, FarSteps of,
+                    const SweepSun *others, int count)
 {
     int next = -1;
     for (int sun = 0; sun < to->suns->count; sun++) {
-        bool is_new = figures->verdict[sun] == VERDICT_FAIL;
+        bool is_new = !of.fail || figures->verdict[sun] == VERDICT_FAIL;
         for (int i = 0; i < count && is_new; i++)
-            is_new = sun_distance_deg(&to->suns->list[sun], &read[i]) > WORST_APART_DEG;
+            is_new = sun_distance_deg(&to->suns->list[sun], &others[i]) > of.apart_deg;
         if (is_new && sun_figures_is_worse(figures, sun, next)) next = sun;
     }
     return next;
+}
+
+/* Of the worst steps that lie apart the one about which it is worst: a sun's image that one
+ * step all but meets is worse than what another meets halfway. */
+static SweepSun refine_worst(const SweepReport *to, const Sight *sight,
+                             const SunFigures *figures)
+{
+    const FarSteps of = {REFINED_APART_DEG, false};
+    SweepSun       steps[REFINED];
+    Refined        worst = refine(to, sight, figures, figures->worst);
+    steps[0] = to->suns->list[figures->worst];
+    for (int i = 1; i < REFINED; i++) {
+        int step = next_far(to, figures, of, steps, i);
+        if (step < 0) break;
+        steps[i] = to->suns->list[step];
+        Refined other = refine(to, sight, figures, step);
+        if (other.margin < worst.margin) worst = other;
+    }
+    return worst.sun;
 }
 
 /* The worst of many steps has the worst luck, too: the reported one is read afresh. Where that
@@ -289,11 +325,12 @@ static int next_failing(const SweepReport *to, const SunFigures *figures, const 
 static bool find_worst(SweepReport *to, const Sight *sight, const SunFigures *figures,
                        SweepSun *worst, ReviewCase *out, Error *err)
 {
+    const FarSteps failing = {WORST_APART_DEG, true};
     SweepSun   read[WORST_READ];
     ReviewCase found = *out;
     int        sun = figures->worst;
     for (int i = 0; i < WORST_READ && sun >= 0; i++) {
-        read[i] = refine(to, sight, to->suns->list[sun]);
+        read[i] = i ? refine(to, sight, figures, sun).sun : refine_worst(to, sight, figures);
         if (!read_worst(to, sight, &read[i], i > 0, &found, err)) return false;
         bool fails = found.verdict == VERDICT_FAIL;
         if (i && fails && !read_worst(to, sight, &read[i], false, &found, err)) return false;
@@ -303,7 +340,7 @@ static bool find_worst(SweepReport *to, const Sight *sight, const SunFigures *fi
             *worst = read[i];
         }
         if (fails) return true;
-        sun = next_failing(to, figures, read, i + 1);
+        sun = next_far(to, figures, failing, read, i + 1);
     }
     return true;
 }

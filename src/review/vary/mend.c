@@ -200,7 +200,7 @@ bool review_mend(const ReviewRun *run, const ReviewParameter *parameter,
 {
     Review *review = &outcome->review;
     Mending m = {.run = run, .parameter = parameter, .base = review, .arena = arena,
-                 .trial = work_of_conditions(run->request, true), .to_come = WORK_TRIALS};
+                 .trial = work_of_trial(run->request, parameter), .to_come = WORK_TRIALS};
     m.out = (ReviewMend){.name = parameter->name,
                          .unit = review_parameter_unit(parameter, &m.scale),
                          .trials = ARENA_NEW(arena, ReviewTrial, TRIALS_MOST)};
