@@ -53,7 +53,7 @@ SunFigures sun_figures_start(int count, Arena *arena)
 }
 
 /* Worse: by its verdict, then by its margin, then by its contrast. */
-bool sun_figures_is_worse(const SunFigures *figures, int sun, int than)
+static bool is_worse(const SunFigures *figures, int sun, int than)
 {
     if (than < 0) return true;
     int rank = verdict_rank(figures->verdict[sun]);
@@ -62,6 +62,32 @@ bool sun_figures_is_worse(const SunFigures *figures, int sun, int than)
     float margin = figures->margin[sun], before = figures->margin[than];
     if (!isnan(margin) && !isnan(before) && margin != before) return margin < before;
     return figures->contrast[sun] < figures->contrast[than];
+}
+
+int sun_figures_next(const SunFigures *figures, const SweepSuns *suns, FarSteps of,
+                     const SweepSun *others, int count)
+{
+    int next = -1;
+    for (int sun = 0; sun < suns->count; sun++) {
+        bool is_new = !of.fail || figures->verdict[sun] == VERDICT_FAIL;
+        for (int i = 0; i < count && is_new; i++)
+            is_new = sweep_suns_apart_deg(&suns->list[sun], &others[i]) > of.apart_deg;
+        if (is_new && is_worse(figures, sun, next)) next = sun;
+    }
+    return next;
+}
+
+const LimitVerdict *const *sun_figures_limits(const Sight *sight, const Profile *profile,
+                                              Arena *arena)
+{
+    const LimitVerdict **asked = ARENA_NEW(arena, const LimitVerdict *, AMBIENT_COUNT);
+    for (int ambient = 0; ambient < AMBIENT_COUNT; ambient++) {
+        ReviewCase c = {.ambient = (Ambient)ambient, .visible_share = sight->seen.visible_share,
+                        .height_arcmin = sight->height_arcmin};
+        judge_case(&c, profile, arena);
+        asked[ambient] = c.limit_id >= 0 ? &c.limits[c.limit_id] : NULL;
+    }
+    return asked;
 }
 
 #define JUDGE_CHUNK 256 /* suns of one piece of work */
@@ -110,7 +136,7 @@ void sun_figures_judge(const Sweep *sweep, const Sight *sight, const DistantTool
     parallel_for(threads, (count + JUDGE_CHUNK - 1) / JUDGE_CHUNK, judge_chunk, &work);
     for (int i = 0; i < threads; i++) arena_release(&work.scratch[i]);
     for (int sun = 0; sun < count; sun++)
-        if (sun_figures_is_worse(figures, sun, figures->worst)) figures->worst = sun;
+        if (is_worse(figures, sun, figures->worst)) figures->worst = sun;
 }
 
 /* By its figure, and for sure. */

@@ -14,7 +14,19 @@ SunFigures sun_figures_start(int count, Arena *arena);
 void sun_figures_judge(const Sweep *sweep, const Sight *sight, const DistantTools *tools,
                        SunFigures *figures, Arena room);
 
-bool sun_figures_is_worse(const SunFigures *figures, int sun, int than);
+/* Steps whose suns lie apart from others'. */
+typedef struct FarSteps {
+    double apart_deg; /* at least */
+    bool   fail;      /* those that fail for sure; else whatever their verdict */
+} FarSteps;
+
+/* The worst of them; -1: none. */
+int sun_figures_next(const SunFigures *figures, const SweepSuns *suns, FarSteps of,
+                     const SweepSun *others, int count);
+
+/* [ambient] the contrast limit that is asked of a sight; NULL: none. */
+const LimitVerdict *const *sun_figures_limits(const Sight *sight, const Profile *profile,
+                                              Arena *arena);
 
 /* StepState's (suns/failures.h). */
 void sun_figures_states(const SunFigures *figures, int count, unsigned char *states);

@@ -145,7 +145,8 @@ static Refined refine(const SweepReport *to, const Sight *sight, const SunFigure
     Refined at = {to->suns->list[step], (double)figures->margin[step]};
     for (int round = 0;; round++) {
         Arena     scratch = to->scratch;
-        SweepSuns near = sweep_suns_about(to->sweep->setup->condition, &at.sun, round, &scratch);
+        SweepSuns near =
+            sweep_suns_about(to->sweep->setup->condition, &at.sun, round, &scratch);
         if (near.count < 2) return at;
         SunFigures of = judge_others(to, sight, &near, &scratch);
         at = (Refined){near.list[of.worst], (double)of.margin[of.worst]};
@@ -256,60 +257,17 @@ static ReviewSweep sweep_of(const SweepReport *to, const Sight *sight)
     return sweep;
 }
 
-/* Between where two suns stand as the vehicle sees them. */
-static double sun_distance_deg(const SweepSun *a, const SweepSun *b)
-{
-    double up_a = radians_from_degrees(a->elevation_deg);
-    double up_b = radians_from_degrees(b->elevation_deg);
-    double turn = radians_from_degrees(a->azimuth_deg - b->azimuth_deg);
-    double cosine = sin(up_a) * sin(up_b) + cos(up_a) * cos(up_b) * cos(turn);
-    return degrees_from_radians(acos(fmin(fmax(cosine, -1), 1)));
-}
-
-/* The contrast limit that is asked under each ambient. */
-static const LimitVerdict *const *limits_asked(const SweepReport *to, const Sight *sight)
-{
-    const LimitVerdict **asked = ARENA_NEW(to->arena, const LimitVerdict *, 4);
-    for (int ambient = 0; ambient < 4; ambient++) {
-        ReviewCase c = {.ambient = (Ambient)ambient, .visible_share = sight->seen.visible_share,
-                        .height_arcmin = sight->height_arcmin};
-        judge_case(&c, to->sweep->run->profile, to->arena);
-        asked[ambient] = c.limit_id >= 0 ? &c.limits[c.limit_id] : NULL;
-    }
-    return asked;
-}
-
-/* Steps that lie far from others. */
-typedef struct FarSteps {
-    double apart_deg;
-    bool   fail; /* for sure; else whatever their verdict */
-} FarSteps;
-
-/* The worst of them; -1: none. */
-static int next_far(const SweepReport *to, const SunFigures *figures, FarSteps of,
-                    const SweepSun *others, int count)
-{
-    int next = -1;
-    for (int sun = 0; sun < to->suns->count; sun++) {
-        bool is_new = !of.fail || figures->verdict[sun] == VERDICT_FAIL;
-        for (int i = 0; i < count && is_new; i++)
-            is_new = sun_distance_deg(&to->suns->list[sun], &others[i]) > of.apart_deg;
-        if (is_new && sun_figures_is_worse(figures, sun, next)) next = sun;
-    }
-    return next;
-}
-
 /* Of the worst steps that lie apart the one about which it is worst: a sun's image that one
  * step all but meets is worse than what another meets halfway. */
 static SweepSun refine_worst(const SweepReport *to, const Sight *sight,
                              const SunFigures *figures)
 {
-    const FarSteps of = {REFINED_APART_DEG, false};
+    const FarSteps apart = {REFINED_APART_DEG, false};
     SweepSun       steps[REFINED];
     Refined        worst = refine(to, sight, figures, figures->worst);
     steps[0] = to->suns->list[figures->worst];
     for (int i = 1; i < REFINED; i++) {
-        int step = next_far(to, figures, of, steps, i);
+        int step = sun_figures_next(figures, to->suns, apart, steps, i);
         if (step < 0) break;
         steps[i] = to->suns->list[step];
         Refined other = refine(to, sight, figures, step);
@@ -340,7 +298,7 @@ static bool find_worst(SweepReport *to, const Sight *sight, const SunFigures *fi
             *worst = read[i];
         }
         if (fails) return true;
-        sun = next_far(to, figures, failing, read, i + 1);
+        sun = sun_figures_next(figures, to->suns, failing, read, i + 1);
     }
     return true;
 }
@@ -350,9 +308,10 @@ static void add_table(const SweepReport *to, const Sight *sight, const SunFigure
 {
     int id = (int)(sight - to->sweep->sights);
     if (to->sweep->run->base) return; /* variants have no tables */
+    const Profile *profile = to->sweep->run->profile;
     to->tables[id] = (SweepTable){to->first + id, *worst, to->suns, *figures,
                                   sight->shown.foreground, sight->shown.background,
-                                  limits_asked(to, sight)};
+                                  sun_figures_limits(sight, profile, to->arena)};
 }
 
 /* A variant's figures, whose tables nobody asks for, last as long as the scratch. asked: the

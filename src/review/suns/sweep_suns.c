@@ -211,6 +211,15 @@ SweepSuns sweep_suns_later(const ReviewCondition *c, SweepSun *list, int count, 
     return suns_of(&(SunList){.list = list, .count = count}, arena);
 }
 
+double sweep_suns_apart_deg(const SweepSun *a, const SweepSun *b)
+{
+    double up_a = radians_from_degrees(a->elevation_deg);
+    double up_b = radians_from_degrees(b->elevation_deg);
+    double turn = radians_from_degrees(a->azimuth_deg - b->azimuth_deg);
+    double cosine = sin(up_a) * sin(up_b) + cos(up_a) * cos(up_b) * cos(turn);
+    return degrees_from_radians(acos(fmin(fmax(cosine, -1), 1)));
+}
+
 /* ---- words ------------------------------------------------------------------------------- */
 
 const char *sweep_suns_when(const ReviewCondition *condition, const SweepSuns *suns,

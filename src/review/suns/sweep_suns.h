@@ -52,3 +52,6 @@ SweepSuns sweep_suns_later(const ReviewCondition *condition, SweepSun *list, int
 /* Date, time and heading of one of them; NULL: a sweep without times. */
 const char *sweep_suns_when(const ReviewCondition *condition, const SweepSuns *suns,
                             const SweepSun *sun, Arena *arena);
+
+/* Between where two suns stand as the vehicle sees them. */
+double sweep_suns_apart_deg(const SweepSun *a, const SweepSun *b);
