@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "text/interval_text.h"
 
 static const char BETWEEN[] = " +- "; /* interval_text's */
@@ -27,7 +28,7 @@ static const char *signed_words(double value, double half, double least, Arena *
 /* What an effect that may be 0 does not exceed, up to its next second digit. */
 static const char *at_most_words(double most, Arena *arena)
 {
-    double place = pow(10, floor(log10(most)) - 1);
+    double place = pow_d(10, floor(log10_d(most)) - 1);
     double up = place * ceil(most / place - 1e-9);
     return arena_format(arena, up < 100 ? "%.2g" : "%.0f", up);
 }
