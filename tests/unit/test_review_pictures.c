@@ -127,7 +127,8 @@ TEST(a_variants_row_shows_what_moves_most_and_the_least)
     assert_non_null(strstr(row, words_case(after, &arena)));
     assert_non_null(strstr(row, words_case(&changed.cases[3], &arena)));
     assert_non_null(strstr(row, "2.0 % of the time; 0.5 % of the sun&#39;s directions"));
-    after->unjudged = UNJUDGED_HIDDEN; /* it moves more than any figure can */
+    after->unjudged = UNJUDGED_HIDDEN;
+    after->visible_share = 0; /* it moves more than any figure can */
     after->verdict = VERDICT_UNJUDGED;
     all[2].margin = -9;
     row = strstr(page_of(&(ReviewPage){.review = &review}), "<b>hood</b>");

@@ -280,11 +280,15 @@ static void add_grid(Text *html, const Review *review, Arena *arena)
     page_table_begin(html, "", "matrix", columns, eyes + 1);
     add_rows(html, review, &grid, rows, eyes, arena);
     page_table_end(html);
-    if (rows < grid.symbols.count || eyes < grid.eyes.count)
+    if (eyes < grid.eyes.count)
         page_element(html, "p class=\"sub\"",
                      arena_format(arena, "The worst %d of %d symbols, as the worst %d of %d "
                                   "eyes see them; all stand below.", rows, grid.symbols.count,
                                   eyes, grid.eyes.count));
+    else if (rows < grid.symbols.count)
+        page_element(html, "p class=\"sub\"",
+                     arena_format(arena, "The worst %d of %d symbols; all stand below.", rows,
+                                  grid.symbols.count));
     page_element(html, "p class=\"sub\"", count_words(review, arena));
     text_add(html, "</div>\n");
 }

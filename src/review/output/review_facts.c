@@ -98,8 +98,11 @@ static const char *unjudged_words(const Review *review, const ReviewCase *of, Ar
         same += c->unjudged == of->unjudged;
     }
     if (!count) return name;
-    return arena_format(arena, "%s, and %d other%s, of which %d for the same reason", name,
-                        count, count == 1 ? "" : "s", same);
+    const char *others = arena_format(arena, "%s, and %d other%s", name, count,
+                                      count == 1 ? "" : "s");
+    return same == count ? arena_format(arena, "%s for the same reason", others)
+                         : arena_format(arena, "%s, of which %d for the same reason", others,
+                                        same);
 }
 
 static void add_unjudged(ReviewFacts *facts, const Review *review, const ReviewCase *c,

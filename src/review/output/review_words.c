@@ -194,6 +194,7 @@ const char *words_ratio_as(const ReviewCase *c, double ratio, Arena *arena)
 const char *words_judged(const ReviewCase *c, Arena *arena)
 {
     const LimitVerdict *limit = case_worst_limit(c);
+    if (c->unjudged == UNJUDGED_HIDDEN && c->visible_share > 0) return "mostly hidden";
     if (c->unjudged) return unjudged_names[c->unjudged];
     return limit ? words_quantity(limit, arena) : words_contrast(c, arena);
 }
