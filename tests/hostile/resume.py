@@ -21,6 +21,7 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
 sys.path.insert(0, os.path.join(ROOT, "tests", "image"))
 from gltf import Scene  # noqa: E402
 from report import Report  # noqa: E402
+from running import Running  # noqa: E402
 from words import unless_given  # noqa: E402
 
 FILE_LIMIT = 40000  # bytes: room for the little frame, none for its checkpoint
@@ -44,24 +45,14 @@ def contents(path):
         return file.read()
 
 
-class Work:
+class Work(Running):
     """A folder with a scene, and the renders in it. `common` are options of all of them."""
 
     def __init__(self, report, program, folder, *common):
         self.report, self.program, self.folder, self.common = report, program, folder, common
         write_scene(self.path("scene.gltf"))
         self.names = set(os.listdir(folder))
-        self.started = []
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        """Whatever a claim or a timeout left running ends."""
-        for running in self.started:
-            if running.poll() is None:
-                running.kill()
-                running.communicate()
+        super().__init__()
 
     def path(self, name):
         return os.path.join(self.folder, name)

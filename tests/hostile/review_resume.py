@@ -21,6 +21,7 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
 sys.path.insert(0, os.path.join(ROOT, "tests", "image"))
 from report import Report  # noqa: E402
 from review import PANEL, dashboard, moment, request  # noqa: E402
+from running import Running  # noqa: E402
 
 FILE_LIMIT = 20000  # bytes: room for what a review finds, none for its page
 PATIENCE_S = 300
@@ -69,23 +70,13 @@ def is_of_review(path):
     return not path.startswith(("unfinished", "responses"))
 
 
-class Work:
+class Work(Running):
     def __init__(self, report, program, folder):
         self.report, self.program, self.folder = report, os.path.abspath(program), folder
-        self.started = []
+        super().__init__()
         shutil.copy(PANEL, self.path("ips.panel"))
         cabin().write(self.path("dash.gltf"))
         self.ask(document("suns"))
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        """Whatever a claim or a timeout left running ends."""
-        for running in self.started:
-            if running.poll() is None:
-                running.kill()
-                running.communicate()
 
     def path(self, *names):
         return os.path.join(self.folder, *names)
