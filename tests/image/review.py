@@ -354,8 +354,9 @@ def weather_row(month, day, label, direct, diffuse, _):
 
 def check_weather(report, reviewer, count):
     """Hours of a weather file along a route, and each as a moment of its own, traced in full:
-    the same within three standard errors (of paths and response) or 2 %. The file has no other
-    hours; each instant lies half an hour before its label."""
+    within three standard errors (of paths and response) or 2 % of what a moment's worst part
+    reflects, or between that and the symbol's mean, as which a step counts all but the sun. The
+    file has no other hours; each instant lies half an hour before its label."""
     hours = weather_hours(count)
     times = [f"2026-{h[0]:02}-{h[1]:02}T{h[2] - 1:02}:30:00+01:00" for h in hours]
     with open(os.path.join(reviewer.folder, "w.epw"), "w", encoding="utf-8") as file:
@@ -378,7 +379,8 @@ def check_weather(report, reviewer, count):
         low, high = case["contrast_interval"]
         sigma = math.hypot((high - low) / 4 / case["contrast_ratio"],
                            review["responses"][0]["relative_error"])
-        report.claim(close(found, wanted, max(0.02, 3 * sigma)),
+        mean, share = case["symbol_mean"]["reflected"], max(0.02, 3 * sigma)
+        report.claim((1 - share) * min(mean, wanted) <= found <= (1 + share) * wanted,
                      f"hour {hour}: {found:.5g} in the sweep, {wanted:.5g} by itself "
                      f"({found / wanted - 1:+.4f}, sigma {sigma:.4f})")
     worst = review["sweeps"][0]["worst"]
