@@ -9,11 +9,15 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/sampler.h"
+#include "estimate/estimate.h"
+#include "estimate/estimate_plan.h"
 #include "render/signals.h"
 #include "review/light/question.h"
 #include "review/light/response_suns.h"
 
 #define BATCHES READING_BATCHES
+#define PILOT_REACH 4 /* estimate_plan.h */
+#define PILOT_SEED 0x70696c6fu
 #define PIECE 64 /* paths that are looked at together */
 
 /* Moments of light x that no level changes and light y of displays: sums of x^i y^k over paths,
@@ -107,48 +111,43 @@ static void read_batch(void *user, int item, int worker)
     }
 }
 
-static void add_known(double known, Reading *to)
+static Estimate estimate_in(const Reading *reading, double known)
 {
-    double error = RESPONSE_MIRROR_ERROR * known;
-    to->reflected += known;
-    to->mirror += known;
-    to->sigma = hypot(to->sigma, error);
-    to->interval.low += known - 2 * error;
-    to->interval.high += known + 2 * error;
+    return (Estimate){.mean = reading->reflected, .sigma = reading->sigma,
+                      .interval = reading->interval, .bright = reading->bright,
+                      .counted = (double)reading->paths * reading->found_share,
+                      .known_sigma = RESPONSE_MIRROR_ERROR * known};
 }
 
-/* bright_missing of the paths that found the display; repeated: so many times the paths. */
-static double missing(const Reading *reading, double repeated)
+static void put_estimate(const Estimate *estimate, Reading *to)
 {
-    return bright_missing(&reading->bright, (double)reading->paths * reading->found_share,
-                          repeated);
+    to->reflected = estimate->mean;
+    to->sigma = estimate->sigma;
+    to->interval = estimate->interval;
 }
 
-/* paths: in each batch. */
+/* paths: in each batch. Those count that found the display. */
 static Reading reading_of(const Batch batches[BATCHES], int paths, double known)
 {
-    BatchSums sums = {0};
-    Reading   reading = {.paths = (long)paths * BATCHES};
-    double    mirror = 0, found = 0;
+    EstimateSums sums = {.batches = BATCHES, .paths = (long)paths * BATCHES, .piece = 1};
+    Reading      reading = {.paths = sums.paths};
+    double       mirror = 0, found = 0;
     for (int i = 0; i < BATCHES; i++) {
-        batch_add(&sums, batches[i].reflected / paths);
+        sums.batch[i] = batches[i].reflected;
         mirror += batches[i].mirror;
         found += (double)batches[i].found;
-        reading.bright.squares += batches[i].bright.squares;
-        reading.bright.fourths += batches[i].bright.fourths;
+        sums.bright.squares += batches[i].bright.squares;
+        sums.bright.fourths += batches[i].bright.fourths;
     }
+    reading.bright = sums.bright;
     if (!(found > 0)) return reading;
-    MeanInterval interval = batch_interval(&sums);
-    double   share = found / (double)reading.paths;
-    reading.found_share = share;
-    reading.reflected = sums.sum / BATCHES / share;
-    reading.mirror = mirror / found;
-    reading.sigma = batch_error(&sums) / share;
-    reading.interval = (MeanInterval){fmax(interval.low, 0) / share, interval.high / share};
-    reading.interval.high += missing(&reading, 1);
+    sums.share = reading.found_share = found / (double)reading.paths;
+    Estimate estimate = estimate_of(&sums);
+    estimate_add_known(&estimate, known, RESPONSE_MIRROR_ERROR * known);
+    put_estimate(&estimate, &reading);
+    reading.mirror = mirror / found + known;
     for (int i = 0; i < BATCHES; i++)
-        reading.batches[i] = batches[i].reflected / paths / share + known;
-    add_known(known, &reading);
+        reading.batches[i] = estimate_batch(&sums, i) + known;
     return reading;
 }
 
@@ -256,55 +255,50 @@ static Reading take_plain(const ProbeAim *aim, const ReadingGoal *goal,
 
 /* ---- a pilot, and what it asks for ------------------------------------------------------- */
 
-/* The fresh reading by so many paths that the pilot predicts: its interval is as wide as paths
- * make it, and lies somewhere in the pilot's. */
-static Reading expected(const Reading *pilot, const ReadingGoal *goal, long paths)
+/* A pilot, and what would do. */
+typedef struct PilotWork {
+    Stream             stream;
+    const ReadingGoal *goal;
+    Reading            reading;
+    Arena              scratch;
+} PilotWork;
+
+static void read_pilot(void *user, long paths)
 {
-    double  scale = sqrt((double)pilot->paths / (double)paths);
-    double  known = RESPONSE_MIRROR_ERROR * goal->known;
-    double  sampled = sqrt(fmax(pilot->sigma * pilot->sigma - known * known, 0));
-    Reading fresh = *pilot;
-    fresh.sigma = hypot(sampled * scale, known);
-    fresh.interval.low -= (pilot->reflected - pilot->interval.low) * scale;
-    fresh.interval.high +=
-        (pilot->interval.high - missing(pilot, 1) - pilot->reflected) * scale +
-        missing(pilot, (double)paths / (double)pilot->paths);
-    fresh.interval.low = fmax(fresh.interval.low, 0);
-    return fresh;
+    PilotWork *work = user;
+    work->reading = stream_read(&work->stream, paths, work->goal);
 }
 
-/* The fewest that will do; the most there are, where none will. */
-static long paths_wanted(const Reading *pilot, const ReadingGoal *goal, Arena scratch)
+static bool will_do(void *user, long pilot, long paths)
 {
-    long paths = READING_ASKED_LEAST;
-    for (; 2 * paths <= goal->most; paths *= 2) {
-        Reading fresh = expected(pilot, goal, paths);
-        if (is_sure(&fresh, goal) || is_decided(&fresh, goal, scratch)) break;
-    }
-    return paths;
+    PilotWork *work = user;
+    Estimate   now = estimate_in(&work->reading, work->goal->known);
+    Estimate   then = estimate_expected(&now, (double)paths / (double)pilot);
+    Reading    fresh = work->reading;
+    put_estimate(&then, &fresh);
+    return is_sure(&fresh, work->goal) || is_decided(&fresh, work->goal, work->scratch);
 }
 
-/* A pilot grows until it asks for no more than so many times its own paths: the number that a
- * shorter one finds is too uncertain, and a longer one would cost more than it saves. */
-#define PILOT_REACH 4
-#define PILOT_SEED 0x70696c6fu
+static EstimatePlan plan_of(PilotWork *work)
+{
+    return (EstimatePlan){.pilot = READING_PILOT, .least = READING_ASKED_LEAST,
+                          .most = work->goal->most, .reach = PILOT_REACH, .user = work,
+                          .read_pilot = read_pilot, .will_do = will_do};
+}
 
 static Reading take_asked(const ProbeAim *aim, const ReadingGoal *goal,
                           const ReadingTools *tools, ReadingParts *parts, Arena scratch)
 {
-    Stream fresh = stream_start(aim, tools, &scratch);
-    Stream first = stream_start(aim, tools, &scratch);
-    first.aim.seed = hash_combine(hash_u32(aim->seed), PILOT_SEED);
-    Reading pilot = stream_read(&first, READING_PILOT, goal);
-    long    wanted = paths_wanted(&pilot, goal, scratch);
-    while (wanted > PILOT_REACH * pilot.paths) {
-        pilot = stream_read(&first, 2 * pilot.paths, goal);
-        wanted = paths_wanted(&pilot, goal, scratch);
-    }
-    if (goal->times > 1) wanted *= goal->times;
-    Reading reading = stream_read(&fresh, wanted > goal->least ? wanted : goal->least, goal);
+    Stream    fresh = stream_start(aim, tools, &scratch);
+    PilotWork work = {stream_start(aim, tools, &scratch), goal, {0}, {0}};
+    work.stream.aim.seed = hash_combine(hash_u32(aim->seed), PILOT_SEED);
+    work.scratch = scratch;
+    EstimatePlan plan = plan_of(&work);
+    long         paths = estimate_plan(&plan);
+    if (goal->times > 1) paths *= goal->times;
+    Reading reading = stream_read(&fresh, paths > goal->least ? paths : goal->least, goal);
     if (!parts) return reading;
-    keep_stream(&first, parts->pilot, &parts->pilot_paths);
+    keep_stream(&work.stream, parts->pilot, &parts->pilot_paths);
     keep_stream(&fresh, parts->fresh, &parts->paths);
     return reading;
 }
@@ -454,8 +448,10 @@ static bool is_enough(const ReadingParts *parts, const Reading *reading,
                       const ReadingGoal *goal, Arena scratch)
 {
     if (!goal->question) return is_sure(reading, goal) || 2 * reading->paths > goal->most;
-    Reading pilot = reading_of(parts->pilot, parts->pilot_paths, goal->known);
-    return paths_wanted(&pilot, goal, scratch) <= reading->paths;
+    PilotWork    work = {.goal = goal, .scratch = scratch,
+                         .reading = reading_of(parts->pilot, parts->pilot_paths, goal->known)};
+    EstimatePlan plan = plan_of(&work);
+    return estimate_paths(&plan, work.reading.paths) <= reading->paths;
 }
 
 bool reading_scaled(const ProbeAim *aim, const ReadingGoal *goal, const double *scale,

@@ -2,12 +2,10 @@
 /* reading.h -- what a probe reads under the light that is there.
  *
  * Paths go out in rounds, each as long as all before it, until the reading is sure enough.
- * Where a decision depends on it, these are a pilot only: it finds how many paths will do,
- * because the answer is clear then or the reading is sure enough, and so many others, fresh
- * ones, make the reading. One that stops when it pleases is wrong more often than its interval
- * states; so fresh paths, whose number depends on nothing that they find, have an interval that
- * means 95 %. Intervals come from the means of independent batches of paths, and their upper
- * ends from the brightest paths, too (confidence.h).
+ * Where a decision depends on it, these are a pilot only (estimate/estimate_plan.h): it finds
+ * how many paths will do, because the answer is clear then or the reading is sure enough, and
+ * so many others make the reading. Intervals are those of all estimates
+ * (estimate/estimate.h).
  *
  * Where it is asked to stop (render/signals.h), a reading ends at once and means nothing.
  *
@@ -17,10 +15,10 @@
  */
 #pragma once
 #include "base/arena.h"
+#include "estimate/estimate.h"
 #include "kernel/kernel.h"
 #include "review/keep/journal.h"
 #include "review/light/light_parts.h"
-#include "base/confidence.h"
 
 /* A decision that depends on a reading, such as a verdict. */
 typedef struct ReadingQuestion {
@@ -60,8 +58,9 @@ typedef struct ReadingTools {
     JournalKey    base;    /* in the journal's keys (question.h) */
 } ReadingTools;
 
-#define READING_BATCHES 32 /* batches are alike and independent: each has a seed of its own, its
-                              samples are well spread among themselves */
+#define READING_BATCHES ESTIMATE_BATCHES /* batches are alike and independent: each has a
+                                            seed of its own, its samples are well spread
+                                            among themselves */
 
 typedef struct Reading {
     double reflected;      /* Y; of a luxmeter the illuminance */

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "estimate/estimate_plan.h"
+
+long estimate_paths(const EstimatePlan *plan, long pilot)
+{
+    long paths = plan->least;
+    while (2 * paths <= plan->most && !plan->will_do(plan->user, pilot, paths)) paths *= 2;
+    return paths;
+}
+
+long estimate_plan(const EstimatePlan *plan)
+{
+    long pilot = plan->pilot, paths;
+    plan->read_pilot(plan->user, pilot);
+    while ((paths = estimate_paths(plan, pilot)) > plan->reach * pilot) {
+        pilot *= 2;
+        plan->read_pilot(plan->user, pilot);
+    }
+    return paths;
+}

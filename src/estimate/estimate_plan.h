@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* estimate_plan.h -- how many paths an estimate takes.
+ *
+ * A pilot decides it, whose paths are never told: an estimate that stops when it pleases is
+ * wrong more often than its interval states, and one that stops because nothing was found says
+ * that nothing is there. The number hangs on none of the paths that are told; so their interval
+ * means 95 %.
+ *
+ * Threads  the asker's.
+ */
+#pragma once
+#include <stdbool.h>
+
+typedef struct EstimatePlan {
+    long  pilot;       /* its paths, at first */
+    long  least, most; /* that are told: least, doubled as often as it takes, up to most */
+    int   reach;       /* the pilot grows until it asks for no more than so many times its own:
+                          the number that a shorter one finds is too uncertain, a longer one
+                          costs more than it saves */
+    void *user;
+    void (*read_pilot)(void *user, long paths);      /* on, to so many in all */
+    bool (*will_do)(void *user, long pilot, long paths); /* would so many fresh ones, by what
+                                                        the pilot of so many found? */
+} EstimatePlan;
+
+/* Paths that will do, the fewest; the most there are, where none will. */
+long estimate_paths(const EstimatePlan *plan, long pilot);
+
+/* Reads the pilot, and tells how many fresh ones there should be. */
+long estimate_plan(const EstimatePlan *plan);
