@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "base/mathd.h"
+
 static double batch_paths(const EstimateSums *sums, int i)
 {
     long pieces = sums->paths / sums->piece;
@@ -67,9 +69,27 @@ Estimate estimate_expected(const Estimate *pilot, double times)
     double   sampled = sqrt(fmax(pilot->sigma * pilot->sigma - known * known, 0));
     Estimate fresh = *pilot;
     fresh.sigma = hypot(sampled * scale, known);
+    fresh.unmet = pilot->unmet / times;
+    fresh.counted = pilot->counted * times;
     fresh.interval.low -= (pilot->mean - pilot->interval.low) * scale;
     fresh.interval.low = fmax(fresh.interval.low, 0);
     fresh.interval.high +=
         (pilot->interval.high - beyond(pilot, 1) - pilot->mean) * scale + beyond(pilot, times);
     return fresh;
+}
+
+/* None of n is met with the chance (1 - p)^n <= exp(-n p), p that of meeting it: with that of
+ * one end of the interval at the most where p n is more than this. */
+double estimate_unmet(double each, double paths)
+{
+    return paths > 0 ? each * fmin(-log_d(CONFIDENCE_MISS / 2) / paths, 1) : each;
+}
+
+void estimate_sums_add(EstimateSums *to, const EstimateSums *more)
+{
+    double scale = (double)to->paths / (double)more->paths, square = scale * scale;
+    for (int i = 0; i < to->batches; i++) to->batch[i] += scale * more->batch[i];
+    to->bright.squares += square * more->bright.squares;
+    to->bright.fourths += square * square * more->bright.fourths;
+    to->unmet += more->unmet;
 }

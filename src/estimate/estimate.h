@@ -25,7 +25,7 @@ typedef struct EstimateSums {
     int    piece;   /* so many at once: paths is a multiple */
     double share;   /* of paths that count, above 0: the mean is over these; as a rule 1 */
     double unmet;   /* light that may be there although no path met it: what the mean of the
-                       truth may have of it, at most */
+                       truth may have of it, at most (estimate_unmet, or another bound) */
 } EstimateSums;
 
 typedef struct Estimate {
@@ -48,3 +48,9 @@ void estimate_add_known(Estimate *to, double known, double sigma);
 /* By so many times the paths, all fresh: as wide as these make it, about somewhere in this
  * one's interval. */
 Estimate estimate_expected(const Estimate *pilot, double times);
+
+/* Light that other paths find, in as many batches of equal length: it adds to each one's. */
+void estimate_sums_add(EstimateSums *to, const EstimateSums *more);
+
+/* The mean that light of `each` a path may have, although none of `paths` met it. */
+double estimate_unmet(double each, double paths);

@@ -177,6 +177,8 @@ void probe_trace(const ProbeAim *asked, int first, int end, const PathListener *
         PixelRay  pixel = pixel_ray(&by_way.base);
         start_path(aim, path, statistics, &one);
         one.start.collector = &by_way.base;
+        one.start.manner.is_spared = one.start.manner.has_sheets =
+            listener->reach == PATH_BY_MIRRORS;
         if (!aim->meter && pixel_ray_is_wanted(aim->context))
             one.start.collector = &pixel.base;
         go(aim, &one);

@@ -3,11 +3,11 @@
 
 #include <math.h>
 
-#include "base/confidence.h"
 #include "base/parallel.h"
 #include "base/sampler.h"
+#include "estimate/estimate.h"
 
-#define BATCHES 32 /* each with a seed of its own, its samples well spread among themselves */
+#define BATCHES ESTIMATE_BATCHES /* each with a seed of its own, its samples well spread */
 #define POINTS_AT_ONCE 64
 
 typedef struct IlluminanceSums {
@@ -51,27 +51,23 @@ static void measure_batch(void *user, int item, int worker)
     }
 }
 
-/* Batches differ in length: each counts by how much its sum exceeds its share of the total. */
 static Illuminance add_batches(const Meter *meter, int point)
 {
-    Illuminance   total = {0};
-    BatchSums     means = {0};
-    BrightSamples bright = {0};
-    double        samples = (double)meter->options->samples;
-    const IlluminanceSums *sums = meter->sums[point];
-    for (int i = 0; i < BATCHES; i++) {
-        for (int k = 0; k < 3; k++) total.xyz_lx[k] += sums[i].xyz[k] / samples;
-        bright.squares += sums[i].bright.squares;
-        bright.fourths += sums[i].bright.fourths;
+    Illuminance  total = {0};
+    double       samples = (double)meter->options->samples;
+    EstimateSums y = {.batches = meter->options->samples < BATCHES
+                                     ? (int)meter->options->samples : BATCHES,
+                      .paths = meter->options->samples, .piece = 1, .share = 1};
+    for (int i = 0; i < y.batches; i++) {
+        const IlluminanceSums *sums = &meter->sums[point][i];
+        for (int k = 0; k < 3; k++) total.xyz_lx[k] += sums->xyz[k] / samples;
+        y.batch[i] = sums->xyz[1];
+        y.bright.squares += sums->bright.squares;
+        y.bright.fourths += sums->bright.fourths;
     }
-    for (int i = 0; i < BATCHES; i++) {
-        double own = total.xyz_lx[1] * (double)batch_samples(meter->options, i);
-        batch_add(&means,
-                  total.xyz_lx[1] + (sums[i].xyz[1] - own) * BATCHES / samples);
-    }
-    MeanInterval in = batch_interval(&means);
-    total.low_lx = fmax(in.low, 0);
-    total.high_lx = in.high + bright_missing(&bright, samples, 1);
+    MeanInterval in = estimate_of(&y).interval;
+    total.low_lx = in.low;
+    total.high_lx = in.high;
     return total;
 }
 

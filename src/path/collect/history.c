@@ -45,7 +45,7 @@ static void behind(PathCollector *c, PathState *path, const Surface *surface)
 static void turn(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
                  const BsdfSample *next)
 {
-    (void)path, (void)wo;
+    (void)wo;
     PathHistory *history = history_of(c);
     bool      is_across = next->wi.z * surface->local_wo.z < 0;
     if (surface->part_id == NO_ID) return;
@@ -53,9 +53,13 @@ static void turn(PathCollector *c, PathState *path, const Surface *surface, Vec3
                             : is_across     ? PATH_TRANSMITS
                                             : PATH_REFLECTS);
     history->pane_id = NO_ID;
+    const PathListener *listener = ((HistoryCollector *)c)->listener;
+    if (listener && listener->on_mirror && next->is_delta && !is_across)
+        listener->on_mirror(listener->user, history, frame_to_world(&surface->frame, next->wi),
+                            spectrum_max_lane(path->throughput));
 }
 
-/* Of a lit surface the sun alone is asked. */
+/* Of a lit surface the sun alone is asked, or nobody. */
 static bool ask_less(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
                      const Guiding *guiding)
 {
@@ -63,15 +67,17 @@ static bool ask_less(PathCollector *c, PathState *path, const Surface *surface, 
     PathReach          reach = ((HistoryCollector *)c)->listener->reach;
     (void)surface, (void)wo, (void)guiding;
     if (reach == PATH_TO_SUNLIT_SURFACE) path->spare->asked = SUN_ALONE;
-    return reach == PATH_TO_SURFACE;
+    return reach == PATH_TO_SURFACE || reach == PATH_BY_MIRRORS;
 }
 
 static bool refuse_beyond(PathCollector *c, PathState *path, const Surface *surface,
                           const BsdfSample *next)
 {
-    bool is_across = next->is_delta && next->wi.z * surface->local_wo.z < 0;
+    bool      is_across = next->is_delta && next->wi.z * surface->local_wo.z < 0;
+    PathReach reach = ((HistoryCollector *)c)->listener->reach;
     (void)path;
-    return ((HistoryCollector *)c)->listener->reach != PATH_TO_ITS_END && !is_across;
+    if (reach == PATH_BY_MIRRORS) return !next->is_delta;
+    return reach != PATH_TO_ITS_END && !is_across;
 }
 
 /* ---- light ------------------------------------------------------------------------------- */

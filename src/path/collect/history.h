@@ -50,11 +50,17 @@ static inline int path_steps_kept(const PathHistory *history)
 typedef enum PathReach {
     PATH_TO_ITS_END,
     PATH_TO_SUNLIT_SURFACE, /* until a surface scatters or mirrors, which asks the sun alone */
-    PATH_TO_SURFACE         /* or nobody */
+    PATH_TO_SURFACE,        /* or nobody */
+    PATH_BY_MIRRORS         /* from mirror to mirror and through panes, of which thin ones show
+                               both ways always, until a surface scatters; that asks nobody: all
+                               light that comes without being scattered, for little time */
 } PathReach;
 
 typedef struct PathListener {
     void (*on_light)(void *user, const PathHistory *history, const float xyz[3]);
+    /* A mirror, the last step, turned it towards there (unit); the eye sees this share of what
+     * comes from there, in its brightest lane. NULL: nobody wants to know. */
+    void (*on_mirror)(void *user, const PathHistory *history, Vec3 towards, float share);
     void  *user;
     bool   with_lanes;  /* displays' lanes are wanted, too */
     bool   of_emitters; /* it gets these alone */

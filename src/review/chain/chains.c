@@ -386,19 +386,15 @@ static ChainChunk *fresh_sums(int count, const Scene *scene, Arena *arena)
     return sums;
 }
 
-/* Batches of different lengths: each by what it has more than the mean's share of it. */
-static ChainFigure figure_of(const FoundSums *sums, const ChainSearch *search)
+static ChainFigure figure_of(const FoundSums *found, const ChainSearch *search)
 {
-    BatchSums means = {0};
-    int       batches = search->batches;
-    double    paths = (double)search->chunks * CHAIN_CHUNK, mean = sums->sum / paths;
-    for (int i = 0; i < batches; i++) {
-        double own = (double)((search->chunks - i + batches - 1) / batches) * CHAIN_CHUNK;
-        batch_add(&means, mean + (sums->by_batch[i] - mean * own) * batches / paths);
-    }
-    MeanInterval in = batch_interval(&means);
-    return (ChainFigure){mean, batch_error(&means), fmax(in.low, 0),
-                         in.high + bright_missing(&sums->bright, paths, 1)};
+    EstimateSums sums = {.bright = found->bright, .batches = search->batches,
+                         .paths = (long)search->chunks * CHAIN_CHUNK, .piece = CHAIN_CHUNK,
+                         .share = 1};
+    for (int i = 0; i < search->batches; i++) sums.batch[i] = found->by_batch[i];
+    Estimate estimate = estimate_of(&sums);
+    return (ChainFigure){found->sum / (double)sums.paths, estimate.sigma,
+                         estimate.interval.low, estimate.interval.high};
 }
 
 /* Greatest first; of equals the one that was found first. */

@@ -9,7 +9,7 @@
  * error, so that a lucky path is no cause.
  *
  * Errors and 95 % intervals come from the means of CHAIN_BATCHES independent batches of paths,
- * as a reading's do (reading.h); of a pixel, whose paths are its samples, the batches are parts
+ * as all do (estimate/estimate.h); of a pixel, whose paths are its samples, they are parts
  * of these, and errors what they would be if the parts were independent.
  *
  * Units    cd m^-2; metres, scene.
@@ -21,7 +21,7 @@
 #include "review/light/reading.h"
 
 #define CHAIN_CHUNK 64 /* paths of a chunk */
-#define CHAIN_BATCHES 32 /* fewer where there are fewer chunks */
+#define CHAIN_BATCHES ESTIMATE_BATCHES /* fewer where there are fewer chunks */
 #define CHAIN_STEPS 4
 #define CHAIN_RAYS 8
 #define CHAIN_POINTS (PATH_STEPS_MAX + 2)

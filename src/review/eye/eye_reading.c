@@ -2,12 +2,15 @@
 #include "review/eye/eye_reading.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "base/count.h"
 #include "base/parallel.h"
 #include "base/units.h"
+#include "estimate/estimate.h"
 #include "review/eye/glare_field.h"
 #include "review/eye/glare_reading.h"
+#include "review/eye/lamps_unmet.h"
 #include "review/light/question.h"
 #include "vision/eye_spread.h"
 
@@ -17,6 +20,7 @@
 #define SHIFT_SEED 0x73686966u
 #define FROM_DEG 0.1 /* nearer is looked at */
 #define TO_DEG 89.9
+#define IMAGES_APART 2 /* roots of what a path stands for: its neighbours are nearer */
 #define UPRIGHT 0.9999f /* |y| of a unit direction: above it the head has no top */
 
 /* The light that one path finds. The veil of lamps, displays and the sun that the eye sees by
@@ -26,6 +30,9 @@ typedef struct EyePath {
     double apart[EYE_SOURCES]; /* of it, the part that light samples do not read; */
     double told;               /* of the latter, what the rays of glare_field.h tell; */
     double images;             /* and of the glints the sun's */
+    int    lamp;               /* part that was met by mirrors; NO_ID: none */
+    float  share;              /* that its last mirror lets the eye see of what lies there: */
+    Ray    image;              /* (0: it met none) */
 } EyePath;
 
 /* Angles are drawn evenly in their logarithm, as f cos theta sin theta, about 1 / theta, asks;
@@ -99,8 +106,19 @@ static void add_found(void *user, const PathHistory *history, const float xyz[3]
     if (!is_direct || history->source == LIGHTS_SKY)
         path->apart[source_of(history)] += (double)xyz[1];
     if (glare_field_tells(history)) path->told += (double)xyz[1];
-    if (history->source == LIGHTS_SUN && source_of(history) == EYE_GLINTS)
-        path->images += (double)xyz[1];
+    if (source_of(history) != EYE_GLINTS) return;
+    if (history->source == LIGHTS_SUN) path->images += (double)xyz[1];
+    if (history->source == LIGHTS_EMITTERS) path->lamp = history->source_id;
+}
+
+static void note_mirror(void *user, const PathHistory *history, Vec3 towards, float share)
+{
+    EyePath *path = user;
+    if (history->count > PATH_STEPS_MAX) return;
+    for (int i = 0; i < history->count; i++)
+        if (history->step[i].event == PATH_SCATTERS) return;
+    path->share = share;
+    path->image = (Ray){history->step[history->count - 1].position, towards, 0, INFINITY};
 }
 
 static void read_chunk(void *user, int item, int worker)
@@ -109,7 +127,9 @@ static void read_chunk(void *user, int item, int worker)
     EyePaths      *paths = user;
     PathStatistics statistics = {0};
     for (int i = item * CHUNK; i < (item + 1) * CHUNK; i++) {
-        PathListener listener = {.on_light = add_found, .user = &paths->found[i]};
+        PathListener listener = {.on_light = add_found, .on_mirror = note_mirror,
+                                 .user = &paths->found[i]};
+        paths->found[i].lamp = NO_ID;
         paths->setup->tools.kernel->trace(&paths->aim, i, i + 1, &listener, &statistics);
     }
 }
@@ -191,8 +211,8 @@ static PupilSums *read_pupil(const EyePaths *paths, Arena *arena)
 
 typedef struct EyeSums {
     EyeReading   reading;
-    double       veils[EYE_ROUNDS_MOST]; /* one a round */
-    double       image_variance;
+    EstimateSums veil;           /* of paths in batches of rounds */
+    double       image_veil, image_variance;
     double      *rest;       /* [path] for glare: what neither samples nor its rays tell */
     GlareImage  *images;     /* likewise */
     int          image_count;
@@ -202,7 +222,7 @@ typedef struct EyeSums {
 static void add_veil(const EyePaths *paths, int round, EyeSource source, double veil,
                      EyeSums *sums)
 {
-    sums->veils[round] += veil;
+    sums->veil.batch[round] += veil * PATHS;
     sums->reading.parts[source] += veil * PATHS / paths->count;
 }
 
@@ -224,7 +244,7 @@ static void add_path(const EyePaths *paths, int i, EyeSums *sums)
     Vec3   d = direction_of(paths, i);
     bool   is_near = degrees_between(d, paths->gaze) < EYE_NEAR_DEG;
     double weight = paths->solid_angles[i] * (double)vec3_dot(d, paths->gaze);
-    double veil = veil_of(paths, d, weight) * paths->count / PATHS;
+    double veil = veil_of(paths, d, weight) * paths->count / PATHS, all = 0;
     sums->rest[i] = -path->told;
     for (int k = 0; k < EYE_SOURCES; k++) {
         double left = path->apart[k];
@@ -233,7 +253,9 @@ static void add_path(const EyePaths *paths, int i, EyeSums *sums)
         sums->rest[i] += left;
         sums->reading.vertical_lx += left * weight;
         add_veil(paths, i / PATHS, counted_as((EyeSource)k, is_near), left * veil, sums);
+        all += left * veil * PATHS;
     }
+    bright_add(&sums->veil.bright, all);
     sums->rest[i] = fmax(sums->rest[i], 0); /* rounding alone is below */
 }
 
@@ -256,6 +278,7 @@ static void add_image(void *user, const FalseSun *image, double share)
         (GlareImage){image->part_id, image->seen, (float)facing};
     sums->reading.vertical_lx += lux;
     sums->reading.parts[EYE_GLINTS] += veil;
+    sums->image_veil += veil;
     sums->image_variance += veil * veil; /* as if each ray had come by chance */
 }
 
@@ -280,14 +303,66 @@ static void add_pupils(const EyePaths *paths, const PupilSums *pupils, EyeSums *
     }
 }
 
-/* The mean's; NaN for fewer than two values. */
-static double standard_error(const double *values, int count)
+/* A path behind its mirror: what a lamp of 1 cd m^-2 there adds to the veil. */
+typedef struct EyeImage {
+    double veil;
+    int    path;
+} EyeImage;
+
+static int most_first(const void *a, const void *b)
 {
-    double mean = 0, squares = 0;
-    if (count < 2) return (double)NAN;
-    for (int i = 0; i < count; i++) mean += values[i] / count;
-    for (int i = 0; i < count; i++) squares += (values[i] - mean) * (values[i] - mean);
-    return sqrt(squares / (count - 1) / count);
+    const EyeImage *x = a, *y = b;
+    if (x->veil != y->veil) return x->veil < y->veil ? 1 : -1;
+    return x->path - y->path;
+}
+
+static EyeImage *find_images(const EyePaths *paths, int *count, Arena *arena)
+{
+    EyeImage *images = ARENA_NEW(arena, EyeImage, paths->count);
+    *count = 0;
+    for (int i = 0; i < paths->count; i++) {
+        Vec3   d = direction_of(paths, i);
+        double weight = paths->solid_angles[i] * (double)vec3_dot(d, paths->gaze);
+        if (paths->found[i].share > 0)
+            images[(*count)++] =
+                (EyeImage){(double)paths->found[i].share * veil_of(paths, d, weight), i};
+    }
+    if (*count) qsort(images, (size_t)*count, sizeof *images, most_first);
+    return images;
+}
+
+/* What a path may have of a lamp's image that none met: of lamps near its way behind a mirror,
+ * as far as paths stand apart there. */
+static double unmet_veil(const EyePaths *paths, Arena scratch)
+{
+    int       count;
+    bool     *met = ARENA_NEW(&scratch, bool, paths->setup->scene->part_count);
+    EyeImage *images = find_images(paths, &count, &scratch);
+    double    most = 0;
+    for (int i = 0; i < paths->count; i++)
+        if (paths->found[i].lamp != NO_ID) met[paths->found[i].lamp] = true;
+    UnmetLamps lamps = lamps_unmet(paths->setup, met, &scratch);
+    for (int k = 0; k < count && lamps.count; k++) {
+        int    i = images[k].path;
+        double apart = IMAGES_APART * sqrt(paths->solid_angles[i]);
+        if (images[k].veil * lamps.list[0].cd_m2 <= most) break;
+        most = fmax(most, images[k].veil *
+                              lamps_brightest(&lamps, paths->found[i].image, apart));
+    }
+    return estimate_unmet(most * paths->count, paths->count);
+}
+
+/* Rounds are batches. NaN of one. */
+static void set_veil_range(const EyePaths *paths, EyeSums *sums, Arena scratch)
+{
+    EyeReading *out = &sums->reading;
+    out->veil_sigma = out->veil_range.low = out->veil_range.high = (double)NAN;
+    if (sums->veil.batches < 2) return;
+    sums->veil.unmet = unmet_veil(paths, scratch);
+    Estimate veil = estimate_of(&sums->veil);
+    estimate_add_known(&veil, sums->image_veil, sqrt(sums->image_variance));
+    out->veil_sigma = veil.sigma;
+    out->veil_range = veil.interval;
 }
 
 /* The mean luminance about the gaze; the sun's disc is no task. */
@@ -323,15 +398,17 @@ static GlareReading read_glare(const EyePaths *paths, const EyeSums *sums, Arena
 static EyeReading sum_up(const EyePaths *paths, const PupilSums *pupils, Arena scratch)
 {
     int         images = paths->images ? paths->images->count : 0;
-    EyeSums     sums = {.rest = ARENA_NEW(&scratch, double, paths->count),
+    int         rounds = paths->count / PATHS;
+    EyeSums     sums = {.veil = {.batches = rounds, .paths = paths->count, .piece = PATHS,
+                                 .share = 1},
+                        .rest = ARENA_NEW(&scratch, double, paths->count),
                         .images = ARENA_NEW(&scratch, GlareImage, images)};
     EyeReading *r = &sums.reading;
     for (int i = 0; i < paths->count; i++) add_path(paths, i, &sums);
     add_pupils(paths, pupils, &sums);
     add_images(paths, &sums);
     for (int k = 0; k < EYE_SOURCES; k++) r->veil += r->parts[k];
-    r->veil_sigma = hypot(standard_error(sums.veils, paths->count / PATHS),
-                          sqrt(sums.image_variance));
+    set_veil_range(paths, &sums, scratch);
     r->glare = read_glare(paths, &sums, scratch);
     return *r;
 }

@@ -17,11 +17,12 @@
  * Memory       scratch only. Threads: starts its own; the same figures for any count.
  */
 #pragma once
+#include "estimate/estimate.h"
 #include "review/eye/false_suns.h"
 #include "review/eye/glare_table.h"
 
 #define EYE_NEAR_DEG 1.0 /* from the gaze; about the fovea, where the eye sees sharply */
-#define EYE_ROUNDS_MOST 64
+#define EYE_ROUNDS_MOST ESTIMATE_BATCHES
 
 /* Where an eye looks from, and how surely it is to be known: rounds of 4096 paths, which differ
  * in nothing but chance. */
@@ -45,7 +46,8 @@ typedef enum EyeSource {
 
 typedef struct EyeReading {
     double veil;               /* cd m^-2 */
-    double veil_sigma;         /* its standard error; NaN of one round */
+    double veil_sigma;         /* its standard error, */
+    MeanInterval veil_range;   /* and 95 % interval; NaN of one round */
     double parts[EYE_SOURCES]; /* the veil's; they add up to it */
     double vertical_lx;        /* on the pupil's plane, all light */
     GlareReading glare;        /* discomfort */

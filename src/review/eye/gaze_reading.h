@@ -8,19 +8,22 @@
  * it, or there is no pane. Both add up to what a camera would see there, but for the sun's own
  * disc: that one is no background of anything.
  *
+ * A pilot tells how many paths both figures take; fresh ones make them (estimate/estimate.h).
+ * Their upper ends have, besides, what the brightest lamp could send there that no path met,
+ * straight or by mirrors and panes alone.
+ *
  * Units        cd m^-2.
  * Memory       scratch only. Threads: starts its own; the same figures for any count.
  */
 #pragma once
-#include "review/eye/eye_reading.h"
-
-#define GAZE_CONE_DEG EYE_NEAR_DEG /* half its width */
+#include "review/eye/gaze_paths.h"
 
 typedef struct GazeGoal {
     Vec3   eye;       /* m, scene */
     Vec3   towards;   /* any length but 0 */
     double precision; /* relative standard error of both figures, above 0, */
-    int    most;      /* unless it takes more paths than that */
+    int    most;      /* unless it takes more paths than that: so many whole ones, a power of
+                         two from 2048 on */
 } GazeGoal;
 
 /* Where mirrored light comes from: the first surface that the pane shows, or, where it shows
@@ -31,10 +34,14 @@ typedef struct GazeMirrored {
     LightSet source;  /* which is this */
 } GazeMirrored;
 
+typedef struct GazeFound {
+    double       mean, sigma; /* its standard error */
+    MeanInterval interval;    /* 95 % */
+} GazeFound;
+
 typedef struct GazeReading {
-    double       through, through_sigma;   /* sigma: standard errors */
-    double       mirrored, mirrored_sigma;
-    GazeMirrored most;                     /* most of what is mirrored */
+    GazeFound    through, mirrored;
+    GazeMirrored most; /* most of what is mirrored */
 } GazeReading;
 
 GazeReading gaze_read(const Setup *setup, const GazeGoal *goal, Arena scratch);

@@ -290,7 +290,7 @@ static Reading take_asked(const ProbeAim *aim, const ReadingGoal *goal,
                           const ReadingTools *tools, ReadingParts *parts, Arena scratch)
 {
     Stream    fresh = stream_start(aim, tools, &scratch);
-    PilotWork work = {stream_start(aim, tools, &scratch), goal, {0}, {0}};
+    PilotWork work = {.stream = stream_start(aim, tools, &scratch), .goal = goal};
     work.stream.aim.seed = hash_combine(hash_u32(aim->seed), PILOT_SEED);
     work.scratch = scratch;
     EstimatePlan plan = plan_of(&work);

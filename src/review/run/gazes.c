@@ -12,8 +12,6 @@
 #include "review/run/glare_found.h"
 
 #define ROUNDS 16
-#define ROUNDS_HALF 2.131450 /* of a 95 % interval, in standard errors of so many rounds' mean:
-                                Student's distribution, 15 degrees of freedom */
 #define PRECISION 0.01
 #define EYE_BYTES ((size_t)1 << 34) /* of address space */
 #define PATHS_MOST 131072
@@ -30,7 +28,8 @@ static GazeGoal goal_of(Vec3 eye, const ReviewGaze *gaze, int most)
 static double coarse_veil(const Setup *setup, const GazeGoal *goal, Arena scratch)
 {
     EyeLook look = {goal->eye, goal->towards, 1, NULL};
-    return eye_read(setup, &look, scratch).veil + gaze_read(setup, goal, scratch).mirrored;
+    return eye_read(setup, &look, scratch).veil +
+           gaze_read(setup, goal, scratch).mirrored.mean;
 }
 
 static Vec3 worst_point(const Setup *setup, const ReviewGaze *gaze, const Vec3 *points,
@@ -60,30 +59,49 @@ static void name_mirrored(const Setup *setup, const GazeMirrored *most, GazeFind
                              : chain_part_words(setup->scene, most->part_id, arena);
 }
 
-static MeanInterval range_of(double mean, double half)
+/* Light over the thing that is looked at, and its own. */
+typedef struct Veiled {
+    double own, over;
+} Veiled;
+
+static double contrast_left(double own, double over)
 {
-    return (MeanInterval){fmax(mean - half, 0), mean + half};
+    return own + over > 0 ? own / (own + over) : (double)NAN;
 }
 
-/* Standard error of through / all, all = through + veils; the three are read independently. */
-static double contrast_sigma(const GazeReading *along, double all, double veil_sigma)
+/* Of a contrast that falls as one grows and rises as the other: what moving each to an end of
+ * its interval moves it by, together as if by chance (Zou and Donner, Stat. Med. 27 (2008)
+ * 1693-1702, for any function that is monotone). */
+static MeanInterval contrast_range(Veiled at, MeanInterval own, MeanInterval over)
 {
-    double by_veils = along->through * hypot(along->mirrored_sigma, veil_sigma);
-    return hypot((all - along->through) * along->through_sigma, by_veils) / (all * all);
+    double c = contrast_left(at.own, at.over);
+    double low = hypot(c - contrast_left(own.low, at.over),
+                       c - contrast_left(at.own, over.high));
+    double high = hypot(contrast_left(own.high, at.over) - c,
+                        contrast_left(at.own, over.low) - c);
+    return (MeanInterval){fmax(c - low, 0), fmin(c + high, 1)};
 }
 
-static void set_contrasts(const GazeReading *along, double veil_half, GazeFinding *out)
+/* Of a sum of two that are read independently, likewise; from 0 on. */
+static MeanInterval sum_range(double a, MeanInterval of_a, double b, MeanInterval of_b)
 {
-    double seen = along->through + along->mirrored;
-    double all = seen + out->veil - out->veil_parts.near;
-    out->contrast_behind_glass = seen > 0 ? along->through / seen : (double)NAN;
-    out->contrast_left = all > 0 ? along->through / all : (double)NAN;
+    return (MeanInterval){fmax(a + b - hypot(a - of_a.low, b - of_b.low), 0),
+                          a + b + hypot(of_a.high - a, of_b.high - b)};
+}
+
+static void set_contrasts(const GazeReading *along, GazeFinding *out)
+{
+    double seen = along->through.mean + along->mirrored.mean, near = out->veil_parts.near;
+    double veil = out->veil - near;
+    Veiled at = {along->through.mean, along->mirrored.mean + veil};
+    MeanInterval of_veil = {out->veil_range.low - near, out->veil_range.high - near};
+    MeanInterval over =
+        sum_range(along->mirrored.mean, along->mirrored.interval, veil, of_veil);
+    out->contrast_behind_glass = seen > 0 ? along->through.mean / seen : (double)NAN;
+    out->contrast_left = contrast_left(at.own, at.over);
     out->contrast_range = (MeanInterval){(double)NAN, (double)NAN};
-    if (!(all > 0)) return;
-    double half =
-        INTERVAL_SIGMAS * contrast_sigma(along, all, veil_half / INTERVAL_SIGMAS);
-    out->contrast_range = (MeanInterval){fmax(out->contrast_left - half, 0),
-                                  fmin(out->contrast_left + half, 1)};
+    if (at.own + at.over > 0)
+        out->contrast_range = contrast_range(at, along->through.interval, over);
 }
 
 static double sun_from_gaze(const Setup *setup, Vec3 gaze)
@@ -117,20 +135,19 @@ static void read_gaze(const Setup *setup, SunSearches *searches, const GazeGoal 
 {
     EyeReading  eye = read_eye(setup, searches, goal);
     GazeReading along = gaze_read(setup, goal, *arena);
-    double      half = ROUNDS_HALF * eye.veil_sigma;
     out->sun_deg = sun_from_gaze(setup, goal->towards);
     out->veil = eye.veil;
-    out->veil_range = range_of(eye.veil, half);
+    out->veil_range = eye.veil_range;
     out->veil_parts = (GazeVeil){eye.parts[EYE_SUN], eye.parts[EYE_SKY], eye.parts[EYE_LAMPS],
                                  eye.parts[EYE_GLINTS], eye.parts[EYE_SURFACES],
                                  eye.parts[EYE_NEAR]};
     out->cornea_lux = eye.vertical_lx;
     out->glare = glare_found(&eye.glare, &setup->request->glare);
-    out->through = along.through;
-    out->mirrored = along.mirrored;
-    out->mirrored_range = range_of(along.mirrored, INTERVAL_SIGMAS * along.mirrored_sigma);
+    out->through = along.through.mean;
+    out->mirrored = along.mirrored.mean;
+    out->mirrored_range = along.mirrored.interval;
     name_mirrored(setup, &along.most, out, arena);
-    set_contrasts(&along, half, out);
+    set_contrasts(&along, out);
 }
 
 bool setup_gazes(const Setup *setup, const MomentShare *share, SunSearches *searches,
