@@ -14,7 +14,7 @@ keep_steps "$@"
 
 # ---- what depends on what: with a folder all that it includes (tests/structure/steps.py) ----
 build='CMakeLists.txt CMakePresets.json third_party tests/steps.sh tests/structure/report.py'
-base="$build src/print src/base src/text src/spectrum"
+base="$build src/print src/base src/estimate src/text src/spectrum"
 panels="$base src/hemisphere src/image src/panel src/page src/library assets/panels"
 light="$panels src/import src/sky src/scene src/bvh src/light src/mirror src/guide src/camera
     src/path src/film src/kernel src/render shaders"
@@ -144,6 +144,8 @@ run 'doors, mirrored vehicles, mirrored light' changed-long \
     python3 tests/image/changed.py --all $program
 run "another maker's car" other-maker python3 tests/image/other_maker.py $program
 run 'discomfort of every size' glare-sizes python3 tests/image/glare.py --all $program
+run 'intervals of light that is rare' gaze-intervals-long \
+    python3 tests/image/gaze_intervals.py --all $program
 run 'verdicts beside their limits' review-laws python3 tests/image/review_laws.py $program \
     scenes/glance.review.json dimmed 0.4 0.45 0.0025
 run "laws of a whole car's review" review-laws-car \

@@ -57,6 +57,8 @@ start 'a glare review' review python3 tests/image/review.py $program
 start 'a year recounted' year python3 tests/image/year.py $program
 start 'a hunt for wrong answers' hunt python3 tests/hunt/hunt.py --count 3 --unguided $program
 start 'discomfort beside closed forms' glare python3 tests/image/glare.py $program
+start 'intervals of light that is rare' gaze-intervals \
+    python3 tests/image/gaze_intervals.py $program
 start 'symbols that lie half in the sun' worst-part \
     python3 tests/image/worst_part.py $program
 start 'variants of a review' variants python3 tests/image/variants.py $program
