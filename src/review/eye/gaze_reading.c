@@ -14,10 +14,10 @@
 #define MIRROR_SEED 0x6d697272u
 #define LEAST 2048   /* whole paths */
 #define PILOT 1024
-#define REACH 16     /* estimate_plan.h */
+#define REACH 32     /* estimate_plan.h */
 #define MIRRORS 4    /* so many times as many by mirrors, at least: they take a third of the
                         time */
-#define UNMET 0.05   /* of all light there: what lamps may have that no path met */
+#define UNMET 0.1    /* of all light there: what lamps may have that no path met */
 
 /* Paths of both kinds. */
 typedef struct GazePair {
@@ -52,7 +52,7 @@ static void read_whole(void *user, long paths)
 }
 
 /* Of the variance that may be, by mirrors; the rest is left to whole paths, which cost more. */
-#define MIRRORS_SHARE 0.25
+#define MIRRORS_SHARE 0.5
 
 /* One figure of both kinds. */
 typedef struct FigurePair {
