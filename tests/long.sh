@@ -124,6 +124,9 @@ run 'any place, any turn, any order' moved-long python3 tests/image/moved.py --a
 run 'what is learnt moves no mean' guided-long python3 tests/image/guided.py $program
 run 'samples where noise is move no mean' unbiased-long \
     python3 tests/image/unbiased.py $program
+run 'the number of samples moves no mean' noise-stop-long \
+    python3 tests/bench/noise_stop.py $program --seeds 60 --scene satin --goal 0.1 0.05 \
+    --truth 16384 --check
 start 'golden frames, all guided' golden-long python3 tests/image/golden.py --all $program
 start 'same bits, any threads, always guided' bits-long \
     python3 tests/image/bits.py --all $program

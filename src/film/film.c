@@ -304,6 +304,7 @@ FilmPixel film_pixel(const Film *film, int x, int y)
         pixel.mean_xyz[i] = double_from_fixed(sums->xyz[i], FIXED_BITS) / (double)sums->samples;
     pixel_variance(sums, pixel.variance_rgb);
     pixel.sigma_y = pixel_sigma_y(sums);
+    pixel.square_y = pixel_square_y(sums);
     return pixel;
 }
 
@@ -341,7 +342,10 @@ static bool shows(const FilmPixel *pixel, int display)
     return display == FILM_ANY_DISPLAY ? pixel->display_id >= 0 : pixel->display_id == display;
 }
 
-static double mean_error(const Film *film, FilmArea area, double lowest)
+/* One pixel's figure, given Y_low. */
+typedef double PixelFigure(const FilmPixel *pixel, double lowest);
+
+static double mean_of(const Film *film, FilmArea area, double lowest, PixelFigure *figure)
 {
     FilmRect crop = film->crop, rect = area.rect;
     double   sum = 0;
@@ -350,15 +354,40 @@ static double mean_error(const Film *film, FilmArea area, double lowest)
         for (int x = rect.x0 > crop.x0 ? rect.x0 : crop.x0; x < rect.x1 && x < crop.x1; x++) {
             FilmPixel pixel = film_pixel(film, x, y);
             if (!is_seen(film, &pixel) || !shows(&pixel, area.display)) continue;
-            sum += pixel_error(&pixel, lowest);
+            sum += figure(&pixel, lowest);
             count++;
         }
     return count ? sum / (double)count : (double)NAN;
 }
 
+static double mean_error(const Film *film, FilmArea area, double lowest)
+{
+    return mean_of(film, area, lowest, pixel_error);
+}
+
 double film_area_error(const Film *film, FilmArea area)
 {
     return mean_error(film, area, lowest_luminance(film));
+}
+
+static double pixel_spike(const FilmPixel *pixel, double lowest)
+{
+    double s = sqrt(pixel->square_y), others = fmax(pixel->mean_xyz[1] - s, lowest);
+    bool   is_spike = pixel->samples > 1 && s > FILM_SPIKE * pixel->mean_xyz[1] && others > 0;
+    return is_spike ? s / others : 0;
+}
+
+static double pixel_spike_square(const FilmPixel *pixel, double lowest)
+{
+    double spike = pixel_spike(pixel, lowest);
+    return spike * spike;
+}
+
+FilmSpikes film_area_spikes(const Film *film, FilmArea area)
+{
+    double lowest = lowest_luminance(film);
+    return (FilmSpikes){mean_of(film, area, lowest, pixel_spike),
+                        mean_of(film, area, lowest, pixel_spike_square)};
 }
 
 FilmError film_relative_error(const Film *film)

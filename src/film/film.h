@@ -49,6 +49,7 @@ typedef struct FilmPixel {
     double   variance_rgb[3]; /* of the mean, (cd m^-2)^2, as if samples were independent; NaN
                                  below two */
     double   sigma_y;         /* standard error of Y; right in the mean over many pixels */
+    double   square_y;        /* its square, right in the mean: the variance of Y */
     int      display_id;      /* of the lowest sample index that saw a display; -1: none did */
 } FilmPixel;
 
@@ -82,6 +83,17 @@ typedef struct FilmArea {
 
 /* The same mean over an area; NaN where it has no pixel. */
 double film_area_error(const Film *film, FilmArea area);
+
+/* Pixels of which one sample seems to have made the most: s, the root of square_y, is above
+ * FILM_SPIKE of Y. Means over all pixels of the area, of s / max(Y - s, Y_low) where it is so,
+ * else 0, and of its square. */
+#define FILM_SPIKE 0.8
+
+typedef struct FilmSpikes {
+    double mean, square;
+} FilmSpikes;
+
+FilmSpikes film_area_spikes(const Film *film, FilmArea area);
 
 /* One pixel's share in it. One sigma of few halves is itself uncertain: the worst of a million
  * pixels of equal noise is some seven times their mean by chance. */

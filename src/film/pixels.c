@@ -163,3 +163,11 @@ double pixel_sigma_y(const PixelSums *sums)
     pixel_variance(sums, variance_rgb);
     return sigma_of_spread(variance_rgb);
 }
+
+double pixel_square_y(const PixelSums *sums)
+{
+    double halves[3], sigma;
+    if (pixel_halves(sums, BLOCK_SAMPLES, halves)) return halves[1] * halves[1];
+    sigma = pixel_sigma_y(sums);
+    return sigma * sigma;
+}

@@ -112,8 +112,9 @@ typedef struct SecondDisplay {
  * and e, P T - Q^2 = h k d e (d - e)^2 is not 0. */
 SecondDisplay pixel_second_display(const DisplaySums *sums, int first);
 
-/* FilmPixel.sigma_y. */
+/* FilmPixel.sigma_y, square_y. */
 double pixel_sigma_y(const PixelSums *sums);
+double pixel_square_y(const PixelSums *sums);
 
 /* index: row by row of the crop. */
 static inline PixelSums *film_sums_at(const Film *film, size_t index)

@@ -46,16 +46,30 @@ static DisplaySearch find_displays(const Favour *favour, Arena *arena)
     return work.search;
 }
 
+static uint8_t shows_at(const DisplaySearch *search, int x, int y)
+{
+    return search->shows[(size_t)(y - search->rect.y0) * (size_t)columns_of(search->rect) +
+                         (size_t)(x - search->rect.x0)];
+}
+
+uint8_t *favour_shows(const Favour *favour, Arena *arena)
+{
+    FilmRect crop = favour->crop;
+    size_t   pixels = (size_t)columns_of(crop) * (size_t)(crop.y1 - crop.y0);
+    uint8_t *shows = ARENA_NEW(arena, uint8_t, pixels), *next = shows;
+    Arena    scratch = *arena;
+    DisplaySearch search = find_displays(favour, &scratch);
+    for (int y = crop.y0; y < crop.y1; y++)
+        for (int x = crop.x0; x < crop.x1; x++) *next++ = shows_at(&search, x, y);
+    return shows;
+}
+
 /* Edges of a display, where content ends, count as much as what lies within them. */
 static bool shows_near(const DisplaySearch *search, int x, int y)
 {
-    size_t columns = (size_t)columns_of(search->rect);
     for (int j = y - 1; j <= y + 1; j++)
         for (int i = x - 1; i <= x + 1; i++)
-            if (holds(search->rect, i, j) &&
-                search->shows[(size_t)(j - search->rect.y0) * columns +
-                              (size_t)(i - search->rect.x0)])
-                return true;
+            if (holds(search->rect, i, j) && shows_at(search, i, j)) return true;
     return false;
 }
 

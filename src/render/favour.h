@@ -23,5 +23,8 @@ typedef struct Favour {
     int                threads;
 } Favour;
 
+/* Of each of the crop's pixels, row by row: 1: it shows the area's display. */
+uint8_t *favour_shows(const Favour *favour, Arena *arena);
+
 /* Of the crop's pixels. */
 SampleShares favour_shares(const Favour *favour, Arena *arena);

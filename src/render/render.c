@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "render/render.h"
 
-#include <math.h>
 #include <stdatomic.h>
 
 #include "base/file.h"
@@ -11,44 +10,15 @@
 #include "guide/guide_file.h"
 #include "light/light.h"
 #include "render/favour.h"
-#include "render/forecast.h"
 #include "render/pilot.h"
 #include "render/signals.h"
 #include "render/train.h"
-
-#define PASS_PATHS ((size_t)1 << 22) /* of one pass at most, where a pixel gets more than one */
-#define PASS_SAMPLES_MAX 16u
 
 /* ---- passes ------------------------------------------------------------------------------ */
 
 static size_t pixel_count(FilmRect crop)
 {
     return (size_t)(crop.x1 - crop.x0) * (size_t)(crop.y1 - crop.y0);
-}
-
-uint32_t render_pass_samples(uint32_t done, size_t pixels)
-{
-    size_t   fits = PASS_PATHS / pixels;
-    uint32_t most = fits < 1 ? 1 : fits > PASS_SAMPLES_MAX ? PASS_SAMPLES_MAX : (uint32_t)fits;
-    uint32_t end = 0;
-    while (end < most && end <= done) end += end < 1 ? 1 : end;
-    if (end <= done) end += ((done - end) / most + 1) * most;
-    return end - done;
-}
-
-/* The end of the pass, from `done` on, that has `wanted` samples; at most `most`. Passes grow
- * to a size that they keep: a few are counted, the rest is divided. */
-static uint32_t end_of_pass(uint32_t done, double wanted, uint32_t most, size_t pixels)
-{
-    uint64_t end = done;
-    if (!(wanted < most)) return most;
-    for (int i = 0; i < 8 && (double)end < wanted; i++)
-        end += render_pass_samples((uint32_t)end, pixels);
-    if ((double)end < wanted) {
-        double step = render_pass_samples((uint32_t)end, pixels);
-        end += (uint64_t)(ceil((wanted - (double)end) / step) * step);
-    }
-    return end < most ? (uint32_t)end : most;
 }
 
 static PathStatistics with_earlier(PathStatistics sum, const Checkpoint *resume)
@@ -69,7 +39,7 @@ typedef struct Run {
     TileJob       job;
     WorkerCounts *counts;
     Progress      progress;
-    Forecast      forecast;
+    uint32_t      total;        /* samples of the frame in the end */
     atomic_ullong paths_done;   /* of all passes */
     double        checkpoint_s; /* when the last one was written, or the run began */
     RenderResult  result;
@@ -95,22 +65,6 @@ static double paths_of_first(const RenderOptions *options, const SampleShares *s
 {
     return (double)sample_shares_sum(shares, options->crop, options->first_sample,
                                      options->first_sample + samples);
-}
-
-/* Enough samples and little enough noise? Also sets the progress's total by the forecast. */
-static bool noise_reached(Run *run)
-{
-    const RenderOptions *options = run->options;
-    RenderResult        *result = &run->result;
-    if (!(options->noise > 0)) return false;
-    result->noise = film_area_error(result->film, options->noise_area);
-    uint32_t most = options->end_sample - options->first_sample;
-    double   wanted = forecast_samples(&run->forecast, result->samples,
-                                       result->noise / options->noise);
-    wanted = fmax(wanted, RENDER_LEAST_SAMPLES);
-    uint32_t end = end_of_pass(result->samples, wanted, most, pixel_count(options->crop));
-    run->progress.total = paths_of_first(options, &result->shares, end);
-    return result->samples >= RENDER_LEAST_SAMPLES && result->noise <= options->noise;
 }
 
 static void finish_result(Run *run)
@@ -155,15 +109,26 @@ static void show_pass(Run *run)
     options->pass_ended(options->user, &run->result, &run->progress);
 }
 
+static void judge_noise(const RenderOptions *options, RenderResult *result)
+{
+    FilmSpikes spikes = film_area_spikes(result->film, options->noise_area);
+    result->noise = film_area_error(result->film, options->noise_area);
+    result->noise_doubt = noise_stop_doubt(&result->stop, spikes, result->samples);
+}
+
+bool render_noise_is_rare(const RenderResult *result)
+{
+    return noise_stop_is_rare(&result->stop, result->noise, result->noise_doubt);
+}
+
 static void run_passes(Run *run)
 {
     const RenderOptions *options = run->options;
-    uint32_t total = options->end_sample - options->first_sample;
+    uint32_t total = run->total;
     size_t   pixels = pixel_count(options->crop);
     atomic_store(&run->paths_done,
                  (uint64_t)paths_of_first(options, &run->result.shares, run->result.samples));
-    if (run->result.samples)
-        run->result.complete = noise_reached(run) || run->result.samples == total;
+    run->result.complete = run->result.samples >= total;
     while (!run->result.complete && !run->result.stopped_by) {
         uint32_t done = run->result.samples, samples = render_pass_samples(done, pixels);
         if (samples > total - done) samples = total - done;
@@ -173,7 +138,7 @@ static void run_passes(Run *run)
         run->result.stopped_by = signals_stop_requested();
         if (options->stops_at_once && run->result.stopped_by) return;
         run->result.samples = done + samples;
-        run->result.complete = noise_reached(run) || run->result.samples == total;
+        run->result.complete = run->result.samples == total;
         take_snapshot(run);
         keep_checkpoint(run);
         show_pass(run);
@@ -181,6 +146,7 @@ static void run_passes(Run *run)
     progress_end(&run->progress, (double)atomic_load(&run->paths_done));
     finish_result(run);
     run->result.error = film_relative_error(run->result.film);
+    if (options->noise > 0) judge_noise(options, &run->result);
 }
 
 unsigned render_layers(const Scene *scene, unsigned layers)
@@ -211,7 +177,8 @@ static void render_film(const RenderSetup *setup, const RenderOptions *options, 
                         RenderResult *result)
 {
     Run    run = {.options = options, .result = *result};
-    uint32_t total = options->end_sample - options->first_sample;
+    run.total = options->noise > 0 ? result->stop.samples
+                                   : options->end_sample - options->first_sample;
     run.job = (TileJob){.context = &setup->context,
                         .camera = &setup->camera,
                         .film = result->film,
@@ -222,7 +189,7 @@ static void render_film(const RenderSetup *setup, const RenderOptions *options, 
                         .seed = options->seed,
                         .shares = result->shares};
     run.counts = ARENA_NEW(arena, WorkerCounts, options->threads);
-    double most = paths_of_first(options, &result->shares, total);
+    double most = paths_of_first(options, &result->shares, run.total);
     run.progress = options->within
                        ? progress_part(options->within, options->within_weight, most)
                        : progress_start(options->progress, "render", "samples", most);
@@ -324,6 +291,19 @@ static SampleShares find_shares(const RenderSetup *setup, const RenderOptions *o
     return options->favours_noise ? pilot_shares(&pilot, arena) : favour_shares(&favour, arena);
 }
 
+static NoiseStop find_stop(const RenderSetup *setup, const RenderOptions *options,
+                           const SampleShares *shares, Arena *arena)
+{
+    const NoiseAsk ask = {
+        .kernel = setup->kernel, .context = &setup->context, .camera = &setup->camera,
+        .crop = options->crop, .area = options->noise_area, .shares = *shares,
+        .seed = options->seed, .first_sample = options->first_sample,
+        .most = options->end_sample - options->first_sample, .error = options->noise,
+        .threads = options->threads, .stops_at_once = options->stops_at_once,
+        .progress = options->within ? PROGRESS_NONE : options->progress};
+    return noise_stop_find(&ask, arena);
+}
+
 bool render_prepared(const RenderSetup *setup, const RenderOptions *options, Arena *arena,
                      RenderResult *out, Error *err)
 {
@@ -337,6 +317,7 @@ bool render_prepared(const RenderSetup *setup, const RenderOptions *options, Are
     if (!make_film(setup, options, arena, &result, err)) return false;
     const double begun_s = monotonic_seconds();
     result.shares = find_shares(setup, options, arena);
+    if (options->noise > 0) result.stop = find_stop(setup, options, &result.shares, arena);
     result.build_seconds += monotonic_seconds() - begun_s;
     render_film(setup, options, arena, &result);
     *out = result;

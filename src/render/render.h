@@ -3,9 +3,9 @@
  *
  * A pass adds a few samples to every pixel: 1, 1, 2, 4 ... up to a number that depends on the
  * count of pixels alone; of some, a pixel may take a fixed share (favour.h, pilot.h).
- * Only between passes is anything decided (stop, snapshot, noise), so that the frame is the
- * same for any number of threads. Passes end at the same samples wherever a render begins, so
- * that one that goes on from a checkpoint decides what one without interruption decides.
+ * Only between passes is anything decided (stop, snapshot), so that the frame is the same for
+ * any number of threads. How many samples a relative error takes is settled before the first
+ * one by others (noise_stop.h), so that no sample decides about another.
  *
  * Memory   film and lights come from the arena; Embree's memory is gone on return.
  * Threads  starts `threads` of its own for every pass.
@@ -19,6 +19,7 @@
 #include "film/sample_shares.h"
 #include "path/path.h"
 #include "render/checkpoint.h"
+#include "render/noise_stop.h"
 #include "render/tiles.h"
 #include "kernel/kernel.h"
 
@@ -29,8 +30,8 @@ typedef struct RenderOptions {
     FilmRect crop;             /* what is rendered of it */
     uint32_t seed;
     uint32_t first_sample, end_sample; /* half-open; the end is the most that is done */
-    double   noise;            /* stop when the relative error is below; 0: never. Not before
-                                  the frame has RENDER_LEAST_SAMPLES */
+    double   noise;            /* as few samples as leave so much relative error; 0: all.
+                                  How many is found beforehand (noise_stop.h) */
     FilmArea noise_area;       /* whose error decides */
     const FilmArea *favoured;  /* only its pixels take all samples (favour.h); NULL: all do */
     bool     favours_noise;    /* pixels take samples as a pilot found noise (pilot.h) */
@@ -60,8 +61,6 @@ typedef struct RenderOptions {
     const Checkpoint *resume;  /* what was done before; NULL: nothing. It fits these options */
 } RenderOptions;
 
-#define RENDER_LEAST_SAMPLES 16
-
 /* The layers without those that this scene can have nothing for: display.second of a scene of
  * one display or none. */
 unsigned render_layers(const Scene *scene, unsigned layers);
@@ -86,8 +85,10 @@ struct RenderResult {
     double         build_peak_bytes; /* the most memory of the process until they stood */
     PathStatistics statistics;
     FilmError      error;
-    double         noise;      /* the error over options' noise_area; NaN where it is empty */
-    bool           complete;   /* all samples, or the wanted noise */
+    NoiseStop      stop;       /* of options' noise; */
+    double         noise;      /* the error over its area in the end; NaN where it is empty */
+    double         noise_doubt; /* the error that there may be, if light is rare; or NaN */
+    bool           complete;   /* all samples, or those that leave the noise */
     int            stopped_by; /* SIGINT, SIGTERM, SIGHUP or 0 */
 };
 
@@ -122,6 +123,5 @@ bool render_write_checkpoint(const CheckpointName *name, const RenderOptions *op
 
 void render_setup_end(RenderSetup *setup);
 
-/* Samples a pixel of the pass that begins after `done` samples, for so many pixels; where no
- * pass ends at `done`, those that are left of the one that does not. */
-uint32_t render_pass_samples(uint32_t done, size_t pixels);
+/* Of a finished one with noise: whether its error is much less than may be. */
+bool render_noise_is_rare(const RenderResult *result);

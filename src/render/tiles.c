@@ -2,6 +2,8 @@
 #include "render/tiles.h"
 
 #define TILE_SIDE 16                /* pixels: a few milliseconds of work */
+#define PASS_PATHS ((size_t)1 << 22) /* of one pass at most, where a pixel gets more than one */
+#define PASS_SAMPLES_MAX 16u
 
 static int tiles_across(FilmRect crop)
 {
@@ -19,6 +21,16 @@ FilmRect render_tile(FilmRect crop, int index)
     int y0 = crop.y0 + index / tiles_across(crop) * TILE_SIDE;
     return (FilmRect){x0, y0, x0 + TILE_SIDE < crop.x1 ? x0 + TILE_SIDE : crop.x1,
                       y0 + TILE_SIDE < crop.y1 ? y0 + TILE_SIDE : crop.y1};
+}
+
+uint32_t render_pass_samples(uint32_t done, size_t pixels)
+{
+    size_t   fits = PASS_PATHS / pixels;
+    uint32_t most = fits < 1 ? 1 : fits > PASS_SAMPLES_MAX ? PASS_SAMPLES_MAX : (uint32_t)fits;
+    uint32_t end = 0;
+    while (end < most && end <= done) end += end < 1 ? 1 : end;
+    if (end <= done) end += ((done - end) / most + 1) * most;
+    return end - done;
 }
 
 PathStatistics worker_counts_sum(const WorkerCounts *counts, int threads)

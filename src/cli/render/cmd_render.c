@@ -279,15 +279,22 @@ static void warn_of_noise(RenderRun *work, const RenderResult *result)
 {
     const RenderOptions *options = &work->request.render;
     const char *area = frame_area_words(&work->request.noise.of, work->arena);
-    if (!(options->noise > 0) || !result->complete || result->noise <= options->noise) return;
-    warn(work, isnan(result->noise)
-                   ? arena_format(work->arena,
-                                  "nothing of %s is in view: --noise had nothing to go by",
-                                  area)
-                   : arena_format(work->arena,
-                                  "the relative error of %s is %.3g, not the %.3g of --noise, "
-                                  "after all %u samples a pixel",
-                                  area, result->noise, options->noise, result->samples));
+    if (!(options->noise > 0) || !result->complete) return;
+    if (isnan(result->noise))
+        warn(work, arena_format(work->arena,
+                                "nothing of %s is in view: --noise had nothing to go by",
+                                area));
+    else if (!result->stop.reached && result->noise > options->noise)
+        warn(work, arena_format(work->arena,
+                                "the relative error of %s is %.3g, not the %.3g of --noise, "
+                                "after all %u samples a pixel",
+                                area, result->noise, options->noise, result->samples));
+    if (render_noise_is_rare(result))
+        warn(work, arena_format(work->arena,
+                                "rare light: the relative error of %s is not yet known: %.3g "
+                                "is measured, but where single samples bring most of the light "
+                                "it may be %.3g — a smaller --noise takes more samples",
+                                area, result->noise, result->noise_doubt));
 }
 
 /* A crop may well lie beside the area. */

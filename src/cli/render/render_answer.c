@@ -229,6 +229,26 @@ static json_t *favour_document(const RenderRequest *request, const RenderResult 
                      "mean_samples", mean_samples(request, result));
 }
 
+/* What --noise required and what came of it; null: nothing was required. The answer's error is
+ * of the frame's own samples, the pilot's of those that decided. */
+static json_t *noise_document(const RenderRequest *request, const RenderResult *result)
+{
+    const RenderOptions *options = &request->render;
+    const NoiseStop     *stop = &result->stop;
+    bool is_rare = render_noise_is_rare(result);
+    if (!(options->noise > 0)) return json_null();
+    json_t *pilot = json_pack("{s:i, s:o, s:I, s:f}", "pixels", stop->pixels, "relative_error",
+                              json_figure(stop->error), "paths", (json_int_t)stop->paths,
+                              "seconds", stop->seconds);
+    return json_pack("{s:o, s:f, s:b, s:o, s:b, s:o, s:o}", "area",
+                     json_text(request->noise.of.text ? request->noise.of.text : "frame"),
+                     "required",
+                     options->noise, "reached",
+                     !is_rare && (stop->reached || result->noise <= options->noise),
+                     "relative_error", json_figure(result->noise), "rare_light", is_rare,
+                     "error_may_be", json_figure(result->noise_doubt), "pilot", pilot);
+}
+
 static json_t *answer_document(const RenderRequest *request, const RenderResult *result,
                                const Problems *problems)
 {
@@ -250,6 +270,7 @@ static json_t *answer_document(const RenderRequest *request, const RenderResult 
     json_object_set_new(answer, "projection",
                         json_string(render_projection_name(&request->camera)));
     json_object_set_new(answer, "for", favour_document(request, result));
+    json_object_set_new(answer, "noise", noise_document(request, result));
     json_object_set_new(answer, "isa", json_string(result->kernel->isa));
     json_object_set_new(answer, "training", training_document(result));
     json_object_set_new(answer, "resumed_samples", json_integer(result->resumed_samples));
@@ -301,6 +322,18 @@ static void print_fisheye(const RenderRequest *request, const RenderResult *resu
               "are black and have no samples\n", request->output);
 }
 
+/* Of the area whose error was required. */
+static void print_noise(const RenderRequest *request, const RenderResult *result)
+{
+    char error[32], required[32];
+    if (!(request->render.noise > 0) || isnan(result->noise)) return;
+    print("%s: relative error of %s %s, required %s%s\n", request->output,
+          request->noise.of.text ? request->noise.of.text : "the frame",
+          cli_relative_error(result->noise, error, sizeof error),
+          cli_relative_error(request->render.noise, required, sizeof required),
+          render_noise_is_rare(result) ? "; rare light: not yet known" : "");
+}
+
 static void print_line(const RenderRequest *request, const RenderResult *result)
 {
     const PathStatistics *counts = &result->statistics;
@@ -316,6 +349,7 @@ static void print_line(const RenderRequest *request, const RenderResult *result)
           result->seconds, samples, rays,
           cli_relative_error(result->error.frame, error, sizeof error),
           machine_peak_bytes() / 1e6, result->build_peak_bytes / 1e6);
+    print_noise(request, result);
     print_fisheye(request, result);
     if (render_output_is_radiance(request))
         print("%s: W/m2/sr in Radiance's primaries: luminance is 179 (0.265 R + 0.670 G + "

@@ -369,8 +369,8 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
         {"--spp", OPTION_INTEGER, "N", "samples a pixel, at most (default 256)", &typed->spp,
          .low = 1, .high = FILM_SAMPLES_MAX, .given = &typed->has_spp},
         {"--noise", OPTION_TEXT, "[AREA:]R",
-         "stop at this relative error of the frame, or of an AREA: display, display:NAME or "
-         "X0,Y0,X1,Y1",
+         "as many samples as leave this relative error in the frame, or in an AREA: display, "
+         "display:NAME or X0,Y0,X1,Y1; other samples, of some pixels, decide how many",
          &typed->noise},
         {"--for", OPTION_TEXT, "AREA",
          "all samples for this AREA, one of eight for what lies around it; noise: samples "
