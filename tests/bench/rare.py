@@ -105,7 +105,7 @@ def truth_of(bench, room, level):
         return lamp[0], 100 * lamp[1] / lamp[0], of_lamp
     part = lamp[2] if lamp else bench.ask(room.scene(), black_box.environment(), level, {},
                                           (1, 0, []))[0][2:]
-    closed = black_box.closed_form(room, bench.panel, part)
+    closed = black_box.closed_form(room, bench.panel, part, 7)
     words = f"closed form {closed:.5g}"
     if lamp:
         words += f", {of_lamp} ({100 * (lamp[0] / closed - 1):+.2f} %)"
