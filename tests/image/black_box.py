@@ -67,18 +67,20 @@ def rectangle(middle, size):
             middle[0] + size[0] / 2, middle[1] + size[1] / 2)
 
 
-def level_sheet(scene, material, outside, height, hole=None):
-    """A horizontal sheet; with a hole, four pieces about it."""
-    x0, z0, x1, z1 = outside
-    a, c, b, d = hole or (x1, z0, x1, z1)
-    for left, right, far, near in ((x0, a, z0, z1), (b, x1, z0, z1), (a, b, z0, c),
-                                   (a, b, d, z1)):
-        if right > left and near > far:
-            scene.quad(material, [left, height, far], [0, 0, near - far], [right - left, 0, 0])
+def level_sheet(scene, material, outside, height, holes=()):
+    """A horizontal sheet without the holes, in pieces between all their sides."""
+    xs = sorted({outside[0], outside[2], *(h[k] for h in holes for k in (0, 2))})
+    zs = sorted({outside[1], outside[3], *(h[k] for h in holes for k in (1, 3))})
+    for left, right in zip(xs, xs[1:]):
+        for far, near in zip(zs, zs[1:]):
+            x, z = (left + right) / 2, (far + near) / 2
+            if not any(h[0] < x < h[2] and h[1] < z < h[3] for h in holes):
+                scene.quad(material, [left, height, far], [0, 0, near - far],
+                           [right - left, 0, 0])
 
 
-def box(scene, walls, floor, opening, lit_patch=None):
-    """The six sides. lit_patch: (x0, z0, x1, z1) of the floor that are left out."""
+def box(scene, walls, floor, openings, lit_patches=()):
+    """The six sides. lit_patches: (x0, z0, x1, z1) of the floor that are left out."""
     wall = scene.lambert(walls, double_sided=True)
     pale = scene.lambert(floor, double_sided=True)
     (x0, y0, z0), (x1, y1, z1) = LOW, HIGH
@@ -88,45 +90,62 @@ def box(scene, walls, floor, opening, lit_patch=None):
                               ([x0, y0, z1], [0, 0, -d], [0, h, 0]),
                               ([x1, y0, z0], [0, 0, d], [0, h, 0])):
         scene.quad(wall, corner, right, up)
-    level_sheet(scene, wall, (x0, z0, x1, z1), y1, opening)
-    level_sheet(scene, pale, (x0, z0, x1, z1), y0, lit_patch)
+    level_sheet(scene, wall, (x0, z0, x1, z1), y1, openings)
+    level_sheet(scene, pale, (x0, z0, x1, z1), y0, lit_patches)
 
 
 class Patch:
-    """The sun's patch of an opening of that size, m, on the pale floor."""
+    """The sun's patches on the pale floor, of an opening of that size, m, or of several (x0,
+    z0, x1, z1) of the ceiling."""
 
-    def __init__(self, size, walls=0.0, floor=FLOOR):
-        self.size, self.walls, self.floor = size, walls, floor
-        self.middle = where_beam_is(LOW[1])
+    def __init__(self, size=None, walls=0.0, floor=FLOOR, openings=None):
+        self.openings = openings or [rectangle(HOLE, size)]
+        self.walls, self.floor = walls, floor
+        x, z = where_beam_is(LOW[1])
+        dx, dz = x - HOLE[0], z - HOLE[1]
+        self.patches = [(a + dx, b + dz, c + dx, d + dz) for a, b, c, d in self.lit()]
         self.cd_m2 = LUX * towards_sun()[1] * floor / math.pi
+
+    def lit(self):
+        """Of the openings what the sun shines through."""
+        return self.openings
+
+    def add_more(self, scene):
+        """What else is in the room."""
 
     def scene(self, level=1, **of_display):
         scene = Scene()
         display(scene, level, **of_display)
-        box(scene, self.walls, self.floor, rectangle(HOLE, self.size))
+        box(scene, self.walls, self.floor, self.openings)
+        self.add_more(scene)
         return scene
 
     def lamp_scene(self, level=1, **of_display):
-        """The same with the patch as a lamp, and no sun: what samples of emitters find."""
-        scene, patch = Scene(), rectangle(self.middle, self.size)
+        """The same with the patches as lamps, and no sun: what samples of emitters find."""
+        scene = Scene()
         display(scene, level, **of_display)
-        box(scene, self.walls, self.floor, rectangle(HOLE, self.size), patch)
-        level_sheet(scene, scene.lambert(self.floor, self.cd_m2), patch, LOW[1])
+        box(scene, self.walls, self.floor, self.openings, self.patches)
+        for x0, z0, x1, z1 in self.patches:
+            scene.quad(scene.lambert(self.floor, self.cd_m2), [x0, LOW[1], z0],
+                       [0, 0, z1 - z0], [x1 - x0, 0, 0])
+        self.add_more(scene)
         return scene
 
-    def lights(self, at, steps=6):
+    def lights(self, at):
         """Directions and illuminances on the display at a place, for walls that are black."""
-        x0, z0, x1, z1 = rectangle(self.middle, self.size)
-        counts = [steps if side < 0.2 else 5 * steps for side in self.size]
-        share = self.cd_m2 * (x1 - x0) * (z1 - z0) / (counts[0] * counts[1])
         found = []
-        for i in range(counts[0]):
-            for j in range(counts[1]):
-                to = sub([x0 + (x1 - x0) * (i + 0.5) / counts[0], LOW[1],
-                          z0 + (z1 - z0) * (j + 0.5) / counts[1]], at)
-                square = dot(to, to)
-                found.append((unit(to), share * -to[1] * to[2] / square ** 2))
+        for x0, z0, x1, z1 in self.patches:
+            counts = [3 + math.ceil(40 * side) for side in (x1 - x0, z1 - z0)]
+            share = self.cd_m2 * (x1 - x0) * (z1 - z0) / (counts[0] * counts[1])
+            for i in range(counts[0]):
+                for j in range(counts[1]):
+                    to = sub([x0 + (x1 - x0) * (i + 0.5) / counts[0], LOW[1],
+                              z0 + (z1 - z0) * (j + 0.5) / counts[1]], at)
+                    found.append((unit(to), share * -to[1] * to[2] / dot(to, to) ** 2))
         return found
+
+    def environment(self):
+        return environment()
 
 
 class Knob:
@@ -141,7 +160,7 @@ class Knob:
     def scene(self, level=1, **of_display):
         scene = Scene()
         display(scene, level, **of_display)
-        box(scene, 0, 0, rectangle(HOLE, (self.opening, self.opening)))
+        box(scene, 0, 0, [rectangle(HOLE, (self.opening, self.opening))])
         smooth_sphere(scene, scene.metal(self.chrome), self.middle, self.radius,
                       unit(sub(towards_sun(), [0.2, 0, 0.9])))
         return scene
@@ -158,6 +177,9 @@ class Knob:
         distance, half = math.sqrt(dot(to, to)), self.radius / 2
         spread = half ** 2 / (distance + half * cosine) / (distance + half / cosine)
         return [(unit(to), LUX * mirrored * spread * unit(to)[2])]
+
+    def environment(self):
+        return environment()
 
 
 def smooth_sphere(scene, material, centre, radius, pole):
@@ -194,6 +216,8 @@ def closed_form(room, panel, part, points=3):
             v = top + (bottom - top) * (j + 0.5) / points
             at = [(u - 0.5) * WIDTH, (0.5 - v) * HEIGHT, 0]
             lights = room.lights(at)
+            if not lights:
+                continue
             answers = panel.ask(unit(sub(EYE, at)), [way for way, _ in lights])
             total += sum(a[0] * lux for a, (_, lux) in zip(answers, lights))
     return total / points ** 2
