@@ -98,17 +98,21 @@ def lamp_mean(bench, room, level):
 
 
 def truth_of(bench, room, level):
-    """Value, standard error in percent, and words that say where it is from."""
+    """Value, standard error in percent, and words that say where it is from. The closed form is
+    that of the part which is judged under the sun, the lamps' of that which is judged there:
+    the brightest that a review finds."""
+    part = bench.ask(room.scene(), room.environment(), level, {}, (1, 0, []))[0][2:]
     lamp = lamp_mean(bench, room, level)
     of_lamp = lamp and f"lamp {lamp[0]:.5g} +- {100 * lamp[1] / lamp[0]:.2f} %"
+    if lamp and lamp[2] != part:
+        of_lamp += " of another part"
     if room.walls:
         return lamp[0], 100 * lamp[1] / lamp[0], of_lamp
-    part = lamp[2] if lamp else bench.ask(room.scene(), black_box.environment(), level, {},
-                                          (1, 0, []))[0][2:]
     closed = black_box.closed_form(room, bench.panel, part, 7)
     words = f"closed form {closed:.5g}"
     if lamp:
-        words += f", {of_lamp} ({100 * (lamp[0] / closed - 1):+.2f} %)"
+        of_part = black_box.closed_form(room, bench.panel, lamp[2], 7)
+        words += f", {of_lamp} ({100 * (lamp[0] / of_part - 1):+.2f} %)"
     return closed, 100 * black_box.CLOSED_WITHIN, words
 
 
@@ -151,7 +155,7 @@ def try_room(bench, name, room, words):
     level = min(1, 2 * near(room, bench) / SHOWN_CD_M2)
     truth, error, origin = truth_of(bench, room, level)
     print(f"{name}: {origin}", flush=True)
-    scene, light = room.scene(), black_box.environment()
+    scene, light = room.scene(), room.environment()
     if words.light == "lamp":
         if not hasattr(room, "lamp_scene"):
             return []
