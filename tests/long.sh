@@ -120,6 +120,7 @@ start 'films on glass' films python3 tests/image/films.py $program
 start 'a head-up display' hud python3 tests/image/hud.py $program
 start 'a luxmeter under every light' luxmeter python3 tests/image/luxmeter.py $program
 gather
+run "a sweep through a roof blind's slit" slit-sweep python3 tests/image/slit_sweep.py $program
 run 'any place, any turn, any order' moved-long python3 tests/image/moved.py --all $program
 run 'what is learnt moves no mean' guided-long python3 tests/image/guided.py $program
 run 'samples where noise is move no mean' unbiased-long \

@@ -5,13 +5,13 @@ display reflects in closed form.
 
 Metres, +Y up, north -Z. The box is 1.2 x 1 x 1.01 m, the display lies in the plane z = 0 before
 its far wall and faces +Z, the eye is inside. Where all but the floor is black, the patch is all
-the light there is: luminance E sin(elevation) reflectance / pi, and the opening's own shape and
-area, for ceiling and floor are parallel. The disc of the sun blurs its rim by a hundredth of its
-distance, which keeps its flux and its middle. A mirror sphere of radius r throws an image
-of the sun as a convex mirror does, of E F r^2 / 4 candela from far away.
+the light there is: its luminance is E sin(elevation) reflectance / pi, and it has the opening's
+own shape and area, for ceiling and floor are parallel. The disc of the sun blurs its rim by a
+hundredth of its distance, which keeps its flux and its middle. A mirror sphere of radius r
+throws an image of the sun as a convex mirror does, of E F r^2 / 4 candela from far away.
 
-Sources: the patch is Lambert's law, the sphere geometrical optics; the panel's BRDF is asked of the
-program (reflection.py), which is no path of it.
+Sources: the patch is Lambert's law, the sphere geometrical optics; the panel's BRDF is asked of
+the program (reflection.py), which is no path of it.
 """
 import math
 
