@@ -108,6 +108,8 @@ start 'every key of a review' review-request-long \
     python3 tests/hostile/review_request.py --all $program
 start 'one judged quantity a row, every profile' judged-long \
     python3 tests/hostile/judged.py $program --all
+start "a sweep through a roof blind's slit" slit-sweep \
+    python3 tests/image/slit_sweep.py $program
 gather
 of "$render scenes tests/image"
 run 'all closed forms in frames' image-long python3 tests/image/run.py --all $program
@@ -120,7 +122,6 @@ start 'films on glass' films python3 tests/image/films.py $program
 start 'a head-up display' hud python3 tests/image/hud.py $program
 start 'a luxmeter under every light' luxmeter python3 tests/image/luxmeter.py $program
 gather
-run "a sweep through a roof blind's slit" slit-sweep python3 tests/image/slit_sweep.py $program
 run 'any place, any turn, any order' moved-long python3 tests/image/moved.py --all $program
 run 'what is learnt moves no mean' guided-long python3 tests/image/guided.py $program
 run 'samples where noise is move no mean' unbiased-long \
