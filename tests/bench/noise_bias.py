@@ -8,10 +8,11 @@ of a hole of 6 cm in a black room; one of a slit, between walls of 0.5 (black_bo
 is the mean of 16 frames of 1,024 samples with seeds of their own: of the ball's scene itself,
 of the others with the patch as a lamp, which samples of lamps find.
 
-The real error is what the printed one claims to be: the mean over pixels of the root mean square
-over seeds of (found - true) / max(true, half the frame's key). Bias may be 0.2 % as far as
-chance allows (three standard errors of the mean); a printed error at most 20 % off the real one.
-A frame that says "not yet known" for its relative error (null) makes no claim, and is counted.
+The real error is what the printed one claims to be: the mean over pixels of the root mean
+square over seeds of (found - true) / max(true, half the frame's key). Bias may be 0.2 % as far
+as chance allows (three standard errors of the mean); a printed error at most 20 % off the real
+one. A frame that says "not yet known" for its relative error (null) makes no claim, and is
+counted.
 """
 import argparse
 import json
