@@ -56,7 +56,7 @@ def of_patch(room, name):
 
 SCENES = {"ball": lambda as_lamp=False: ball(),
           "hole": of_patch(black_box.Patch((0.06, 0.06)), "hole"),
-          "slit": of_patch(black_box.Patch((0.002, 0.3), 0.5), "slit")}
+          "slit": of_patch(black_box.Patch((0.3, 0.002), 0.5), "slit")}
 
 
 def frame(program, folder, seed, *options):

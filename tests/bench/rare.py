@@ -36,7 +36,7 @@ PANEL = os.path.join(HERE, "..", "..", "assets", "panels", "ips_cluster.panel")
 SHOWN_CD_M2 = 500      # the panel's white, near enough for a contrast of 3
 TRUTH_RUNS, TRUTH_PATHS = 32, 8192
 PASS, FAIL, CLOSE = 0, 1, 2
-SLIT = (0.002, 0.3)
+SLIT = (0.3, 0.002)
 
 
 def rooms_of(words):

@@ -100,6 +100,8 @@ class Patch:
 
     def __init__(self, size=None, walls=0.0, floor=FLOOR, openings=None):
         self.openings = openings or [rectangle(HOLE, size)]
+        assert all(LOW[0] < o[0] < o[2] < HIGH[0] and LOW[2] < o[1] < o[3] <= HIGH[2]
+                   for o in self.openings), f"outside of the ceiling: {self.openings}"
         self.walls, self.floor = walls, floor
         x, z = where_beam_is(LOW[1])
         dx, dz = x - HOLE[0], z - HOLE[1]
