@@ -108,6 +108,8 @@ start 'every key of a review' review-request-long \
     python3 tests/hostile/review_request.py --all $program
 start 'one judged quantity a row, every profile' judged-long \
     python3 tests/hostile/judged.py $program --all
+start "a sweep through a roof blind's slit" slit-sweep \
+    python3 tests/image/slit_sweep.py $program
 gather
 of "$render scenes tests/image"
 run 'all closed forms in frames' image-long python3 tests/image/run.py --all $program

@@ -103,6 +103,7 @@ start 'luminaires as lamps' lamps python3 tests/image/lamps.py $program
 start 'a render that is watched' live-view python3 tests/hostile/live_view.py $program
 start 'faults and their outcomes' faults python3 tests/hostile/faults.py $program
 start 'closed forms in frames' image python3 tests/image/run.py $program
+start 'light that few paths find' rare python3 tests/image/rare.py $program
 start 'displays under sun and sky' reflection python3 tests/image/reflection.py $program
 start 'comparisons' compare python3 tests/hostile/compare.py $program
 start 'same bits, any threads' bits python3 tests/image/bits.py $program

@@ -40,6 +40,8 @@ VIEWS = {
     "deck, low sun": [DECK, "scenes/low_sun_left.gltf", *CAPTAIN],
     "car, night": [CAR, "scenes/night.gltf"],
     "deck, night": [DECK, "scenes/flight_night.gltf", *CAPTAIN],
+    "car, tunnel exit": [CAR, "scenes/tunnel_exit.gltf"],
+    "car, garage": [CAR, "scenes/garage.gltf"],
     "box": [".build/bench/box.gltf", "--max-bounces", "8"],
 }
 GOAL, MORE = 0.05, 16

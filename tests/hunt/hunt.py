@@ -8,7 +8,8 @@ What a review says of the symbol's reflected light is held against
   sweep    the step of a sweep that has the moment's sun, which comes of a response;
   closed   in every fifth room, which is empty under a uniform sky, the integral of the panel's
            BRDF as `panel eval` tells it;
-and every figure against the formula that it is made of. `explain` says what the review says,
+and every figure against the formula that it is made of. One room of four has light that is rare
+(rare_hunt.py), with closed forms of its own. `explain` says what the review says,
 and twice the light gives twice the figure. A line a comparison, with its seed and its
 difference in standard errors; at last how these are spread. --seed: that room alone.
 --unguided: frames are, which takes half as long.
@@ -27,6 +28,8 @@ from exr import Frame  # noqa: E402
 from gltf import unit  # noqa: E402
 import reflection  # noqa: E402
 from review import ROOT, Report, Reviewer, moment, request  # noqa: E402
+import rare_hunt  # noqa: E402
+import rare_rooms  # noqa: E402
 import rooms  # noqa: E402
 
 TOO_FAR = 4       # standard errors
@@ -260,6 +263,9 @@ class Hunt:
             self.report.claim(False, f"seed {seed}: {error}")
 
     def room(self, seed):
+        if rare_rooms.is_rare(seed):
+            rare_hunt.RareRoom(self, seed).go()
+            return
         draw = random.Random(seed)
         room = rooms.Room(draw, seed % 5 == 0)
         room.scene.write(os.path.join(self.reviewer.folder, "dash.gltf"))
