@@ -17,7 +17,7 @@ build='CMakeLists.txt CMakePresets.json third_party tests/steps.sh tests/structu
 base="$build src/print src/base src/estimate src/text src/spectrum"
 panels="$base src/hemisphere src/image src/panel src/page src/library assets/panels"
 light="$panels src/import src/sky src/scene src/bvh src/light src/mirror src/guide src/camera
-    src/path src/film src/kernel src/render shaders"
+    src/sunlit src/path src/film src/kernel src/render shaders"
 options="$light src/denoise src/vision src/cli/ src/cli/options"
 tables="$options src/plot src/cli/panel"
 render="$options assets src/live src/cli/job src/cli/render src/review/keep"

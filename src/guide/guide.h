@@ -24,7 +24,7 @@
 #define GUIDE_SIDE SPECTRUM_LANES
 #define GUIDE_BINS (GUIDE_SIDE * GUIDE_SIDE)
 
-#define GUIDE_LIGHTS 4 /* sets of lights that a surface may sample */
+#define GUIDE_LIGHTS 5 /* sets of lights, and sunlit surfaces, that a surface may sample */
 
 /* Light that a surface looks for: by other surfaces, or from the sky, also through windows. */
 typedef enum GuideAim { GUIDE_LIGHT, GUIDE_SKY, GUIDE_AIMS } GuideAim;

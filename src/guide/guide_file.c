@@ -27,7 +27,7 @@ typedef struct CellRow {
     GuideLamps lamps;
 } CellRow;
 
-_Static_assert(sizeof(GuideHead) == 32 && sizeof(CellRow) == 1116 && sizeof(GuideNode) == 16,
+_Static_assert(sizeof(GuideHead) == 32 && sizeof(CellRow) == 1120 && sizeof(GuideNode) == 16,
                "no padding goes to a file");
 
 static CellRow row_of(const GuideCell *cell)

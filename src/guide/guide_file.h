@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "guide/guide.h"
 
-#define GUIDE_VERSION 3u
+#define GUIDE_VERSION 4u
 
 /* A hash of all that decides a guide's choices; never 0. */
 uint64_t guide_hash(const LightGuide *guide);

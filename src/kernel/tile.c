@@ -298,7 +298,7 @@ static void lesson_try_lights(const LessonJob *job, uint32_t cell, PathStatistic
     const GuideTraining *training = job->training;
     const PathContext   *context = job->context;
     uint32_t first = training->first_place[cell], end = training->first_place[cell + 1];
-    statistics->shadow_rays += LIGHT_SETS * (uint64_t)(end - first);
+    statistics->shadow_rays += LIGHT_CHOICES * (uint64_t)(end - first);
     for (uint32_t i = first; i < end; i++) {
         Sampler   sampler = sampler_start(job->seed + 1, (int)cell, 0, i - first);
         LitPoint  point = {training->places[i].position, training->places[i].normal, false};

@@ -255,6 +255,18 @@ Spectrum lights_radiance(const Lights *lights, const LightSample *sample,
     return spectrum_all(0);
 }
 
+double lights_sample_lx(const Lights *lights, LitPoint point, const LightSample *light,
+                        float u)
+{
+    Wavelengths wavelengths;
+    float xyz[3] = {0};
+    float cosine = vec3_dot(point.ns, light->wi);
+    wavelengths_sample(u, &wavelengths);
+    spectrum_add_xyz(&wavelengths, lights_radiance(lights, light, &wavelengths) *
+                                       spectrum_all(cosine / light->pdf), xyz);
+    return isfinite(xyz[1]) ? (double)xyz[1] : 0;
+}
+
 void lights_distant(const Lights *lights, Vec3 direction, Vec3 ns,
                     const Wavelengths *wavelengths, Spectrum radiance[2], float pdf[2])
 {

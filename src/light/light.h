@@ -28,6 +28,10 @@ typedef enum LightSet {
     LIGHT_SETS
 } LightSet;
 
+/* What a vertex may sample: the sets, and surfaces that the sun lights (path/sunlit.h). */
+#define LIGHTS_SUNLIT LIGHT_SETS
+#define LIGHT_CHOICES (LIGHT_SETS + 1)
+
 typedef struct Lights Lights;
 
 /* The scene must outlive the lights. Fails on an environment that cannot be lit yet. */
@@ -91,6 +95,10 @@ void lights_sky_towards(const Lights *lights, Vec3 direction, Vec3 ns, LightSamp
 /* Radiance of a sample, to be asked once it is known to arrive: most are in shadow. */
 Spectrum lights_radiance(const Lights *lights, const LightSample *sample,
                          const Wavelengths *wavelengths);
+
+/* Illuminance, lx, by a sample that arrives; u in [0, 1) chooses the wavelengths. */
+double lights_sample_lx(const Lights *lights, LitPoint point, const LightSample *light,
+                        float u);
 
 /* Radiance of sun plus sky from a direction, and each one's sampling pdf as above.
  * radiance[0] the sun's, radiance[1] the sky's; likewise pdf. */

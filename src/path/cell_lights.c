@@ -95,9 +95,23 @@ static double own_share(const Guiding *guiding, LitPoint point, const LightSampl
 static void note_lamp(const PathContext *context, LitPoint point, const LightSample *light,
                       float u, bool arrives, LightFinds *finds)
 {
-    double lx = light_selection_lx(context->lights, point, light, u);
+    double lx = lights_sample_lx(context->lights, point, light, u);
     if (!(lx > 0)) return;
     lamp_finds_add(&finds->lamps, (LampFind){light->light_id, lx, arrives ? lx : 0});
+}
+
+static void try_sunlit(const PathContext *context, const Guiding *guiding, LitPoint point,
+                       Sampler *sampler, LightFinds *finds)
+{
+    const SunlitTools tools = {context->scene, context->bvh, context->lights};
+    SunlitTry   found;
+    float       u[8];
+    sampler_4d(sampler, u);
+    sampler_4d(sampler, u + 4);
+    if (!sunlit_try(&tools, &context->sunlit, point, u, &found)) return;
+    float cosine = vec3_dot(found.wi, point.ns);
+    sunlit_finds_add(&finds->sunlit, &found,
+                     guiding_pdf(guiding, found.wi, cosine * INV_PI_F));
 }
 
 void cell_lights_try(const PathContext *context, LitPoint point, uint32_t cell,
@@ -117,21 +131,27 @@ void cell_lights_try(const PathContext *context, LitPoint point, uint32_t cell,
         if (set == LIGHTS_PUNCTUAL) note_lamp(context, point, &light, u[3], arrives, finds);
         if (!arrives) continue;
         guiding_weigh_light(&guiding, context->lights, point, &light);
-        double lx = light_selection_lx(context->lights, point, &light, u[3]) *
+        double lx = lights_sample_lx(context->lights, point, &light, u[3]) *
                     own_share(&guiding, point, &light);
         finds->sum[set] += lx;
         finds->squares[set] += lx * lx;
     }
+    if (context->sunlit.nodes) try_sunlit(context, &guiding, point, sampler, finds);
 }
 
-void cell_lights_weigh(const Lights *lights, const LightFinds *finds, double total,
-                       float prob[LIGHT_SETS])
+void cell_lights_weigh(const PathContext *context, const LightFinds *finds, double total,
+                       float prob[LIGHT_CHOICES])
 {
+    double rest = total * total;
     for (int set = 0; set < LIGHT_SETS; set++) {
         prob[set] = 0;
-        if (!lights_has(lights, (LightSet)set)) continue;
-        double worth = finds->points > 0 ? sqrt(finds->squares[set] / finds->points) : 0;
-        double wanted = total > 0 ? GENEROSITY * worth / total : 1;
+        if (!lights_has(context->lights, (LightSet)set)) continue;
+        double square = finds->points > 0 ? finds->squares[set] / finds->points : 0;
+        double wanted = total > 0 ? GENEROSITY * sqrt(square) / total : 1;
         prob[set] = clampf((float)wanted, LEAST, 1);
+        rest += square;
     }
+    prob[LIGHTS_SUNLIT] = 0;
+    if (context->sunlit.nodes)
+        prob[LIGHTS_SUNLIT] = sunlit_finds_prob(&finds->sunlit, finds->points, rest);
 }

@@ -10,6 +10,7 @@
  */
 #pragma once
 #include "path/guiding.h"
+#include "sunlit/sunlit_way.h"
 
 #define LAMP_FINDS 16 /* lamps that a cell remembers while it learns */
 
@@ -38,6 +39,7 @@ GuideLamps cell_lamps_keep(const LampFinds *finds, int lamp_count);
 /* Sums of what light samples find at the points of a cell. */
 typedef struct LightFinds {
     double sum[LIGHT_SETS], squares[LIGHT_SETS]; /* illuminances, lx */
+    SunlitFinds sunlit;
     double points;
     LampFinds lamps;
 } LightFinds;
@@ -47,5 +49,5 @@ void cell_lights_try(const PathContext *context, LitPoint point, uint32_t cell,
                      Sampler *sampler, LightFinds *finds);
 
 /* Probabilities for a cell that gets `total` lx in all. */
-void cell_lights_weigh(const Lights *lights, const LightFinds *finds, double total,
-                       float prob[LIGHT_SETS]);
+void cell_lights_weigh(const PathContext *context, const LightFinds *finds, double total,
+                       float prob[LIGHT_CHOICES]);

@@ -280,7 +280,31 @@ static void add_arriving(PathState *path, const Surface *surface, Vec3 wo,
     if (!light->is_delta && context->strategy == PATH_MIS)
         share *= spectrum_all(mis_weight(light->pdf * prob,
                                          guiding_pdf(guiding, light->wi, bsdf_pdf)));
+    if (light->set == LIGHTS_SUN && path->last.samples_map) {
+        SunlitPair pair = emitted_pair(path, surface);
+        share *= spectrum_all(emitted_chance(context, &pair, light->wi));
+    }
     find_sample(path, surface, wo, asked, &ray, share * passed);
+}
+
+void direct_add_sun(PathState *path, const Surface *surface, Vec3 wo, const LightSample *sun)
+{
+    const PathContext *context = path->context;
+    LightAsked asked = {*sun, frame_to_local(&surface->frame, sun->wi), 1};
+    ShadowRay  ray;
+    float      bsdf_pdf;
+    if (!direct_sides_agree(surface, asked.local_wi, sun->wi, wo) ||
+        !bsdf_reaches(&surface->bsdf, surface->local_wo, asked.local_wi))
+        return;
+    Spectrum passed = direct_visibility(path, surface, &asked.light, &ray);
+    if (spectrum_is_zero(passed)) return;
+    Spectrum f = bsdf_eval(&surface->bsdf, surface->local_wo, asked.local_wi, &bsdf_pdf);
+    if (mirror_was_asked(path, surface, wo, true))
+        f = mirror_left(&surface->bsdf, surface->local_wo, asked.local_wi, f);
+    find_sample(path, surface, wo, &asked, &ray,
+                path->throughput * f * passed *
+                    lights_radiance(context->lights, sun, path->wavelengths) *
+                    spectrum_all(fabsf(asked.local_wi.z) / sun->pdf));
 }
 
 static void add_light_sample(PathState *path, const Surface *surface, Vec3 wo,

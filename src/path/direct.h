@@ -8,6 +8,10 @@
 /* Adds the light samples of the surface, which the path reached against wo. */
 void direct_add(PathState *path, const Surface *surface, Vec3 wo, const Guiding *guiding);
 
+/* Adds light that comes from this direction of the sun, if it arrives, times its radiance over
+ * sun->pdf: all of it, whatever chance may find. */
+void direct_add_sun(PathState *path, const Surface *surface, Vec3 wo, const LightSample *sun);
+
 /* A direction must lie on the same side of the triangle as of the shading normal's plane, or
  * light would leak through the surface. */
 bool direct_sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 wo);

@@ -4,6 +4,7 @@
 
 #include "light/subpixels.h"
 #include "path/path_collector.h"
+#include "sunlit/sunlit_way.h"
 
 /* MIS weight of emitted light that the last vertex met by chance: the rest belongs to its
  * light samples, which find the same light with density light_pdf. */
@@ -25,6 +26,36 @@ LitPoint emitted_lit_point(const PathState *path, const Surface *surface)
                             : &path->context->scene->materials[surface->material_id];
     return (LitPoint){surface->position, surface->frame.z,
                       m && (m->is_solid || material_sends_through(m))};
+}
+
+/* ---- sunlit surfaces --------------------------------------------------------------------- */
+
+SunlitPair emitted_pair(const PathState *path, const Surface *surface)
+{
+    const PathContext *context = path->context;
+    const Scene       *scene = context->scene;
+    SunlitPair pair = {.prob = 0};
+    if (!path->last.samples_map || path->medium_id != NO_ID || surface->part_id == NO_ID ||
+        surface->triangle >= scene->opaque_count)
+        return pair;
+    float cosine = fabsf(vec3_dot(surface->ng, path->ray.direction));
+    pair.prob = path->guiding->asked[LIGHTS_SUNLIT] * path->guiding->often;
+    pair.from = path->last.at;
+    pair.at = surface->position;
+    pair.ng = surface->ng;
+    pair.own = path->last.pdf;
+    pair.sr = sunlit_way_at_x(1, 1, cosine, path->straight * path->straight);
+    return pair;
+}
+
+float emitted_chance(const PathContext *context, const SunlitPair *pair, Vec3 sun)
+{
+    const SunlitMap *map = &context->sunlit;
+    if (!(pair->prob > 0)) return 1;
+    float density = sunlit_map_density(map, &pair->from, pair->at, sun);
+    if (!(density > 0)) return 1;
+    float slope = fabsf(vec3_dot(pair->ng, sun)) / vec3_dot(map->frame.z, sun);
+    return mis_weight(pair->own, pair->prob * density * slope * pair->sr);
 }
 
 /* ---- sun and sky ------------------------------------------------------------------------- */
@@ -52,6 +83,9 @@ void emitted_distant(PathState *path)
     if (path->context->without_mirrored_sun && path->first.by_mirror && path->bounce == 1)
         radiance[LIGHTS_SUN] = spectrum_all(0);
     collect_sky(path, &radiance[LIGHTS_SKY]);
+    if (path->last.before.prob > 0 && !spectrum_is_zero(radiance[LIGHTS_SUN]))
+        radiance[LIGHTS_SUN] *= spectrum_all(
+            emitted_chance(path->context, &path->last.before, path->ray.direction));
     for (int set = LIGHTS_SUN; set <= LIGHTS_SKY; set++) {
         float weight = emission_weight(path, (LightSet)set, pdf[set]);
         find_distant(path, (LightSet)set,

@@ -21,3 +21,9 @@ LitPoint emitted_lit_point(const PathState *path, const Surface *surface);
  * sub-pixels where it comes close. */
 Spectrum emitted_seen(const PathState *path, const Surface *surface, uint32_t triangle,
                        Vec3 wo);
+
+/* The last vertex and the surface that the path meets now. */
+SunlitPair emitted_pair(const PathState *path, const Surface *surface);
+
+/* Share of the sun's light from `sun` (unit) at the pair's surface that chance keeps. */
+float emitted_chance(const PathContext *context, const SunlitPair *pair, Vec3 sun);

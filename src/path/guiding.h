@@ -13,7 +13,7 @@
 #include "path/path_context.h"
 
 _Static_assert(PUNCTUAL_KNOWN_MAX == GUIDE_LAMPS, "a cell's lamps are what is known");
-_Static_assert(LIGHT_SETS == GUIDE_LIGHTS, "cells of a guide know all sets of lights");
+_Static_assert(LIGHT_CHOICES == GUIDE_LIGHTS, "cells of a guide know all there is to sample");
 
 /* From this bounce on lights are sampled less often: what they add is dim by then. */
 #define DEEP_BOUNCE 2

@@ -9,26 +9,22 @@
  * Memory   from the arena. Threads: const after light_selection_build.
  */
 #pragma once
-#include "bvh/bvh.h"
-#include "light/light.h"
+#include "sunlit/sunlit_land.h"
+#include "sunlit/sunlit_map.h"
 
 typedef struct LightSelection {
-    float (*prob)[LIGHT_SETS]; /* of sampling a set; rows 2 part (front) and 2 part + 1; 0: the
+    float (*prob)[LIGHT_CHOICES]; /* of sampling one; rows 2 part (front), 2 part + 1; 0: the
                                   set is empty */
     float *lx;                 /* by all sets together, one a row */
-    float all[LIGHT_SETS];     /* where no part is known: 1 for every set that has lights */
+    float all[LIGHT_CHOICES];  /* where no part is known: 1 for every set that has lights */
 } LightSelection;
 
 /* The same for any number of threads and on every machine whose rays hit the same. */
-LightSelection light_selection_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
+LightSelection light_selection_build(const SunlitTools *tools, const SunlitMap *sunlit,
                                      Arena *arena);
 
 /* Does the light sample arrive at a point that faces point.ns? */
 bool light_selection_arrives(const Bvh *bvh, LitPoint point, const LightSample *light);
-
-/* Illuminance, lx, by a sample that arrives; u in [0, 1) chooses the wavelengths. */
-double light_selection_lx(const Lights *lights, LitPoint point, const LightSample *light,
-                          float u);
 
 /* part_id may be NO_ID. is_back: seen from the side that the triangle's normal points away
  * from. The row lives as long as the selection. */

@@ -5,6 +5,8 @@
 #include "path/direct.h"
 #include "path/emitted.h"
 #include "path/path_collector.h"
+#include "path/sunlit.h"
+#include "sunlit/sunlit_build.h"
 #include "path/windows.h"
 
 #define ROULETTE_FIRST_BOUNCE 2
@@ -66,10 +68,13 @@ static Step turn(PathState *path, const Surface *surface, Vec3 wo, const BsdfSam
     if (next->along == 0) start = ray_start(&surface->point, wi);
     else if (!pane_image_start(path, surface, wi, next->along, &start)) return STEP_ENDED;
     Spectrum sun = direct_sun_share(path, surface, wo, next);
+    bool     samples_map = !next->is_delta && sunlit_is_sampled(path, surface);
+    SunlitPair before = {.prob = 0};
+    if (path->last.samples_map && !next->is_delta) before = emitted_pair(path, surface);
     if (next->wi.z * surface->local_wo.z < 0) cross(path, surface, next->wi, wi);
     collect_turn(path, surface, wo, next);
     path->last = (PathVertex){emitted_lit_point(path, surface), surface->part_id, next->pdf,
-                              next->is_delta, sun};
+                              next->is_delta, samples_map, before, sun};
     path->straight = path->sheets_from = 0;
     sheets_none(path->stack);
     note_mirror(path, surface, next);
@@ -155,8 +160,10 @@ static Step shade(PathState *path, const Surface *surface, const Hit *hit, Vec3 
     if (!path->manner.is_dark) emitted_add(path, surface, hit, wo);
     guiding_at(path->context, surface, wo, path->bounce, guiding);
     bool is_done = collect_vertex(path, surface, wo, guiding);
-    if (!is_done && path->bounce < path->context->max_bounces)
+    if (!is_done && path->bounce < path->context->max_bounces) {
         direct_add(path, surface, wo, guiding);
+        sunlit_add(path, surface, wo, guiding);
+    }
     return scatter(path, surface, wo);
 }
 
@@ -249,7 +256,9 @@ PathContext path_context_relight(const PathContext *before, const Lights *lights
     const BeamTools tools = {context.scene, context.bvh, lights, context.tables};
     context.lights = lights;
     context.guide = NULL;
-    context.selection = light_selection_build(context.scene, context.bvh, lights, arena);
+    const SunlitTools sun = {context.scene, context.bvh, lights};
+    context.sunlit = sunlit_build(&sun, arena);
+    context.selection = light_selection_build(&sun, &context.sunlit, arena);
     context.beams = mirror_beams_build(&tools, &context.selection, arena);
     return context;
 }
@@ -319,8 +328,10 @@ void path_from_point(const PathStart *start, LitPoint point, float xyz_lx[3])
     surface_white(path.context->tables, point.position, point.ns, &head);
     path.throughput = spectrum_all(PI_F);
     guiding_none(path.context, path.spare);
-    if (!collect_vertex(&path, &head, point.ns, path.spare))
+    if (!collect_vertex(&path, &head, point.ns, path.spare)) {
         direct_add(&path, &head, point.ns, path.spare);
+        sunlit_add(&path, &head, point.ns, path.spare);
+    }
     if (scatter(&path, &head, point.ns) == STEP_SCATTERED) {
         collect_start(&path);
         walk(&path);

@@ -10,6 +10,7 @@
 #include "path/light_selection.h"
 #include "path/mirror_beams.h"
 #include "path/polarised.h"
+#include "sunlit/sunlit_map.h"
 #include "path/surface.h"
 
 /* Which estimators reach the light; all three agree in the mean (a test). */
@@ -21,6 +22,7 @@ typedef struct PathContext {
     const Lights        *lights;
     const SurfaceTables *tables;
     MirrorBeams          beams; /* without mirrors: the sun in them is left to chance */
+    SunlitMap            sunlit; /* without nodes: what the sun lights is left to chance */
     LightSelection       selection;
     int                  max_bounces; /* 0: emission only, 1: plus direct light */
     PathStrategy         strategy;
@@ -34,3 +36,10 @@ typedef struct PathContext {
                      is narrow enough; zero: these are no frame's rays */
     const PolarisedEye *eye; /* rays from it carry how light is polarised; NULL: unpolarised */
 } PathContext;
+
+/* Is there anything that this choice may sample? */
+static inline bool path_context_has(const PathContext *context, int choice)
+{
+    return choice == LIGHTS_SUNLIT ? context->sunlit.nodes != NULL
+                                   : lights_has(context->lights, (LightSet)choice);
+}

@@ -59,9 +59,20 @@ enum {
     NUMBERS_ROULETTE = NUMBERS_SCATTER + 2,
     NUMBERS_STEP
 };
+#define NUMBERS_MAP 4 /* a step's own, behind those of all steps: of the sunlit map */
 #define NUMBERS_FIRST 2 /* before them: the place in the pixel, the wavelengths */
 #define STEPS_FAR 4096  /* more than a path meets */
 #define SPLITS 2        /* thin sheets along an eye's ray that are followed both ways */
+
+/* A vertex and the opaque surface that its path met next: how the vertex might have sampled
+ * that from the sun's side (sunlit.h). */
+typedef struct SunlitPair {
+    float    prob; /* that it sampled the map; 0: it did not */
+    float    own;  /* sr^-1, density with which chance chose the direction */
+    float    sr;   /* m^2 sr^-1: density of directions by one of the surface's area */
+    LitPoint from;
+    Vec3     at, ng; /* of the surface; m, and unit */
+} SunlitPair;
 
 /* The last vertex that scattered, and how the path went on from there. */
 typedef struct PathVertex {
@@ -69,6 +80,8 @@ typedef struct PathVertex {
     int      part_id;   /* NO_ID: an eye or a luxmeter */
     float    pdf;       /* with which the direction was chosen, sr^-1 */
     bool     is_delta;  /* no light sample could have found what comes now */
+    bool     samples_map; /* where it could (sunlit.h) */
+    SunlitPair before;  /* it and the vertex before it */
     Spectrum sun_share; /* of the sun, if met next; the vertex before asked for the rest */
 } PathVertex;
 
@@ -126,6 +139,12 @@ static inline void numbers_for(PathState *path, int purpose)
 {
     path->sampler->dimension =
         (uint32_t)(NUMBERS_FIRST + path->steps * NUMBERS_STEP + purpose);
+}
+
+static inline void numbers_for_map(PathState *path)
+{
+    path->sampler->dimension =
+        0x40000000u + (uint32_t)path->steps * NUMBERS_MAP;
 }
 
 /* The surface's share of the light, per lane, on the path's way. */

@@ -94,21 +94,26 @@ static PathCollector *copy_collectors(const PathCollector *from, char *room)
     return first;
 }
 
+void sheet_branch(const PathState *path, SheetRoom *room, PathState *branch)
+{
+    *branch = *path;
+    branch->splits_left = 0;
+    branch->first.is_awaited = false;
+    branch->gathered = (PathLight){.radiance = spectrum_all(0)};
+    branch->collector = copy_collectors(path->collector, room->collectors);
+}
+
 bool sheet_is_shown(PathState *path, const Surface *surface, SheetRoom *room, PathState *sheet)
 {
     float share = path->manner.has_sheets ? 1 : SHEET_SHARE; /* of samples that follow it */
     numbers_for(path, NUMBERS_SPLIT);
     if (!(sampler_1d(path->sampler) < share)) return false;
-    *sheet = *path;
+    sheet_branch(path, room, sheet);
     if (path->stack->count) room->stack = *path->stack;
     else sheets_none(&room->stack);
     sheet->stack = &room->stack;
-    sheet->splits_left = 0;
     sheet->steps += STEPS_FAR * (1 + path->splits_left);
-    sheet->first.is_awaited = false;
-    sheet->gathered = (PathLight){.radiance = spectrum_all(0)};
     sheet->throughput *= spectrum_all(surface->alpha / share);
-    sheet->collector = copy_collectors(path->collector, room->collectors);
     return true;
 }
 

@@ -17,6 +17,10 @@ typedef struct SheetRoom {
     _Alignas(64) char collectors[COLLECTORS_MAX_BYTES];
 } SheetRoom;
 
+/* *branch: the path once more, with collectors of its own; what it finds is its own. It keeps
+ * the path's stack. */
+void sheet_branch(const PathState *path, SheetRoom *room, PathState *branch);
+
 /* Does this sample follow it? *sheet: the path that does, at the sheet. */
 bool sheet_is_shown(PathState *path, const Surface *surface, SheetRoom *room, PathState *sheet);
 

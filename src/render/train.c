@@ -90,12 +90,16 @@ static LightFinds with_neighbours(const LightFinds *finds, int cell, int cells)
         if (i < 0 || i >= cells) continue;
         all.points += finds[i].points;
         for (int set = 0; set < LIGHT_SETS; set++) all.squares[set] += finds[i].squares[set];
+        for (int k = 0; k < SUNLIT_PROBS; k++)
+            all.sunlit.variance[k] += finds[i].sunlit.variance[k];
         if (i != cell) lamp_finds_join(&own.lamps, &finds[i].lamps, NEAR_LAMPS);
     }
     if (!(all.points > 0)) return own;
     own.points += DOUBT;
     for (int set = 0; set < LIGHT_SETS; set++)
         own.squares[set] += all.squares[set] * DOUBT / all.points;
+    for (int k = 0; k < SUNLIT_PROBS; k++)
+        own.sunlit.variance[k] += all.sunlit.variance[k] * DOUBT / all.points;
     return own;
 }
 
@@ -111,7 +115,7 @@ static void weigh_cell(void *context, int item, int worker)
     for (int set = 0; set < LIGHT_SETS; set++)
         total += finds[item].points > 0 ? finds[item].sum[set] / finds[item].points : 0;
     guide->cells[item].lamps = cell_lamps_keep(&found.lamps, lights_lamp_count(lights));
-    cell_lights_weigh(lights, &found, total, guide->cells[item].asked);
+    cell_lights_weigh(lesson->job.context, &found, total, guide->cells[item].asked);
 }
 
 static Lesson lesson_start(const Camera *camera, const TrainOptions *options, Arena *arena)
@@ -140,7 +144,7 @@ GuideScene train_guide_scene(const PathContext *context)
     GuideScene scene = {.light_count = context->scene->light_count,
                         .lamp_count = lights_lamp_count(context->lights)};
     for (int set = 0; set < GUIDE_LIGHTS; set++)
-        scene.has[set] = lights_has(context->lights, (LightSet)set);
+        scene.has[set] = path_context_has(context, set);
     return scene;
 }
 

@@ -150,7 +150,9 @@ static LightSelection selection_of(const Scene *scene, int threads, Arena *arena
     assert_done(bvh_create(scene, threads, NULL, &bvh, &err));
     assert_done(lights_build(scene, arena, &lights, &err));
     assert_int_equal(bvh_threads(bvh), threads);
-    LightSelection selection = light_selection_build(scene, bvh, lights, arena);
+    const SunlitTools tools = {scene, bvh, lights};
+    const SunlitMap  none = {.nodes = NULL};
+    LightSelection selection = light_selection_build(&tools, &none, arena);
     bvh_destroy(bvh);
     return selection;
 }

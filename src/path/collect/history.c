@@ -63,7 +63,7 @@ static void turn(PathCollector *c, PathState *path, const Surface *surface, Vec3
 static bool ask_less(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
                      const Guiding *guiding)
 {
-    static const float SUN_ALONE[LIGHT_SETS] = {[LIGHTS_SUN] = 1};
+    static const float SUN_ALONE[LIGHT_CHOICES] = {[LIGHTS_SUN] = 1};
     PathReach          reach = ((HistoryCollector *)c)->listener->reach;
     (void)surface, (void)wo, (void)guiding;
     if (reach == PATH_TO_SUNLIT_SURFACE) path->spare->asked = SUN_ALONE;

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "sunlit/sunlit_tree.h"
+
+#include "base/mathf.h"
+
+/* Four quarters are one leaf where they are alike. */
+#define MERGED_LEVELS 4 /* of pixels: the most that a leaf has */
+#define EVEN 0.6f       /* least over greatest power */
+#define FLAT 0.97f      /* least cosine of its cone of normals */
+#define SMOOTH 2.4f     /* its radius, over that of the greatest quarter: 2 on a plane */
+
+typedef struct SunlitTree {
+    const SunlitGrid *grid;
+    SunlitNode        *nodes;
+    uint32_t           count, room;
+    Arena             *arena; /* nothing else allocates from it meanwhile */
+} SunlitTree;
+
+static SunlitNode node_of(const SunlitTree *tree, const SunlitPixel *pixel)
+{
+    Vec3  across = vec3_sub(pixel->high, pixel->low);
+    float length = vec3_length(pixel->normals);
+    /* its corners may lie farther out than its rays landed */
+    SunlitNode node = {.centre = vec3_scale(vec3_add(pixel->low, pixel->high), 0.5f),
+                       .radius = 0.5f * vec3_length(across) + tree->grid->pitch,
+                       .power = pixel->power, .cosine = -1};
+    if (!(length > 0)) return node;
+    node.axis = vec3_scale(pixel->normals, 1 / length);
+    float mean = length / (float)pixel->landed; /* 1: all alike */
+    node.cosine = pixel->both_sides ? -1 : clampf(2 * mean - 1, -1, 0.9999f);
+    return node;
+}
+
+/* Half the angles' sum, by cosines: of a cone about `axis` that holds another. */
+static float cone_about(Vec3 axis, const SunlitNode *node)
+{
+    float away = vec3_dot(axis, node->axis);
+    float sines = safe_sqrtf(1 - away * away) * safe_sqrtf(1 - node->cosine * node->cosine);
+    bool  is_all = node->cosine <= -1 || away <= -node->cosine;
+    return is_all ? -1 : away * node->cosine - sines;
+}
+
+static SunlitNode joined(const SunlitNode four[4])
+{
+    SunlitNode all = {.cosine = 1};
+    Vec3       low = vec3(INFINITY, INFINITY, INFINITY), high = vec3_neg(low), axis = {0};
+    for (int k = 0; k < 4; k++) {
+        const SunlitNode *n = &four[k];
+        if (!(n->power > 0)) continue;
+        Vec3 r = vec3(n->radius, n->radius, n->radius);
+        Vec3 a = vec3_sub(n->centre, r), b = vec3_add(n->centre, r);
+        low = vec3(fminf(low.x, a.x), fminf(low.y, a.y), fminf(low.z, a.z));
+        high = vec3(fmaxf(high.x, b.x), fmaxf(high.y, b.y), fmaxf(high.z, b.z));
+        axis = vec3_along(axis, n->axis, n->power);
+        all.power += n->power;
+    }
+    if (!(all.power > 0)) return all;
+    all.centre = vec3_scale(vec3_add(low, high), 0.5f);
+    all.axis = vec3_length(axis) > 0 ? vec3_normalize(axis) : vec3(0, 0, 1);
+    for (int k = 0; k < 4; k++) {
+        if (!(four[k].power > 0)) continue;
+        float out = vec3_length(vec3_sub(four[k].centre, all.centre)) + four[k].radius;
+        all.radius = fmaxf(all.radius, out);
+        all.cosine = fminf(all.cosine, cone_about(all.axis, &four[k]));
+    }
+    return all;
+}
+
+static bool is_one_leaf(const SunlitNode *all, const SunlitNode four[4])
+{
+    float least = INFINITY, most = 0, radius = 0;
+    for (int k = 0; k < 4; k++) {
+        if (four[k].child) return false;
+        least = fminf(least, four[k].power);
+        most = fmaxf(most, four[k].power);
+        radius = fmaxf(radius, four[k].radius);
+    }
+    return least >= EVEN * most && all->cosine >= FLAT && all->radius <= SMOOTH * radius;
+}
+
+/* Returns the number of the first of them. */
+static uint32_t add_four(SunlitTree *tree, const SunlitNode four[4])
+{
+    if (tree->count + 4 > tree->room) {
+        tree->nodes = ARENA_GROW(tree->arena, SunlitNode, tree->nodes, tree->count,
+                                 2 * tree->room);
+        tree->room *= 2;
+    }
+    for (int k = 0; k < 4; k++) tree->nodes[tree->count + (uint32_t)k] = four[k];
+    tree->count += 4;
+    return tree->count - 4;
+}
+
+/* The square of 2^level pixels a side from (i, j) on. */
+static SunlitNode grow(SunlitTree *tree, int level, int i, int j)
+{
+    const SunlitGrid *grid = tree->grid;
+    if (level <= grid->fine) {
+        const SunlitPixel *pixel = sunlit_pixel(grid, i, j);
+        if (!pixel) return (SunlitNode){.power = 0};
+        bool is_lit = pixel->landed && pixel->power > 0;
+        if (!level) return is_lit ? node_of(tree, pixel) : (SunlitNode){.power = 0};
+    }
+    SunlitNode four[4];
+    int        half = 1 << (level - 1);
+    for (int k = 0; k < 4; k++)
+        four[k] = grow(tree, level - 1, i + (k & 1) * half, j + (k >> 1) * half);
+    SunlitNode all = joined(four);
+    if (!(all.power > 0)) return all;
+    if (level > MERGED_LEVELS || !is_one_leaf(&all, four)) all.child = add_four(tree, four);
+    return all;
+}
+
+const SunlitNode *sunlit_tree(const SunlitGrid *grid, Arena *arena)
+{
+    SunlitTree tree = {grid, NULL, 1, 1024, arena};
+    tree.nodes = ARENA_NEW(arena, SunlitNode, tree.room);
+    SunlitNode root = grow(&tree, SUNLIT_LEVELS + grid->fine, 0, 0);
+    tree.nodes[0] = root;
+    return root.power > 0 ? tree.nodes : NULL;
+}
