@@ -126,10 +126,13 @@ static void put_estimate(const Estimate *estimate, Reading *to)
     to->interval = estimate->interval;
 }
 
-/* paths: in each batch. Those count that found the display. */
-static Reading reading_of(const Batch batches[BATCHES], int paths, double known)
+/* paths: in each batch. Those count that found the display. Where no ray of the sun was seen
+ * to come in, a beam as wide as the map's pixels may. */
+static Reading reading_of(const ProbeAim *aim, const Batch batches[BATCHES], int paths,
+                          double known)
 {
-    EstimateSums sums = {.batches = BATCHES, .paths = (long)paths * BATCHES, .piece = 1};
+    EstimateSums sums = {.batches = BATCHES, .paths = (long)paths * BATCHES, .piece = 1,
+                         .unmet = (double)sunlit_map_unseen(&aim->context->sunlit)};
     Reading      reading = {.paths = sums.paths};
     double       mirror = 0, found = 0;
     for (int i = 0; i < BATCHES; i++) {
@@ -231,7 +234,7 @@ static Reading stream_read(Stream *stream, long paths, const ReadingGoal *goal)
     stream->end = (int)(paths / BATCHES);
     parallel_for(stream->threads, BATCHES, read_batch, stream);
     stream->first = stream->end;
-    return reading_of(stream->batches, stream->end, goal->known);
+    return reading_of(&stream->aim, stream->batches, stream->end, goal->known);
 }
 
 static void keep_stream(const Stream *stream, Batch *batches, int *paths)
@@ -444,12 +447,13 @@ Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const Reading
 }
 
 /* Would the reading have been taken by as many paths? */
-static bool is_enough(const ReadingParts *parts, const Reading *reading,
+static bool is_enough(const ProbeAim *aim, const ReadingParts *parts, const Reading *reading,
                       const ReadingGoal *goal, Arena scratch)
 {
     if (!goal->question) return is_sure(reading, goal) || 2 * reading->paths > goal->most;
     PilotWork    work = {.goal = goal, .scratch = scratch,
-                         .reading = reading_of(parts->pilot, parts->pilot_paths, goal->known)};
+                         .reading = reading_of(aim, parts->pilot, parts->pilot_paths,
+                                               goal->known)};
     EstimatePlan plan = plan_of(&work);
     return estimate_paths(&plan, work.reading.paths) <= reading->paths;
 }
@@ -465,8 +469,8 @@ bool reading_scaled(const ProbeAim *aim, const ReadingGoal *goal, const double *
         return false;
     scale_batches(parts->pilot, scale, displays);
     scale_batches(parts->fresh, scale, displays);
-    Reading reading = reading_of(parts->fresh, parts->paths, goal->known);
-    if (!is_enough(parts, &reading, goal, scratch)) return false;
+    Reading reading = reading_of(aim, parts->fresh, parts->paths, goal->known);
+    if (!is_enough(aim, parts, &reading, goal, scratch)) return false;
     reading.reached = uncertainty(&reading, goal);
     reading.seconds = parts->seconds;
     *out = reading;
@@ -537,5 +541,5 @@ Reading reading_field(const ProbeAim *aim, const FieldAsk *asked, const ReadingT
     if (tools->journal) find_field(aim, &ask, tools, batches, targets, scratch);
     else trace_field(aim, &ask, tools, batches, targets, scratch);
     if (ask.scale) scale_batches(batches, ask.scale, displays_of(aim));
-    return reading_of(batches, (int)(ask.paths / BATCHES), ask.known);
+    return reading_of(aim, batches, (int)(ask.paths / BATCHES), ask.known);
 }
