@@ -139,15 +139,15 @@ void cell_lights_try(const PathContext *context, LitPoint point, uint32_t cell,
     if (context->sunlit.nodes) try_sunlit(context, &guiding, point, sampler, finds);
 }
 
-void cell_lights_weigh(const PathContext *context, const LightFinds *finds, double total,
+void cell_lights_weigh(const PathContext *context, const LightFinds *finds, CellLight light,
                        float prob[LIGHT_CHOICES])
 {
-    double rest = total * total;
+    double rest = light.usual * light.usual;
     for (int set = 0; set < LIGHT_SETS; set++) {
         prob[set] = 0;
         if (!lights_has(context->lights, (LightSet)set)) continue;
         double square = finds->points > 0 ? finds->squares[set] / finds->points : 0;
-        double wanted = total > 0 ? GENEROSITY * sqrt(square) / total : 1;
+        double wanted = light.total > 0 ? GENEROSITY * sqrt(square) / light.total : 1;
         prob[set] = clampf((float)wanted, LEAST, 1);
         rest += square;
     }

@@ -48,6 +48,11 @@ typedef struct LightFinds {
 void cell_lights_try(const PathContext *context, LitPoint point, uint32_t cell,
                      Sampler *sampler, LightFinds *finds);
 
-/* Probabilities for a cell that gets `total` lx in all. */
-void cell_lights_weigh(const PathContext *context, const LightFinds *finds, double total,
+/* Light of a cell, lx: as it was found, and as about it. */
+typedef struct CellLight {
+    double total, usual;
+} CellLight;
+
+/* Probabilities for a cell. */
+void cell_lights_weigh(const PathContext *context, const LightFinds *finds, CellLight light,
                        float prob[LIGHT_CHOICES]);

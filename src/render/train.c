@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/parallel.h"
+#include "base/sort.h"
 #include "render/signals.h"
 #include "render/tiles.h"
 
@@ -103,6 +104,27 @@ static LightFinds with_neighbours(const LightFinds *finds, int cell, int cells)
     return own;
 }
 
+/* Illuminance of a cell's points, lx, by what lessons and light samples found. */
+static double light_of(const Lesson *lesson, int cell)
+{
+    const LightFinds *finds = &lesson->job.finds[cell];
+    double total = guide_training_illuminance(lesson->job.training, (uint32_t)cell);
+    for (int set = 0; set < LIGHT_SETS; set++)
+        total += finds->points > 0 ? finds->sum[set] / finds->points : 0;
+    return total;
+}
+
+/* The median of the cell's and its neighbours': a lesson that met a small patch of sun by chance
+ * makes one cell a hundred times too bright. */
+static double usual_light(const Lesson *lesson, int cell)
+{
+    double value[2 * NEIGHBOURS + 1];
+    int    count = 0, cells = (int)lesson->training->guide.cell_count;
+    for (int i = cell - NEIGHBOURS; i <= cell + NEIGHBOURS; i++)
+        if (i >= 0 && i < cells) value[count++] = light_of(lesson, i);
+    return sort_median(value, count);
+}
+
 static void weigh_cell(void *context, int item, int worker)
 {
     (void)worker;
@@ -111,11 +133,9 @@ static void weigh_cell(void *context, int item, int worker)
     const LightFinds *finds = lesson->job.finds;
     LightGuide   *guide = &lesson->training->guide;
     LightFinds    found = with_neighbours(finds, item, (int)guide->cell_count);
-    double total = guide_training_illuminance(lesson->job.training, (uint32_t)item);
-    for (int set = 0; set < LIGHT_SETS; set++)
-        total += finds[item].points > 0 ? finds[item].sum[set] / finds[item].points : 0;
+    CellLight light = {light_of(lesson, item), usual_light(lesson, item)};
     guide->cells[item].lamps = cell_lamps_keep(&found.lamps, lights_lamp_count(lights));
-    cell_lights_weigh(lesson->job.context, &found, total, guide->cells[item].asked);
+    cell_lights_weigh(lesson->job.context, &found, light, guide->cells[item].asked);
 }
 
 static Lesson lesson_start(const Camera *camera, const TrainOptions *options, Arena *arena)
