@@ -114,8 +114,8 @@ static double light_of(const Lesson *lesson, int cell)
     return total;
 }
 
-/* The median of the cell's and its neighbours': a lesson that met a small patch of sun by chance
- * makes one cell a hundred times too bright. */
+/* The median of the cell's and its neighbours': a lesson that met a small patch of sun by
+ * chance makes one cell a hundred times too bright. */
 static double usual_light(const Lesson *lesson, int cell)
 {
     double value[2 * NEIGHBOURS + 1];
