@@ -6,7 +6,7 @@
  * of the sun goes through every pixel of the region, up to 2^18 of them, and more through those
  * about which one lands; where few do, these are cut into finer ones. Where a ray lands it is
  * connected to a receiver; what none of them sees is left out. An opening wider than two pixels
- * always shows, a narrower one the less often.
+ * shows where some of the receivers see its patch, a narrower one the less often.
  *
  * Memory   from the arena. Threads: any number, the same bits.
  */
