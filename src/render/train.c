@@ -19,6 +19,7 @@ typedef struct Lesson {
     GuideTraining *training;
     FilmRect      raster;
     WorkerCounts *counts;
+    double       *light; /* of each cell, lx */
     bool          stops_at_once;
 } Lesson;
 
@@ -105,13 +106,15 @@ static LightFinds with_neighbours(const LightFinds *finds, int cell, int cells)
 }
 
 /* Illuminance of a cell's points, lx, by what lessons and light samples found. */
-static double light_of(const Lesson *lesson, int cell)
+static void find_light(void *context, int cell, int worker)
 {
+    (void)worker;
+    Lesson           *lesson = context;
     const LightFinds *finds = &lesson->job.finds[cell];
     double total = guide_training_illuminance(lesson->job.training, (uint32_t)cell);
     for (int set = 0; set < LIGHT_SETS; set++)
         total += finds->points > 0 ? finds->sum[set] / finds->points : 0;
-    return total;
+    lesson->light[cell] = total;
 }
 
 /* The median of the cell's and its neighbours': a lesson that met a small patch of sun by
@@ -121,7 +124,7 @@ static double usual_light(const Lesson *lesson, int cell)
     double value[2 * NEIGHBOURS + 1];
     int    count = 0, cells = (int)lesson->training->guide.cell_count;
     for (int i = cell - NEIGHBOURS; i <= cell + NEIGHBOURS; i++)
-        if (i >= 0 && i < cells) value[count++] = light_of(lesson, i);
+        if (i >= 0 && i < cells) value[count++] = lesson->light[i];
     return sort_median(value, count);
 }
 
@@ -133,7 +136,7 @@ static void weigh_cell(void *context, int item, int worker)
     const LightFinds *finds = lesson->job.finds;
     LightGuide   *guide = &lesson->training->guide;
     LightFinds    found = with_neighbours(finds, item, (int)guide->cell_count);
-    CellLight light = {light_of(lesson, item), usual_light(lesson, item)};
+    CellLight light = {lesson->light[item], usual_light(lesson, item)};
     guide->cells[item].lamps = cell_lamps_keep(&found.lamps, lights_lamp_count(lights));
     cell_lights_weigh(lesson->job.context, &found, light, guide->cells[item].asked);
 }
@@ -195,6 +198,8 @@ const LightGuide *train_guide(const PathContext *context, const Camera *camera,
         parallel_for(options->threads, (int)guide->cell_count, keep_cell, &lesson);
     }
     parallel_for(options->threads, (int)guide->cell_count, try_lights, &lesson);
+    lesson.light = ARENA_NEW(arena, double, guide->cell_count);
+    parallel_for(options->threads, (int)guide->cell_count, find_light, &lesson);
     parallel_for(options->threads, (int)guide->cell_count, weigh_cell, &lesson);
     guide->asks = true;
     *cost = worker_counts_sum(lesson.counts, options->threads);

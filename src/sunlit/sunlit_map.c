@@ -4,37 +4,38 @@
 
 #include "base/mathf.h"
 
-/* Cosine of an angle less another, at least 0. */
-static float cosine_less(float cosine, float less_cosine)
+/* What the four quarters may send to the point, relative; their sum. From within its sphere a
+ * quarter may lie anywhere. Without branches, so that compilers work on all four at once: this
+ * runs for every level of every sample.
+ *
+ * An angle less another has the cosine c C + s S, and no more than 0 of it is left where
+ * c >= C. */
+static float weigh(const SunlitQuarters *four, const LitPoint *from, float weight[4])
 {
-    if (cosine >= less_cosine) return 1;
-    return cosine * less_cosine +
-           safe_sqrtf(1 - cosine * cosine) * safe_sqrtf(1 - less_cosine * less_cosine);
-}
-
-/* What the quarter may send to the point, relative. From within its sphere it may lie
- * anywhere. */
-static float importance(const SunlitNode *node, const LitPoint *from)
-{
-    if (!(node->power > 0)) return 0;
-    Vec3  way = vec3_sub(node->centre, from->position);
-    float d2 = vec3_dot(way, way), r2 = node->radius * node->radius;
-    if (!(d2 > r2)) return node->power / r2;
-    float wide = safe_sqrtf(1 - r2 / d2); /* cosine of the angle that the sphere fills */
-    way = vec3_scale(way, 1 / sqrtf(d2));
-    float lit = vec3_dot(from->ns, way);
-    if (from->both_sides) lit = fabsf(lit);
-    float sent = -vec3_dot(node->axis, way);
-    sent = node->cosine > -1 ? cosine_less(cosine_less(sent, node->cosine), wide) : 1;
-    return node->power * fmaxf(cosine_less(lit, wide), 0) * fmaxf(sent, 0) / d2;
-}
-
-/* Importances of the four children; their sum. */
-static float weigh(const SunlitNode *four, const LitPoint *from, float weight[4])
-{
-    float sum = 0;
-    for (int k = 0; k < 4; k++) sum += weight[k] = importance(&four[k], from);
-    return sum;
+    Vec3 at = from->position, ns = from->ns;
+    bool both = from->both_sides;
+    for (int k = 0; k < 4; k++) {
+        float x = four->centre[0][k] - at.x, y = four->centre[1][k] - at.y;
+        float z = four->centre[2][k] - at.z, r2 = four->square[k];
+        float d2 = x * x + y * y + z * z, over = 1 / (d2 > r2 ? d2 : r2), near = sqrtf(over);
+        float fills2 = r2 * over, fills = sqrtf(fills2); /* sine of the angle that it fills, */
+        float wide = sqrtf(1 - fills2);                  /* and cosine */
+        float lit = (ns.x * x + ns.y * y + ns.z * z) * near;
+        float sent = -(four->axis[0][k] * x + four->axis[1][k] * y + four->axis[2][k] * z) *
+                     near;
+        lit = both && lit < 0 ? -lit : lit;
+        float away2 = 1 - lit * lit, aside2 = 1 - sent * sent;
+        float away = sqrtf(away2 > 0 ? away2 : 0), aside = sqrtf(aside2 > 0 ? aside2 : 0);
+        float cosine = four->cosine[k], sine = four->sine[k];
+        bool  in_cone = sent >= cosine;
+        float left = in_cone ? 1 : sent * cosine + aside * sine;
+        float beside = in_cone ? 0 : aside * cosine - sent * sine;
+        lit = lit >= wide ? 1 : lit * wide + away * fills;
+        left = left >= wide ? 1 : left * wide + beside * fills;
+        float seen = (lit > 0 ? lit : 0) * (left > 0 ? left : 0);
+        weight[k] = four->power[k] * over * (d2 > r2 ? seen : 1);
+    }
+    return (weight[0] + weight[1]) + (weight[2] + weight[3]);
 }
 
 /* u becomes a number in [0, 1) again. */
@@ -51,21 +52,19 @@ static int choose_child(const float weight[4], float sum, float *u)
 bool sunlit_map_choose(const SunlitMap *map, const LitPoint *from, const float u[3],
                        SunlitRay *ray)
 {
-    const SunlitNode *node = map->nodes;
-    float side = map->side, prob = 1, choice = u[0];
+    float    side = map->side, prob = 1, choice = u[0];
+    uint32_t at = 0;
     ray->s = ray->t = 0;
-    while (node->child) {
-        float weight[4];
-        const SunlitNode *four = &map->nodes[node->child];
-        float sum = weigh(four, from, weight);
+    do {
+        float weight[4], sum = weigh(&map->nodes[at], from, weight);
         if (!(sum > 0)) return false;
         int k = choose_child(weight, sum, &choice);
         prob *= weight[k] / sum;
         side *= 0.5f;
         ray->s += (float)(k & 1) * side;
         ray->t += (float)(k >> 1) * side;
-        node = &four[k];
-    }
+        at = map->nodes[at].child[k];
+    } while (at);
     ray->s += u[1] * side;
     ray->t += u[2] * side;
     ray->density = prob / (side * side);
@@ -87,21 +86,19 @@ static bool ray_through(const SunlitMap *map, Vec3 at, Vec3 towards, float *s, f
 
 float sunlit_map_density(const SunlitMap *map, const LitPoint *from, Vec3 at, Vec3 towards)
 {
-    const SunlitNode *node = map->nodes;
-    float s, t, side = map->side, prob = 1;
+    float    s, t, side = map->side, prob = 1;
+    uint32_t node = 0;
     if (!ray_through(map, at, towards, &s, &t)) return 0;
-    while (node->child) {
-        float weight[4];
-        const SunlitNode *four = &map->nodes[node->child];
-        float sum = weigh(four, from, weight);
+    do {
+        float weight[4], sum = weigh(&map->nodes[node], from, weight);
         side *= 0.5f;
         int k = (s >= side) + 2 * (t >= side);
         if (!(weight[k] > 0)) return 0;
         prob *= weight[k] / sum;
         s -= (float)(k & 1) * side;
         t -= (float)(k >> 1) * side;
-        node = &four[k];
-    }
+        node = map->nodes[node].child[k];
+    } while (node);
     return prob / (side * side);
 }
 

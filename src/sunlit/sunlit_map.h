@@ -6,7 +6,7 @@
  * is a square whose rays end on surfaces that light the displays and cameras about. From a
  * lit point a quarter is chosen by the light that it may send there: its power over the squared
  * distance, times the cosines at both ends, bounded by its sphere and its cone of normals
- * (A. Conty Estevez and C. Kulla, "Importance Sampling of Many Lights with Adaptive SunlitTree
+ * (A. Conty Estevez and C. Kulla, "Importance Sampling of Many Lights with Adaptive Tree
  * Splitting", HPG 2018). The place in a leaf is uniform.
  *
  * Where the map has nothing, its density is 0 and the light is left to chance: it decides
@@ -27,18 +27,21 @@
                            they are cut further */
 #define SUNLIT_SIDE (1 << SUNLIT_LEVELS)
 
-/* A quarter: the surfaces on which its rays end. */
-typedef struct SunlitNode {
-    Vec3  centre;   /* of the sphere about them, m */
-    float radius;
-    Vec3  axis;     /* unit: the mean of their normals, to the side that the sun lights */
-    float cosine;   /* of the cone about it that holds them; -1: light leaves to all sides */
-    float power;    /* relative; 0: there is nothing */
-    uint32_t child; /* the first of four: i and j low; i high; j high; both. 0: a leaf */
-} SunlitNode;
+/* Four quarters side by side: the surfaces on which their rays end. Number k is the one of
+ * i and j low (0), i high (1), j high (2) or both (3). */
+typedef struct SunlitQuarters {
+    float    centre[3][4]; /* x, y, z of the spheres about them, m */
+    float    square[4];    /* of the spheres' radii, m^2 */
+    float    axis[3][4];   /* unit: the mean of their normals, to the side that the sun lights */
+    float    cosine[4], sine[4]; /* of the cone about it that holds them; -1: light leaves to
+                                    all sides */
+    float    power[4];     /* relative; 0: there is nothing */
+    uint32_t child[4];     /* number of the four that a quarter is cut into; 0: a leaf */
+} SunlitQuarters;
 
 typedef struct SunlitMap {
-    const SunlitNode *nodes; /* the first is the root; NULL: no ray of the sun ends inside */
+    const SunlitQuarters *nodes; /* the first are the square's; NULL: no ray of the sun ends
+                                    inside */
     Frame frame;       /* z: unit, to the sun's middle; x, y: of s and t */
     Vec3  corner;      /* m: (s, t) = (0, 0), in the plane across the region */
     float side;        /* m, of the square */

@@ -9,9 +9,16 @@
 #define FLAT 0.97f      /* least cosine of its cone of normals */
 #define SMOOTH 2.4f     /* its radius, over that of the greatest quarter: 2 on a plane */
 
+/* A quarter of any size. */
+typedef struct SunlitNode {
+    Vec3     centre, axis;
+    float    radius, cosine, power;
+    uint32_t child;
+} SunlitNode;
+
 typedef struct SunlitTree {
     const SunlitGrid *grid;
-    SunlitNode        *nodes;
+    SunlitQuarters    *nodes;
     uint32_t           count, room;
     Arena             *arena; /* nothing else allocates from it meanwhile */
 } SunlitTree;
@@ -78,17 +85,36 @@ static bool is_one_leaf(const SunlitNode *all, const SunlitNode four[4])
     return least >= EVEN * most && all->cosine >= FLAT && all->radius <= SMOOTH * radius;
 }
 
-/* Returns the number of the first of them. */
+static SunlitQuarters side_by_side(const SunlitNode four[4])
+{
+    SunlitQuarters out;
+    for (int k = 0; k < 4; k++) {
+        const SunlitNode *n = &four[k];
+        const Vec3        c = n->centre, axis = n->axis;
+        const float       centre[3] = {c.x, c.y, c.z}, normal[3] = {axis.x, axis.y, axis.z};
+        for (int i = 0; i < 3; i++) {
+            out.centre[i][k] = centre[i];
+            out.axis[i][k] = normal[i];
+        }
+        out.square[k] = n->power > 0 ? n->radius * n->radius : 1;
+        out.cosine[k] = n->cosine;
+        out.sine[k] = safe_sqrtf(1 - n->cosine * n->cosine);
+        out.power[k] = n->power;
+        out.child[k] = n->child;
+    }
+    return out;
+}
+
+/* Returns their number. */
 static uint32_t add_four(SunlitTree *tree, const SunlitNode four[4])
 {
-    if (tree->count + 4 > tree->room) {
-        tree->nodes = ARENA_GROW(tree->arena, SunlitNode, tree->nodes, tree->count,
+    if (tree->count == tree->room) {
+        tree->nodes = ARENA_GROW(tree->arena, SunlitQuarters, tree->nodes, tree->count,
                                  2 * tree->room);
         tree->room *= 2;
     }
-    for (int k = 0; k < 4; k++) tree->nodes[tree->count + (uint32_t)k] = four[k];
-    tree->count += 4;
-    return tree->count - 4;
+    tree->nodes[tree->count] = side_by_side(four);
+    return tree->count++;
 }
 
 /* The square of 2^level pixels a side from (i, j) on. */
@@ -111,11 +137,12 @@ static SunlitNode grow(SunlitTree *tree, int level, int i, int j)
     return all;
 }
 
-const SunlitNode *sunlit_tree(const SunlitGrid *grid, Arena *arena)
+const SunlitQuarters *sunlit_tree(const SunlitGrid *grid, Arena *arena)
 {
-    SunlitTree tree = {grid, NULL, 1, 1024, arena};
-    tree.nodes = ARENA_NEW(arena, SunlitNode, tree.room);
+    SunlitTree tree = {grid, NULL, 1, 256, arena};
+    tree.nodes = ARENA_NEW(arena, SunlitQuarters, tree.room);
     SunlitNode root = grow(&tree, SUNLIT_LEVELS + grid->fine, 0, 0);
-    tree.nodes[0] = root;
-    return root.power > 0 ? tree.nodes : NULL;
+    if (!(root.power > 0)) return NULL;
+    tree.nodes[0] = tree.nodes[root.child]; /* of so large a square always its last */
+    return tree.nodes;
 }

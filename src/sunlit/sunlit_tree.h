@@ -33,5 +33,5 @@ static inline SunlitPixel *sunlit_pixel(const SunlitGrid *grid, int i, int j)
     return &grid->pixels[(block << 2 * fine) + ((j & inside) << fine) + (i & inside)];
 }
 
-/* NULL: no pixel has power. The first node is the root. */
-const SunlitNode *sunlit_tree(const SunlitGrid *grid, Arena *arena);
+/* NULL: no pixel has power. */
+const SunlitQuarters *sunlit_tree(const SunlitGrid *grid, Arena *arena);
