@@ -11,7 +11,7 @@
 #define OUTLIERS 0.01f     /* of the receivers, at either end, do not make the region wider */
 #define MARGIN 0.05f       /* of its extent, that is added at either end */
 #define FAR 4.0f           /* times the median distance from their median: beyond is outside */
-#define TRIES 131072       /* rays through the pixels about which one landed, about; but */
+#define TRIES 65536        /* rays through the pixels about which one landed, about; but */
 #define LEAST_TRIES 1      /* through each at least, and at most */
 #define MOST_TRIES 32
 #define TESTED 4           /* one in so many pixels of a triangle is held against a receiver */
@@ -219,13 +219,14 @@ static void try_openings(void *user, int j, int worker)
     (void)worker;
     for (int i = 0; i < work->columns; i++) {
         uint8_t *seen = &work->is_received[j * work->columns + i];
+        Landing  landing;
+        float    u[RAY_NUMBERS];
         if (*seen || !is_deep(work, i, j)) continue;
+        sample_ray(i, j, 1, u);
+        if (!land(work, ray_through(i, j, work->pitch, u), u, &landing)) continue;
         for (int k = 1; k <= OPENING_TRIES && !*seen; k++) {
-            Landing landing;
-            float   u[RAY_NUMBERS];
-            sample_ray(i, j, k, u);
-            *seen = land(work, ray_through(i, j, work->pitch, u), u, &landing) &&
-                    is_received(work, &landing, u[6]);
+            *seen = is_received(work, &landing, u[6]);
+            sample_ray(i, j, k + 1, u);
         }
     }
 }
