@@ -43,8 +43,9 @@ Estimate estimate_of(const EstimateSums *sums)
     return (Estimate){.mean = means.sum / sums->batches / share,
                       .sigma = batch_error(&means) / share,
                       .interval = {fmax(in.low, 0) / share,
-                                   in.high / share + missing + sums->unmet},
-                      .bright = sums->bright, .counted = counted, .unmet = sums->unmet};
+                                   in.high / share + missing + sums->unmet + sums->unseen},
+                      .bright = sums->bright, .counted = counted, .unmet = sums->unmet,
+                      .unseen = sums->unseen};
 }
 
 void estimate_add_known(Estimate *to, double known, double sigma)
@@ -56,7 +57,7 @@ void estimate_add_known(Estimate *to, double known, double sigma)
     to->interval.high += known + 2 * sigma;
 }
 
-/* What the upper end has more than the spread. */
+/* What the upper end has more than the spread, and fewer paths have more of. */
 static double beyond(const Estimate *estimate, double times)
 {
     return bright_missing(&estimate->bright, estimate->counted, times) +
@@ -74,7 +75,8 @@ Estimate estimate_expected(const Estimate *pilot, double times)
     fresh.interval.low -= (pilot->mean - pilot->interval.low) * scale;
     fresh.interval.low = fmax(fresh.interval.low, 0);
     fresh.interval.high +=
-        (pilot->interval.high - beyond(pilot, 1) - pilot->mean) * scale + beyond(pilot, times);
+        (pilot->interval.high - pilot->unseen - beyond(pilot, 1) - pilot->mean) * scale +
+        beyond(pilot, times);
     return fresh;
 }
 
@@ -92,4 +94,5 @@ void estimate_sums_add(EstimateSums *to, const EstimateSums *more)
     to->bright.squares += square * more->bright.squares;
     to->bright.fourths += square * square * more->bright.fourths;
     to->unmet += more->unmet;
+    to->unseen += more->unseen;
 }

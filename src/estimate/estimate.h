@@ -4,9 +4,10 @@
  *
  * Paths come in batches that differ in nothing but chance. The interval is that of the batches'
  * means (batch_interval); its upper end has, besides, the light of bright paths that may be
- * missing (bright_missing) and what is known to be there but was met by none (`unmet`). What is
- * known without paths, with an error of its own, is added last. How many paths there are must
- * hang on none of them (estimate_plan.h).
+ * missing (bright_missing), what is known to be there but was met by none (`unmet`), and what
+ * no number of paths would tell of (`unseen`). What is known without paths, with an error of
+ * its own, is added last. How many paths there are must hang on none of them
+ * (estimate_plan.h).
  *
  * Units    the figure's.
  * Threads  pure functions.
@@ -25,7 +26,8 @@ typedef struct EstimateSums {
     int    piece;   /* so many at once: paths is a multiple */
     double share;   /* of paths that count, above 0: the mean is over these; as a rule 1 */
     double unmet;   /* light that may be there although no path met it: what the mean of the
-                       truth may have of it, at most (estimate_unmet, or another bound) */
+                       truth may have of it, at most (estimate_unmet) */
+    double unseen;  /* likewise, but by a bound that paths do not lessen */
 } EstimateSums;
 
 typedef struct Estimate {
@@ -33,7 +35,7 @@ typedef struct Estimate {
     MeanInterval interval; /* 95 %, its lower end at least 0 */
     BrightSamples bright;  /* of the paths, */
     double counted;        /* so many of which count */
-    double unmet;          /* EstimateSums's */
+    double unmet, unseen;  /* EstimateSums's */
     double known_sigma;    /* error that no path lessens */
 } Estimate;
 
@@ -46,7 +48,7 @@ double estimate_batch(const EstimateSums *sums, int i);
 void estimate_add_known(Estimate *to, double known, double sigma);
 
 /* By so many times the paths, all fresh: as wide as these make it, about somewhere in this
- * one's interval. */
+ * one's interval. What is unseen stays, once: fresh paths meet none of it. */
 Estimate estimate_expected(const Estimate *pilot, double times);
 
 /* Light that other paths find, in as many batches of equal length: it adds to each one's. */

@@ -11,6 +11,7 @@ long estimate_paths(const EstimatePlan *plan, long pilot)
 long estimate_plan(const EstimatePlan *plan)
 {
     long pilot = plan->pilot, paths;
+    if (2 * plan->least > plan->most) return plan->least;
     plan->read_pilot(plan->user, pilot);
     while ((paths = estimate_paths(plan, pilot)) > plan->reach * pilot) {
         pilot *= 2;

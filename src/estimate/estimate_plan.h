@@ -26,5 +26,6 @@ typedef struct EstimatePlan {
 /* Paths that will do, the fewest; the most there are, where none will. */
 long estimate_paths(const EstimatePlan *plan, long pilot);
 
-/* Reads the pilot, and tells how many fresh ones there should be. */
+/* Reads the pilot, and tells how many fresh ones there should be. No pilot is read where there
+ * is no choice. */
 long estimate_plan(const EstimatePlan *plan);

@@ -43,7 +43,7 @@ typedef struct Moment {
 
 static void cover_readings(const Moment *m, Arena arena)
 {
-    ReadingGoal goal = {.precision = NEVER, .most = READ_PATHS};
+    ReadingGoal goal = {.most = READ_PATHS};
     int         count = 2 * m->runs;
     Trial      *list = ARENA_NEW(&arena, Trial, count);
     PathContext without = m->setup->context;

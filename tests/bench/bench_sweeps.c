@@ -138,7 +138,7 @@ static void tell_worst(const SweepTrials *t, const Trial *steps, const Truth *tr
 
 static double own_light(const SweepTrials *t)
 {
-    ReadingGoal goal = {.precision = NEVER, .most = TRUTH_PATHS};
+    ReadingGoal goal = {.most = TRUTH_PATHS};
     Lights     *lights = (Lights *)(void *)t->setup->context.lights;
     if (!lights_has(lights, LIGHTS_EMITTERS) && !lights_has(lights, LIGHTS_PUNCTUAL)) return 0;
     return reading_take(&t->aim, &goal, &t->setup->tools, t->scratch).reflected;

@@ -99,6 +99,20 @@ TEST(a_pilot_reaches_no_farther_than_it_may)
     }
 }
 
+static void read_nothing(void *user, long paths)
+{
+    *(long *)user += paths;
+}
+
+TEST(a_plan_without_a_choice_reads_no_pilot)
+{
+    long         read = 0;
+    EstimatePlan plan = {.pilot = 128, .least = LEAST, .most = 2 * LEAST - 1, .reach = 4,
+                         .user = &read, .read_pilot = read_nothing};
+    assert_int_equal(estimate_plan(&plan), LEAST);
+    assert_int_equal(read, 0);
+}
+
 /* Batches whose lengths differ by one path: means and errors of those of equal length. */
 TEST(batches_may_differ_in_length)
 {
@@ -125,6 +139,30 @@ TEST(what_is_known_shifts_and_widens)
     assert_near(after.interval.low, before.interval.low + 9, 1e-12);
     assert_near(after.interval.high, before.interval.high + 11, 1e-12);
     assert_near(estimate_expected(&after, 1e12).sigma, 0.5, 1e-6);
+}
+
+/* However many paths there are, it is in the upper end, once; of what none met fewer and fewer
+ * is left. */
+TEST(no_number_of_paths_lessens_what_is_unseen)
+{
+    static const double TIMES[] = {0.25, 1, 64, 1e12};
+    Rare rare = rare_start(11);
+    rare_read(&rare, MOST);
+    rare.sums.unmet = 3;
+    Estimate without = estimate_of(&rare.sums);
+    rare.sums.unseen = 5;
+    Estimate with = estimate_of(&rare.sums);
+    assert_near(with.interval.high, without.interval.high + 5, 1e-12);
+    assert_near(with.interval.low, without.interval.low, 1e-12);
+    assert_near(with.mean, without.mean, 1e-12);
+    for (int i = 0; i < 4; i++) {
+        Estimate a = estimate_expected(&without, TIMES[i]);
+        Estimate b = estimate_expected(&with, TIMES[i]);
+        assert_near(b.interval.high, a.interval.high + 5, 1e-9);
+        assert_near(b.unseen, 5, 1e-12);
+        assert_near(b.unmet, 3 / TIMES[i], 1e-9);
+        assert_true(b.interval.high >= b.mean + b.unseen);
+    }
 }
 
 /* The same as one set of paths whose light is the sum, where the numbers are the same. */

@@ -32,7 +32,7 @@ static Reading read_ball(const World *world, uint32_t seed, const ReadingGoal *g
 
 static double converged(const World *world)
 {
-    ReadingGoal goal = {.precision = 1e-9, .most = 1 << 18};
+    ReadingGoal goal = {.most = 1 << 18};
     return read_ball(world, 77, &goal).reflected;
 }
 
@@ -40,7 +40,7 @@ static double converged(const World *world)
 TEST(intervals_hold_the_converged_reading)
 {
     ENDS_BY(world_end) World world = closed_ball();
-    ReadingGoal goal = {.precision = 1e-9, .most = READING_LEAST};
+    ReadingGoal goal = {.most = READING_LEAST};
     double      truth = converged(&world);
     int         held = 0;
     for (uint32_t run = 0; run < RUNS; run++) {

@@ -58,7 +58,7 @@ static ProbeAim aim_of(const World *world, uint32_t seed, bool by_meter)
     return aim;
 }
 
-static const ReadingGoal PLAIN = {.precision = 1e-9, .most = READING_LEAST, .is_shared = true};
+static const ReadingGoal PLAIN = {.most = READING_LEAST, .is_shared = true};
 
 static Reading scaled(const ProbeAim *aim, const ReadingGoal *goal, const double scale[2],
                       const ReadingTools *tools, Arena scratch)
@@ -133,7 +133,7 @@ TEST(intervals_under_other_levels_hold_the_converged_reading)
 {
     static const double LEVELS[2] = {0.5, 3};
     int          runs = all_laws() ? 300 : 150;
-    ReadingGoal  longer = {.precision = 1e-9, .most = all_laws() ? 1 << 19 : 1 << 17};
+    ReadingGoal  longer = {.most = all_laws() ? 1 << 19 : 1 << 17};
     ENDS_BY(world_end) World world = room(), other = room();
     Journal     *journal = open_journal(&world);
     ReadingTools tools = reading_tools(2, journal), plain = reading_tools(2, NULL);
@@ -234,7 +234,7 @@ TEST(emitters_are_sorted_again_where_a_display_changes_four_times)
 TEST(emitters_of_other_levels_tell_the_same_light)
 {
     static const double ONE[2] = {1, 1}, LEVELS[2] = {0.25, 4}, FAR[2] = {8, 0.05};
-    ReadingGoal  longer = {.precision = 1e-9, .most = all_laws() ? 1 << 17 : 1 << 16};
+    ReadingGoal  longer = {.most = all_laws() ? 1 << 17 : 1 << 16};
     ENDS_BY(world_end) World world = room();
     ReadingTools tools = reading_tools(2, NULL);
     for (int by_meter = 0; by_meter < 2; by_meter++) {

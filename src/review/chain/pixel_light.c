@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/chain/pixel_light.h"
 
-#include <math.h>
-
 #include "base/parallel.h"
+#include "estimate/estimate.h"
 #include "spectrum/spectral_table.h"
 
 #define FIGURES (3 + PIXEL_BANDS)
@@ -58,17 +57,14 @@ static void trace_chunk(void *user, int item, int worker)
                                      (item + 1) * CHAIN_CHUNK, &listener, &statistics);
 }
 
+/* Batches as those of chains: an error of Y is that of their sum. */
 static PixelFigure figure_of(const ChunkLight *chunks, int count, int k)
 {
-    double sum = 0, squares = 0;
-    for (int i = 0; i < count; i++) {
-        double mean = chunks[i].sum[k] / CHAIN_CHUNK;
-        sum += mean;
-        squares += mean * mean;
-    }
-    double mean = sum / count;
-    double variance = fmax(squares / count - mean * mean, 0) / (count - 1);
-    return (PixelFigure){mean, sqrt(variance)};
+    EstimateSums sums = {.batches = count < CHAIN_BATCHES ? count : CHAIN_BATCHES,
+                         .paths = (long)count * CHAIN_CHUNK, .piece = CHAIN_CHUNK, .share = 1};
+    for (int i = 0; i < count; i++) sums.batch[i % sums.batches] += chunks[i].sum[k];
+    Estimate estimate = estimate_of(&sums);
+    return (PixelFigure){estimate.mean, estimate.sigma};
 }
 
 PixelLight pixel_light_find(const ChainAsk *ask)

@@ -8,7 +8,8 @@
  * errors. Displays count by their panels' spectra, here too where frames take their measured
  * tristimulus values as they are.
  *
- * Standard errors come from means of whole chunks of paths, as those of chains do (chains.h).
+ * Standard errors come from batches of paths, as those of chains do (chains.h), and all
+ * estimates' (estimate/estimate.h). How many paths there are is given, and hangs on none.
  *
  * Units    cd m^-2; W m^-2 sr^-1 nm^-1; nm.
  * Memory   scratch only.
@@ -30,5 +31,5 @@ typedef struct PixelLight {
     PixelFigure radiance[PIXEL_BANDS]; /* means over the bands */
 } PixelLight;
 
-/* As many paths as chains_find takes of this question, the same ones. */
+/* ask: of a pixel (ProbeAim.pixel). As many paths as chains_find takes of it, the same ones. */
 PixelLight pixel_light_find(const ChainAsk *ask);

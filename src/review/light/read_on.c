@@ -39,6 +39,8 @@ Reading setup_read_on(const Setup *setup, const ProbeAim *aim, const ReadingGoal
     long        left = from->budget - reading.paths;
     plain.question = NULL;
     plain.precision = 0;
+    plain.times = 1;
+    plain.least = 0;
     for (int round = 1; from->is_worth(goal->question->user, &reading, scratch); round++) {
         plain.most = read_on_paths(reading.paths, left);
         if (!plain.most) break;

@@ -115,11 +115,18 @@ static void read_batch(void *user, int item, int worker)
     stream->batches[item].sent_on += statistics.sent_on;
 }
 
-static Estimate estimate_in(const Reading *reading, double known)
+/* Where no ray of the sun was seen to come in, a beam as wide as the map's pixels may. */
+static double unseen_by(const ProbeAim *aim)
+{
+    return (double)sunlit_map_unseen(&aim->context->sunlit);
+}
+
+static Estimate estimate_in(const Reading *reading, const ProbeAim *aim, double known)
 {
     return (Estimate){.mean = reading->reflected, .sigma = reading->sigma,
                       .interval = reading->interval, .bright = reading->bright,
                       .counted = (double)reading->paths * reading->found_share,
+                      .unseen = unseen_by(aim),
                       .known_sigma = RESPONSE_MIRROR_ERROR * known};
 }
 
@@ -144,13 +151,12 @@ static double sky_unmet(const ProbeAim *aim, const Batch batches[BATCHES], doubl
     return estimate_unmet(share * (double)aim->context->selection.sky_cd_m2, found);
 }
 
-/* paths: in each batch. Those count that found the display. Where no ray of the sun was seen
- * to come in, a beam as wide as the map's pixels may. */
+/* paths: in each batch. Those count that found the display. */
 static Reading reading_of(const ProbeAim *aim, const Batch batches[BATCHES], int paths,
                           double known)
 {
     EstimateSums sums = {.batches = BATCHES, .paths = (long)paths * BATCHES, .piece = 1,
-                         .unmet = (double)sunlit_map_unseen(&aim->context->sunlit)};
+                         .unseen = unseen_by(aim)};
     Reading      reading = {.paths = sums.paths};
     double       mirror = 0, found = 0;
     for (int i = 0; i < BATCHES; i++) {
@@ -196,7 +202,7 @@ static bool is_sure(const Reading *reading, const ReadingGoal *goal)
 static bool is_decided(const Reading *reading, const ReadingGoal *goal, Arena scratch)
 {
     const ReadingQuestion *question = goal->question;
-    return uncertainty(reading, goal) <= question->precision &&
+    return question && uncertainty(reading, goal) <= question->precision &&
            relative_error(reading) <= question->precision &&
            question->is_decided(question->user, reading->interval, scratch);
 }
@@ -262,19 +268,6 @@ static void keep_stream(const Stream *stream, Batch *batches, int *paths)
     *paths = stream->end;
 }
 
-/* Until it is sure enough by itself. */
-static Reading take_plain(const ProbeAim *aim, const ReadingGoal *goal,
-                          const ReadingTools *tools, ReadingParts *parts, Arena scratch)
-{
-    Stream  stream = stream_start(aim, tools, &scratch);
-    long    first = goal->precision > 0 ? READING_LEAST : goal->most;
-    Reading reading = stream_read(&stream, first, goal);
-    while (!is_sure(&reading, goal) && 2 * reading.paths <= goal->most)
-        reading = stream_read(&stream, 2 * reading.paths, goal);
-    if (parts) keep_stream(&stream, parts->fresh, &parts->paths);
-    return reading;
-}
-
 /* ---- a pilot, and what it asks for ------------------------------------------------------- */
 
 /* A pilot, and what would do. */
@@ -294,22 +287,27 @@ static void read_pilot(void *user, long paths)
 static bool will_do(void *user, long pilot, long paths)
 {
     PilotWork *work = user;
-    Estimate   now = estimate_in(&work->reading, work->goal->known);
+    Estimate   now = estimate_in(&work->reading, &work->stream.aim, work->goal->known);
     Estimate   then = estimate_expected(&now, (double)paths / (double)pilot);
     Reading    fresh = work->reading;
     put_estimate(&then, &fresh);
     return is_sure(&fresh, work->goal) || is_decided(&fresh, work->goal, work->scratch);
 }
 
+/* A number of paths that nothing decides is the least and the most. */
 static EstimatePlan plan_of(PilotWork *work)
 {
-    return (EstimatePlan){.pilot = READING_PILOT, .least = READING_ASKED_LEAST,
-                          .most = work->goal->most, .reach = PILOT_REACH, .user = work,
-                          .read_pilot = read_pilot, .will_do = will_do};
+    const ReadingGoal *goal = work->goal;
+    bool is_given = !goal->question && !(goal->precision > 0);
+    long most = is_given ? goal->most / BATCHES * BATCHES : goal->most;
+    long least = is_given ? most : goal->question ? READING_ASKED_LEAST : READING_LEAST;
+    return (EstimatePlan){.pilot = least / 2, .least = least, .most = most,
+                          .reach = PILOT_REACH, .user = work, .read_pilot = read_pilot,
+                          .will_do = will_do};
 }
 
-static Reading take_asked(const ProbeAim *aim, const ReadingGoal *goal,
-                          const ReadingTools *tools, ReadingParts *parts, Arena scratch)
+static Reading take_planned(const ProbeAim *aim, const ReadingGoal *goal,
+                            const ReadingTools *tools, ReadingParts *parts, Arena scratch)
 {
     Stream    fresh = stream_start(aim, tools, &scratch);
     PilotWork work = {.stream = stream_start(aim, tools, &scratch), .goal = goal};
@@ -332,8 +330,7 @@ static Reading take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingT
     double   start = monotonic_seconds();
     ProbeAim own = *aim;
     own.by_display = parts != NULL;
-    Reading reading = goal->question ? take_asked(&own, goal, tools, parts, scratch)
-                                     : take_plain(&own, goal, tools, parts, scratch);
+    Reading reading = take_planned(&own, goal, tools, parts, scratch);
     reading.reached = uncertainty(&reading, goal);
     reading.seconds = monotonic_seconds() - start;
     if (parts) parts->seconds = reading.seconds;
@@ -469,8 +466,7 @@ Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const Reading
 static bool is_enough(const ProbeAim *aim, const ReadingParts *parts, const Reading *reading,
                       const ReadingGoal *goal, Arena scratch)
 {
-    if (!goal->question) return is_sure(reading, goal) || 2 * reading->paths > goal->most;
-    PilotWork    work = {.goal = goal, .scratch = scratch,
+    PilotWork    work = {.stream.aim = *aim, .goal = goal, .scratch = scratch,
                          .reading = reading_of(aim, parts->pilot, parts->pilot_paths,
                                                goal->known)};
     EstimatePlan plan = plan_of(&work);

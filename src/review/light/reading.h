@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* reading.h -- what a probe reads under the light that is there.
  *
- * Paths go out in rounds, each as long as all before it, until the reading is sure enough.
- * Where a decision depends on it, these are a pilot only (estimate/estimate_plan.h): it finds
- * how many paths will do, because the answer is clear then or the reading is sure enough, and
- * so many others make the reading. Intervals are those of all estimates
+ * A pilot (estimate/estimate_plan.h) finds how many paths will do, because the reading is sure
+ * enough then or the answer to a question is clear; so many others make the reading. Where a
+ * number of paths is given, there is no pilot. Intervals are those of all estimates
  * (estimate/estimate.h).
  *
  * Where it is asked to stop (render/signals.h), a reading ends at once and means nothing.
@@ -37,12 +36,11 @@ typedef struct ReadingQuestion {
  * less than `precision` of it, or the reading itself. */
 typedef struct ReadingGoal {
     double brighter, darker; /* emitted, cd m^-2; both 0: the reading itself counts */
-    double precision;        /* relative, above 0; or 0, without a question: all paths */
+    double precision;        /* relative, above 0; or 0, without a question: `most` paths */
     long   most;             /* paths, at most */
-    int    times;            /* with a question: so many times the paths that would do, for
-                                a difference to another reading; 0 is 1 */
-    long   least;            /* likewise: no fewer, as many as that other one has; 0 as a
-                                rule */
+    int    times;            /* so many times the paths that would do, for a difference to
+                                another reading; 0 is 1 */
+    long   least;            /* no fewer, as many as that other one has; 0 as a rule */
     double known;            /* the part by the display's mirror: paths leave it out
                                 (path_context.h); it is added, with the error of
                                 response_mirror_paths */
@@ -75,8 +73,8 @@ typedef struct Reading {
     double seconds;        /* that it took when it was taken, the pilot's too */
 } Reading;
 
-#define READING_LEAST 1024       /* paths of any reading */
-#define READING_PILOT 2048       /* paths of a pilot, at least */
+#define READING_LEAST 1024       /* paths of a reading that a pilot decides; twice its pilot's,
+                                    at least */
 #define READING_ASKED_LEAST 4096 /* with a question: light that only one path in hundreds finds
                                     must have been met */
 

@@ -206,6 +206,8 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictAsk
     if (look->is_coarse) {
         goal.precision = COARSE_PRECISION;
         goal.most = COARSE_PATHS;
+        goal.times = 1;
+        goal.least = 0;
         goal.question = NULL;
     }
     ReadOn from = {setup_ask(setup, &rest, &goal, scratch),
