@@ -21,7 +21,8 @@ typedef struct Sums {
     RimNoise rim, display_rim; /* of the light, and of what is reflected */
     PixelNoise display_noise, display_by_halves; /* over the pixels of displays */
     PixelNoise reflected_by_halves; /* of what is reflected there: all that contrasts hang on */
-    double reflected_missing;       /* what few samples find may be missing there, summed */
+    double missing, reflected_missing; /* what few samples find may be missing, summed: of all
+                                          light, and of what is reflected there */
     DisplayLight light; /* of displays */
     double mirror, lambertian, display_area, reflected_rgb[3];
     long   pixels, display_pixels, nonfinite, rim_pixels, shared_pixels, unknown_pixels;
@@ -277,15 +278,27 @@ static void add_display_noise(const RegionPlanes *planes, size_t i, const PixelS
 #define REFLECTED_FREEDOM 4 /* no other layer has the noise of what is reflected */
 
 /* A bright sample in a pixel of n moves it by its n-th part, and half the difference of the
- * pixel's halves is as much: these stand for the samples. */
+ * pixel's halves is as much, its variance the square: these stand for the samples. */
+static double missing_by(const PixelNoise *noise)
+{
+    return bright_missing(&(BrightSamples){noise->luminance, noise->fourths}, 1, 1);
+}
+
+/* The rule of estimates (estimate/estimate.h) where pixels stand for batches. But a pixel has
+ * two halves alone, whose difference is as often above 0 as below: it tells no skewness, and so
+ * the interval is Student's as it is, of as many degrees of freedom as pixels count. Of all
+ * light bright samples are looked for among that many pixels only: in one or two all noise
+ * would be taken for a single sample. */
 static void choose_noise(Sums *sums)
 {
     const PixelNoise *reflected = &sums->reflected_by_halves;
-    BrightSamples     bright = {reflected->luminance, reflected->fourths};
-    pixel_noise_of_halves(&sums->by_halves, sums->pixels, HALVES_FREEDOM, &sums->noise);
+    double missing = missing_by(&sums->noise), by_halves = missing_by(&sums->by_halves);
+    if (pixel_noise_of_halves(&sums->by_halves, sums->pixels, HALVES_FREEDOM, &sums->noise))
+        missing = by_halves;
+    sums->missing = sums->pixels < HALVES_FREEDOM ? 0 : missing;
     if (pixel_noise_of_halves(reflected, sums->display_pixels, REFLECTED_FREEDOM,
                               &sums->display_noise))
-        sums->reflected_missing = bright_missing(&bright, 1, 1);
+        sums->reflected_missing = missing_by(reflected);
     else
         pixel_noise_of_halves(&sums->display_by_halves, sums->display_pixels, HALVES_FREEDOM,
                       &sums->display_noise);
@@ -518,6 +531,7 @@ static FrameMeasurement figures_of(const RegionPlanes *planes, const Sums *sums)
     }
     measure_colour(rgb, variance, &out);
     out.luminance = about(out.xyz[1], SIGMAS_95 * sqrt(sums->noise.luminance) / n, &out);
+    out.luminance.high += sums->missing / n;
     measure_display(planes, sums, &out);
     return out;
 }
