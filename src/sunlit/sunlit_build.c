@@ -16,6 +16,7 @@
 #define MOST_TRIES 32
 #define STEP 4.0f          /* pixels by which a ray lands deeper beside an opening's edge */
 #define OPENING_TRIES 8
+#define BESIDE_TRIES 16
 #define FINE_PIXELS 8192   /* at most, if pixels are cut */
 #define SUN_BLUR 0.00465f  /* half of the sun's disc, radians */
 #define REACH_MOST 3.0f
@@ -32,7 +33,9 @@ typedef struct SunlitWork {
     int         reach;          /* pixels about one that is lit, which are looked at as well */
     SunlitReceivers   receivers;
     float      *depth;          /* m, of all pixels, row by row: where a ray lands; */
-    uint8_t    *is_received;    /* and whether a receiver sees that */
+    uint8_t    *is_received;    /* and whether a receiver sees that; */
+    uint8_t    *is_beside;      /* whether one sees a place of another ray through it */
+    uint8_t    *is_tried;       /* is_beside was asked */
     SunlitGrid  grid;           /* of what is looked at more closely */
     int         blocks;         /* pixels of the first grid that it has */
     int         tries;          /* rays through each of its pixels */
@@ -113,6 +116,7 @@ typedef struct Landing {
 
 /* The sampler's numbers in turn: direction on the disc, place in the pixel, a receiver's. */
 #define RAY_NUMBERS 8
+#define BESIDE_FIRST (1 + OPENING_TRIES + MOST_TRIES) /* of a pixel's rays */
 
 static SunlitRay ray_through(int i, int j, float pitch, const float u[RAY_NUMBERS])
 {
@@ -205,6 +209,20 @@ static bool is_deep(const SunlitWork *work, int i, int j)
            (j + 1 < work->rows && work->depth[(j + 1) * work->columns + i] < own);
 }
 
+/* Does a receiver see where one of some more rays through the pixel lands? */
+static bool is_received_again(const SunlitWork *work, int i, int j, int first, int tries)
+{
+    for (int k = first; k < first + tries; k++) {
+        Landing landing;
+        float   u[RAY_NUMBERS];
+        sample_ray(i, j, k, u);
+        if (land(work, ray_through(i, j, work->pitch, u), u, &landing) &&
+            is_received(work, &landing, u[6]))
+            return true;
+    }
+    return false;
+}
+
 /* A small opening has few pixels: more receivers are tried. */
 static void try_openings(void *user, int j, int worker)
 {
@@ -212,14 +230,8 @@ static void try_openings(void *user, int j, int worker)
     (void)worker;
     for (int i = 0; i < work->columns; i++) {
         uint8_t *seen = &work->is_received[j * work->columns + i];
-        if (*seen || !is_deep(work, i, j)) continue;
-        for (int k = 1; k <= OPENING_TRIES && !*seen; k++) {
-            Landing landing;
-            float   u[RAY_NUMBERS];
-            sample_ray(i, j, k, u);
-            *seen = land(work, ray_through(i, j, work->pitch, u), u, &landing) &&
-                    is_received(work, &landing, u[6]);
-        }
+        if (!*seen && is_deep(work, i, j))
+            *seen = is_received_again(work, i, j, 1, OPENING_TRIES);
     }
 }
 
@@ -240,6 +252,53 @@ static float beam_lm(const SunlitWork *work)
     if (!lights_sample(work->tools->lights, LIGHTS_SUN, facing, u, &sun)) return 0;
     return (float)lights_sample_lx(work->tools->lights, facing, &sun, 0.5f) * work->pitch *
            work->pitch;
+}
+
+static void try_beside(void *user, int j, int worker)
+{
+    SunlitWork *work = user;
+    (void)worker;
+    for (int i = 0; i < work->columns; i++) {
+        int n = j * work->columns + i;
+        if (work->is_tried[n] || work->is_received[n] || !is_received_about(work, i, j))
+            continue;
+        work->is_tried[n] = 1;
+        work->is_beside[n] = is_received_again(work, i, j, BESIDE_FIRST, BESIDE_TRIES);
+    }
+}
+
+/* Takes over what try_beside found; false: nothing new. */
+static bool take_beside(SunlitWork *work)
+{
+    bool is_new = false;
+    for (int n = 0; n < work->columns * work->rows; n++) {
+        if (!work->is_beside[n] || work->is_received[n]) continue;
+        work->is_received[n] = 1;
+        is_new = true;
+    }
+    return is_new;
+}
+
+static int count_about(const SunlitWork *work)
+{
+    int count = 0;
+    for (int j = 0; j < work->rows; j++)
+        for (int i = 0; i < work->columns; i++) count += is_received_about(work, i, j);
+    return count;
+}
+
+/* Of a slit narrower than a pixel one ray in many comes in: where those that did lie far
+ * apart, what is between them would be missed. So it is followed from pixel to pixel, as long
+ * as few are lit. */
+static void follow_openings(SunlitWork *work, int threads, Arena scratch)
+{
+    size_t count = (size_t)work->columns * (size_t)work->rows;
+    work->is_beside = ARENA_NEW(&scratch, uint8_t, count);
+    work->is_tried = ARENA_NEW(&scratch, uint8_t, count);
+    do {
+        if (count_about(work) > FINE_PIXELS) return;
+        parallel_for(threads, work->rows, try_beside, work);
+    } while (take_beside(work));
 }
 
 /* ---- the plane, and finer pixels --------------------------------------------------------- */
@@ -419,6 +478,7 @@ SunlitMap sunlit_build(const SunlitTools *tools, Arena *arena)
         work.is_received = ARENA_NEW(&scratch, uint8_t, work.columns * work.rows);
         parallel_for(threads, work.rows, land_row, &work);
         parallel_for(threads, work.rows, try_openings, &work);
+        follow_openings(&work, threads, scratch);
         move_plane(&work, scratch);
         list_blocks(&work, &scratch);
         parallel_for(threads, work.rows, try_row, &work);
