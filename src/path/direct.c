@@ -268,6 +268,7 @@ static void add_arriving(PathState *path, const Surface *surface, Vec3 wo,
     float    prob = asked->prob;
     Spectrum passed = direct_visibility(path, surface, light, &ray);
     if (spectrum_is_zero(passed)) return;
+    path->statistics->sky_finds += light->set == LIGHTS_SKY;
     absorb_sample(path, surface, light, &passed);
     guiding_weigh_light(guiding, context->lights, emitted_lit_point(path, surface), light);
     float    bsdf_pdf;

@@ -82,6 +82,7 @@ void emitted_distant(PathState *path)
     radiance[LIGHTS_SUN] *= path->last.sun_share;
     if (path->context->without_mirrored_sun && path->first.by_mirror && path->bounce == 1)
         radiance[LIGHTS_SUN] = spectrum_all(0);
+    if (path->bounce && !spectrum_is_zero(radiance[LIGHTS_SKY])) path->statistics->sky_finds++;
     collect_sky(path, &radiance[LIGHTS_SKY]);
     if (path->last.before.prob > 0 && !spectrum_is_zero(radiance[LIGHTS_SUN]))
         radiance[LIGHTS_SUN] *= spectrum_all(

@@ -13,6 +13,7 @@
 #define GENEROSITY 4.0f  /* a set with a quarter of a part's light is sampled at every hit */
 #define LEAST 0.1f       /* and none less often than this */
 #define TOGETHER 16      /* parts that a thread takes at once */
+#define SKY_SAMPLES 256
 
 bool light_selection_arrives(const Bvh *bvh, LitPoint point, const LightSample *light)
 {
@@ -127,6 +128,21 @@ static void weigh_some(void *context, int item, int worker)
             weigh_part(w, part);
 }
 
+static float open_sky(const Lights *lights)
+{
+    LitPoint up = {.ns = {0, 1, 0}};
+    double   lx = 0;
+    for (uint32_t i = 0; i < SKY_SAMPLES && lights_has(lights, LIGHTS_SKY); i++) {
+        LightSample light;
+        Sampler     sampler = sampler_start(LIGHTS_SKY, 0, 0, i);
+        float       u[4];
+        sampler_4d(&sampler, u);
+        if (lights_sample(lights, LIGHTS_SKY, up, u, &light))
+            lx += lights_sample_lx(lights, up, &light, u[3]);
+    }
+    return (float)(lx / SKY_SAMPLES) * INV_PI_F;
+}
+
 LightSelection light_selection_build(const SunlitTools *tools, const SunlitMap *sunlit,
                                      Arena *arena)
 {
@@ -141,5 +157,6 @@ LightSelection light_selection_build(const SunlitTools *tools, const SunlitMap *
         work.selection.all[set] = lights_has(tools->lights, (LightSet)set) ? 1.0f : 0.0f;
     work.selection.all[LIGHTS_SUNLIT] = sunlit->nodes ? 1.0f : 0.0f;
     parallel_for(bvh_threads(tools->bvh), (parts + TOGETHER - 1) / TOGETHER, weigh_some, &work);
+    work.selection.sky_cd_m2 = open_sky(tools->lights);
     return work.selection;
 }

@@ -17,6 +17,7 @@ typedef struct LightSelection {
                                   set is empty */
     float *lx;                 /* by all sets together, one a row */
     float all[LIGHT_CHOICES];  /* where no part is known: 1 for every set that has lights */
+    float sky_cd_m2; /* the sky's mean: what it makes of a white plane that faces up */
 } LightSelection;
 
 /* The same for any number of threads and on every machine whose rays hit the same. */

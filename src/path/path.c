@@ -80,6 +80,7 @@ static Step turn(PathState *path, const Surface *surface, Vec3 wo, const BsdfSam
     note_mirror(path, surface, next);
     if (!path->bounce && asks_the_first(path, surface))
         path->bright = spectrum_max_lane(path->throughput);
+    if (!path->bounce && path->context->is_probe) path->statistics->sent_on += path->bright;
     path->bounce++;
     path->ray = (Ray){start, vec3_normalize(wi), 0, INFINITY};
     return path->manner.is_spared || roulette(path) ? STEP_SCATTERED : STEP_ENDED;

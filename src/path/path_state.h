@@ -45,6 +45,9 @@ static inline void path_light_to_xyz(const PathLight *gathered,
 typedef struct PathStatistics {
     uint64_t samples;
     uint64_t camera_rays, bounce_rays, shadow_rays;
+    uint64_t sky_finds; /* ways on which light of the sky reached a vertex */
+    double   sent_on;   /* of a probe's paths: the share of the light from where they go that
+                           their first vertex sends to the eye, a sum */
 } PathStatistics;
 
 /* The sampler's numbers by their purpose: every surface that a path meets has its own, so that

@@ -34,6 +34,8 @@ typedef struct Own {
 typedef struct Batch {
     double reflected, mirror; /* sums */
     long   found;
+    long   sky_finds;       /* PathStatistics' */
+    double sent_on;
     BrightSamples bright;
     double moments[MOMENTS];          /* a shared reading's, */
     Own    display[PROBE_DISPLAYS];   /* and its scene's displays' */
@@ -109,6 +111,8 @@ static void read_batch(void *user, int item, int worker)
             add_targets(stream->targets + (size_t)item * (size_t)aim.target_count, looks,
                         end - first);
     }
+    stream->batches[item].sky_finds += (long)statistics.sky_finds;
+    stream->batches[item].sent_on += statistics.sent_on;
 }
 
 static Estimate estimate_in(const Reading *reading, double known)
@@ -124,6 +128,20 @@ static void put_estimate(const Estimate *estimate, Reading *to)
     to->reflected = estimate->mean;
     to->sigma = estimate->sigma;
     to->interval = estimate->interval;
+}
+
+/* What the sky may send although no path met it: it may be seen through openings that one path
+ * in so many would meet. By which of the surface's ways they would does not matter: a path that
+ * goes out there brings what the surface sends on of a sky as bright as the mean. */
+static double sky_unmet(const ProbeAim *aim, const Batch batches[BATCHES], double found)
+{
+    double sent_on = 0;
+    for (int i = 0; i < BATCHES; i++) {
+        if (batches[i].sky_finds) return 0;
+        sent_on += batches[i].sent_on;
+    }
+    double share = aim->meter ? PI : sent_on / found;
+    return estimate_unmet(share * (double)aim->context->selection.sky_cd_m2, found);
 }
 
 /* paths: in each batch. Those count that found the display. Where no ray of the sun was seen
@@ -145,6 +163,7 @@ static Reading reading_of(const ProbeAim *aim, const Batch batches[BATCHES], int
     reading.bright = sums.bright;
     if (!(found > 0)) return reading;
     sums.share = reading.found_share = found / (double)reading.paths;
+    sums.unmet += sky_unmet(aim, batches, found);
     Estimate estimate = estimate_of(&sums);
     estimate_add_known(&estimate, known, RESPONSE_MIRROR_ERROR * known);
     put_estimate(&estimate, &reading);
