@@ -133,9 +133,11 @@ start 'golden frames, all guided' golden-long python3 tests/image/golden.py --al
 start 'same bits, any threads, always guided' bits-long \
     python3 tests/image/bits.py --all $program
 gather
-of "$render scenes tests/image tests/hunt"
+of "$review src/measure src/compare scenes tests/image tests/hunt"
 run 'a hunt for wrong answers, 200 rooms' hunt-long \
     python3 tests/hunt/hunt.py --count 200 $program
+run 'rooms whose light is rare, 200' hunt-rare-long \
+    python3 tests/hunt/hunt.py --rare --count 200 --keep .build/rare_rooms.jsonl $program
 of "$review scenes tests/image"
 run 'a glare review, thirty hours of weather' review-long \
     python3 tests/image/review.py --all $program

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/parallel.h"
+#include "base/units.h"
 #include "base/sampler.h"
 #include "estimate/estimate.h"
 
@@ -13,6 +14,7 @@
 typedef struct IlluminanceSums {
     double        xyz[3];
     BrightSamples bright;
+    uint64_t      sky_finds; /* PathStatistics' */
 } IlluminanceSums;
 
 typedef struct Meter {
@@ -49,6 +51,16 @@ static void measure_batch(void *user, int item, int worker)
         for (int k = 0; k < 3; k++) sums->xyz[k] += (double)xyz[k];
         bright_add(&sums->bright, (double)xyz[1]);
     }
+    sums->sky_finds = statistics.sky_finds;
+}
+
+/* What comes of the sky by openings that no sample met (review/light/reading.c), lx. */
+static double sky_unmet(const Meter *meter, int point)
+{
+    for (int i = 0; i < BATCHES; i++)
+        if (meter->sums[point][i].sky_finds) return 0;
+    return estimate_unmet(PI * (double)meter->context->selection.sky_cd_m2,
+                          (double)meter->options->samples);
 }
 
 static Illuminance add_batches(const Meter *meter, int point)
@@ -57,7 +69,8 @@ static Illuminance add_batches(const Meter *meter, int point)
     double       samples = (double)meter->options->samples;
     EstimateSums y = {.batches = meter->options->samples < BATCHES
                                      ? (int)meter->options->samples : BATCHES,
-                      .paths = meter->options->samples, .piece = 1, .share = 1};
+                      .paths = meter->options->samples, .piece = 1, .share = 1,
+                      .unmet = sky_unmet(meter, point)};
     for (int i = 0; i < y.batches; i++) {
         const IlluminanceSums *sums = &meter->sums[point][i];
         for (int k = 0; k < 3; k++) total.xyz_lx[k] += sums->xyz[k] / samples;

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """rare_rooms.py -- random rooms whose light is rare, in a box of black or grey walls
 (tests/image/black_box.py): holes of 3 mm to 10 cm, slits, drawn blinds, a gap beside a sun
-visor, a chrome knob in the sun, a lamp behind a grille.
+visor, a chrome knob in the sun, a lamp behind a grille or a keyhole.
 
-Between black walls what the display reflects is a closed form. With grey ones the patches
-of sun are replaced by lamps of the same luminance: a room that samples of emitters find without
-luck.
+Between black walls what the display reflects is a closed form, of the sky that is seen through
+the openings, too. With grey ones the patches of sun are replaced by lamps of the same
+luminance: a room that samples of emitters find without luck.
 """
 import math
 import os
@@ -85,6 +85,7 @@ class Grille:
     """A lamp above the ceiling, which is slats with gaps there; all is black, so that only what
     shines through the gaps is reflected."""
     walls, ABOVE = 0.0, 0.03
+    closed_points = 11  # from place to place other parts of the lamp are seen
 
     def __init__(self, draw):
         self.side, self.cd_m2 = draw.uniform(0.01, 0.06), log_uniform(draw, 1e3, 1e6)
@@ -124,8 +125,24 @@ class Grille:
         return black_box.DARK
 
 
+class Keyhole(Grille):
+    """The same behind a small hole."""
+
+    def __init__(self, draw):
+        super().__init__(draw)
+        x0, z0, x1, z1 = self.openings[0]
+        side = log_uniform(draw, 0.003, 0.03)
+        self.openings = [rectangle(((x0 + x1) / 2, self.middle[2] * HIGH[1] / self.middle[1]),
+                                   (side, side))]
+
+
 KINDS = {"hole": hole, "slit": slit, "blinds": blinds, "visor": Visor, "knob": knob,
-         "grille": Grille}
+         "grille": Grille, "keyhole": Keyhole}
+
+
+def has_open_sky(room):
+    """Nothing but floor and walls is behind the openings, and the walls are black."""
+    return type(room) is Patch and not room.walls
 
 
 def rare_room(draw, kind):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """black_box.py -- a closed box with a display in it, which the sun lights through one small
-opening of its ceiling, by way of a patch of the floor or of a chrome knob: scenes, and what the
-display reflects in closed form.
+opening of its ceiling, by way of a patch of the floor or of a chrome knob, or the sky: scenes,
+and what the display reflects in closed form.
 
 Metres, +Y up, north -Z. The box is 1.2 x 1 x 1.01 m, the display lies in the plane z = 0 before
 its far wall and faces +Z, the eye is inside. Where all but the floor is black, the patch is all
@@ -24,6 +24,7 @@ HOLE = (0.25, 0.9)                            # x and z of the opening's middle
 FLOOR = 0.8
 LUX, AZIMUTH, ELEVATION = 90000, 165, 62
 SYMBOL_UV = [0.1, 0.1, 0.9, 0.9]
+SKY_STEP, FLOOR_STEP = 0.02, 0.06             # m, of sums over openings and floor
 CLOSED_WITHIN = 0.003  # D65 for the sun between wavelengths, sums over points
 
 
@@ -97,6 +98,7 @@ def box(scene, walls, floor, openings, lit_patches=()):
 class Patch:
     """The sun's patches on the pale floor, of an opening of that size, m, or of several (x0,
     z0, x1, z1) of the ceiling."""
+    closed_points = 5  # to a side of the part, for closed_form
 
     def __init__(self, size=None, walls=0.0, floor=FLOOR, openings=None):
         self.openings = openings or [rectangle(HOLE, size)]
@@ -150,9 +152,49 @@ class Patch:
         return environment()
 
 
+def pieces(sides, step):
+    """Area and middles of pieces of a rectangle (x0, z0, x1, z1)."""
+    lengths = sides[2] - sides[0], sides[3] - sides[1]
+    counts = [1 + math.ceil(length / step) for length in lengths]
+    places = [(sides[0] + lengths[0] * (i + 0.5) / counts[0],
+               sides[1] + lengths[1] * (j + 0.5) / counts[1])
+              for i in range(counts[0]) for j in range(counts[1])]
+    return lengths[0] * lengths[1] / len(places), places
+
+
+class UnderSky:
+    """A Patch between black walls under a constant sky of 1 cd/m2 and no sun: what is seen of
+    it through the openings, and the floor that it lights."""
+    walls = 0.0
+
+    def __init__(self, room):
+        self.openings = [(area, [x, HIGH[1], z]) for sides in room.openings
+                         for area, places in [pieces(sides, SKY_STEP)] for x, z in places]
+        self.floor = []  # its places, and their candela
+        area, places = pieces((LOW[0], 0, HIGH[0], HIGH[2]), FLOOR_STEP)
+        for x, z in places:
+            at = [x, LOW[1], z]
+            lux = sum(self.lux(piece, at, 1) for piece in self.openings)
+            self.floor.append((room.floor / math.pi * lux * area, at))
+
+    @staticmethod
+    def lux(piece, at, axis):
+        """Of an opening's piece on a surface that faces up the axis."""
+        to = sub(piece[1], at)
+        return piece[0] * to[1] * to[axis] / dot(to, to) ** 2
+
+    def lights(self, at):
+        """As black_box.Patch.lights."""
+        found = [(unit(sub(piece[1], at)), self.lux(piece, at, 2)) for piece in self.openings]
+        for power, place in self.floor:
+            to = sub(place, at)
+            found.append((unit(to), power * -to[1] * to[2] / dot(to, to) ** 2))
+        return found
+
+
 class Knob:
     """A chrome sphere in the sun's beam of a wide opening; all else is black."""
-    walls = 0.0
+    walls, closed_points = 0.0, 5
 
     def __init__(self, radius=0.015, opening=0.08, height=-0.3, chrome=0.6):
         self.radius, self.opening, self.chrome = radius, opening, chrome

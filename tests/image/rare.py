@@ -6,7 +6,8 @@ A review, two seeds each: no verdict is wrong where the true contrast is 3 % und
 limit, and the truth lies in what is reflected's interval, or no farther from it than chance has
 it once in 10,000 (TOO_FAR standard errors), which is known within a tenth. `render` and
 `measure` of the display, dark: the same. In such a scene threads, a crop and parts change no
-bit of a frame.
+bit of a frame. Under a sky without sun next to no path meets a hole of 5 mm: no verdict is
+wrong, and the intervals of a review and of a luxmeter hold the closed form.
 """
 import json
 import os
@@ -18,6 +19,7 @@ import tempfile
 from bits import digest
 import black_box
 from exr import Frame
+from gltf import Scene
 import reflection
 from review import PANEL, Report, Reviewer, moment
 
@@ -27,6 +29,8 @@ NEAR_DEG = 2          # the frame sees nothing but the display
 SIZE, SAMPLES = (24, 16), 48
 BITS = ["--size", "40x24", "--layers", "all"]
 LIMIT = 5             # of iso-15008 for so little light
+SKY_HOLE_M, SKY_CD_M2 = 0.005, 10000
+METER = [0, 0, 0.02]  # before the middle of the display
 
 
 def write_room(folder, room, level):
@@ -47,9 +51,10 @@ def claim_near(report, what, figure, interval, truth):
 
 # ---- a review -------------------------------------------------------------------------------
 
-def ask(reviewer, level, seed, out):
-    document = black_box.review_request(
-        level, [{**moment("moment", **black_box.environment())}], precision={"seed": seed})
+def ask(reviewer, level, seed, out, light=None):
+    light = light or black_box.environment()
+    document = black_box.review_request(level, [{**moment("moment", **light)}],
+                                        precision={"seed": seed})
     return reviewer.review(document, out)[1]["cases"][0]
 
 
@@ -74,9 +79,45 @@ def check_review(report, reviewer, panel, room, name):
                    case["reflected_interval"], truth)
         held = [x for x in case["limits"] if x["kind"] == "contrast_ratio"]
         report.claim(len(held) == 1 and held[0]["value"] == LIMIT, f"{what}: limits {held}")
-        wrong = "pass" if margin < 1 else "fail"
-        report.claim(held[0]["verdict"] != wrong,
-                     f"{what}: {wrong}, the true contrast is {margin * LIMIT:g}")
+        claim_not_wrong(report, what, held[0], margin)
+
+
+def claim_not_wrong(report, what, limit, margin):
+    wrong = "pass" if margin < 1 else "fail"
+    report.claim(limit["verdict"] != wrong,
+                 f"{what}: {wrong}, the true contrast is {margin * LIMIT:g}")
+
+
+# ---- a sky ----------------------------------------------------------------------------------
+
+def claim_holds(report, what, interval, truth):
+    report.claim(interval[0] <= truth <= interval[1],
+                 f"{what}: [{interval[0]:.4g}, {interval[1]:.4g}], truth {truth:.4g}")
+
+
+def check_sky(report, reviewer, panel):
+    hole = black_box.Patch((SKY_HOLE_M, SKY_HOLE_M))
+    room, light = black_box.UnderSky(hole), {"type": "constant", "luminance": SKY_CD_M2}
+    write_room(reviewer.folder, hole, 1)
+    first = ask(reviewer, 0.001, 9, "first", light)
+    shown = [first["luminance_cd_m2"][side] / 0.001 for side in ("foreground", "background")]
+    part = [first["judged_part_uv"][side] for side in ("left", "top", "right", "bottom")]
+    truth = SKY_CD_M2 * black_box.closed_form(room, panel, part)
+    for seed in SEEDS:
+        margin = 0.97 if seed % 2 else 1.03
+        case = ask(reviewer, level_for(shown, truth, margin * LIMIT), seed, "sky", light)
+        what = f"a sky by a hole of {100 * SKY_HOLE_M:g} cm, seed {seed}"
+        claim_holds(report, what, case["reflected_interval"], truth)
+        claim_not_wrong(report, what, next(
+            x for x in case["limits"] if x["kind"] == "contrast_ratio"), margin)
+    bare = Scene()  # no display, which shines itself
+    black_box.box(bare, 0, hole.floor, hole.openings)
+    bare.write(os.path.join(reviewer.folder, "room.gltf"))
+    lux = SKY_CD_M2 * sum(lux for _, lux in room.lights(METER))
+    told = json.loads(reviewer.run(
+        "measure", "room.gltf", "--environment", f"constant:{SKY_CD_M2}", "--illuminance",
+        "{},{},{},0,0,1".format(*METER), "--samples", "1024", "--json").stdout)
+    claim_holds(report, "a luxmeter in it", told["illuminance_interval"], lux)
 
 
 # ---- a frame --------------------------------------------------------------------------------
@@ -128,6 +169,7 @@ def main():
             check_review(report, reviewer, panel, room, name)
             check_frame(report, reviewer, panel, room, name)
         check_bits(report, reviewer, name)
+        check_sky(report, reviewer, panel)
     return report.finish()
 
 
