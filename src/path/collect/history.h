@@ -54,7 +54,7 @@ typedef enum PathReach {
     PATH_BY_MIRRORS,        /* from mirror to mirror and through panes, of which thin ones show
                                both ways always, until a surface scatters; that asks nobody: all
                                light that comes without being scattered, for little time */
-    PATH_BY_SURE_MIRRORS    /* the same, but what is opaque and mirrors does so always, by as much
+    PATH_BY_SURE_MIRRORS    /* the same, but what is opaque and mirrors always does, by as much
                                as it mirrors: what a ray finds is no matter of chance. A coat
                                whose normals are others than its base's is left out */
 } PathReach;
