@@ -238,7 +238,8 @@ def frame(reviewer, tally, seeds):
         if seed > 1:
             compared = ask(reviewer, "compare", "near0.exr", "near1.exr")
             tally.add("frame, compare", compared, {"/ratio_interval": 1})
-    probed = ask(reviewer, "probe", "room.gltf", "--pixel", "4,4", "--size", SIZE, "--spp", "128")
+    probed = ask(reviewer, "probe", "room.gltf", "--pixel", "4,4", "--size", SIZE, "--spp",
+                 "128")
     tally.add("probe", probed, {})
 
 

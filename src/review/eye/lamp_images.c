@@ -324,6 +324,51 @@ static bool is_cut(const LampCell *cell, LampPairs *pairs, Arena *arena)
     return false;
 }
 
+/* Where the cell at x, y stands in the list: by a table of at least twice as many entries,
+ * whose index is a hash of the place. */
+typedef struct CellTable {
+    int     *at; /* in the list, and one more; 0: none */
+    uint32_t mask;
+} CellTable;
+
+static uint32_t entry_of(const CellTable *table, const LampCell *cells, int x, int y)
+{
+    uint32_t i = hash_combine(hash_u32((uint32_t)x), (uint32_t)y) & table->mask;
+    while (table->at[i] && (cells[table->at[i] - 1].x != x || cells[table->at[i] - 1].y != y))
+        i = (i + 1) & table->mask;
+    return i;
+}
+
+static CellTable table_of(const LampSearch *search, Arena *arena)
+{
+    uint32_t size = 2;
+    while (size < 2 * (uint32_t)search->cell_count) size *= 2;
+    CellTable table = {ARENA_NEW(arena, int, size), size - 1};
+    for (int i = 0; i < search->cell_count; i++) {
+        const LampCell *cell = &search->cells[i];
+        table.at[entry_of(&table, search->cells, cell->x, cell->y)] = i + 1;
+    }
+    return table;
+}
+
+/* Those that are cut: with their neighbours, of which a ray may just have missed the rim of a
+ * mirror. Else the rim of what was met would be cut away and nothing added. */
+static bool *cut_of(const LampSearch *search, LampPairs *pairs, Arena *of_pairs, Arena *arena)
+{
+    CellTable table = table_of(search, arena);
+    bool     *out = ARENA_NEW(arena, bool, search->cell_count);
+    for (int i = 0; i < search->cell_count; i++) {
+        const LampCell *cell = &search->cells[i];
+        if (!is_cut(cell, pairs, of_pairs)) continue;
+        for (int k = 0; k < 9; k++) {
+            uint32_t entry = entry_of(&table, search->cells, cell->x + k % 3 - 1,
+                                      cell->y + k / 3 - 1);
+            if (table.at[entry]) out[table.at[entry] - 1] = true;
+        }
+    }
+    return out;
+}
+
 static void tell(const LampCell *cell, LampPairs *pairs, LampImages *out, Arena *arenas[2])
 {
     for (int k = 0; k < cell->found_count; k++) {
@@ -349,13 +394,13 @@ static void go_finer(LampSearch *search, bool is_last, LampPairs *pairs, LampIma
 {
     int       count = 0, pieces = PER_SIDE * PER_SIDE;
     LampCell *cells = search->cells, *finer = NULL;
-    for (int i = 0; i < search->cell_count; i++)
-        count += is_cut(&cells[i], pairs, arenas[1]) ? pieces : 0;
+    bool     *is_cut_up = cut_of(search, pairs, arenas[1], arenas[2]);
+    for (int i = 0; i < search->cell_count; i++) count += is_cut_up[i] ? pieces : 0;
     bool is_end = is_last || count > CELLS_MOST;
     if (!is_end) finer = ARENA_NEW(arenas[2], LampCell, count);
     count = 0;
     for (int i = 0; i < search->cell_count; i++) {
-        if (is_end || !is_cut(&cells[i], pairs, arenas[1])) {
+        if (is_end || !is_cut_up[i]) {
             tell(&cells[i], pairs, out, arenas);
             continue;
         }
