@@ -21,7 +21,8 @@ typedef struct Sums {
     RimNoise rim, display_rim; /* of the light, and of what is reflected */
     PixelNoise display_noise, display_by_halves; /* over the pixels of displays */
     PixelNoise reflected_by_halves; /* of what is reflected there: all that contrasts hang on */
-    double reflected_missing;       /* what few samples find may be missing there, summed */
+    double reflected_missing;       /* what few samples find may be missing there, summed; */
+    double missing;                 /* and of all light */
     DisplayLight light; /* of displays */
     double mirror, lambertian, display_area, reflected_rgb[3];
     long   pixels, display_pixels, nonfinite, rim_pixels, shared_pixels, unknown_pixels;
@@ -277,12 +278,16 @@ static void add_display_noise(const RegionPlanes *planes, size_t i, const PixelS
 #define REFLECTED_FREEDOM 4 /* no other layer has the noise of what is reflected */
 
 /* A bright sample in a pixel of n moves it by its n-th part, and half the difference of the
- * pixel's halves is as much: these stand for the samples. */
+ * pixel's halves is as much, as is its standard error: these stand for the samples, where there
+ * are many pixels. */
 static void choose_noise(Sums *sums)
 {
     const PixelNoise *reflected = &sums->reflected_by_halves;
     BrightSamples     bright = {reflected->luminance, reflected->fourths};
-    pixel_noise_of_halves(&sums->by_halves, sums->pixels, HALVES_FREEDOM, &sums->noise);
+    BrightSamples     all = {sums->noise.luminance, sums->noise.fourths};
+    if (pixel_noise_of_halves(&sums->by_halves, sums->pixels, HALVES_FREEDOM, &sums->noise))
+        all = (BrightSamples){sums->by_halves.luminance, sums->by_halves.fourths};
+    if (sums->pixels >= HALVES_FREEDOM) sums->missing = bright_missing(&all, 1, 1);
     if (pixel_noise_of_halves(reflected, sums->display_pixels, REFLECTED_FREEDOM,
                               &sums->display_noise))
         sums->reflected_missing = bright_missing(&bright, 1, 1);
@@ -518,6 +523,7 @@ static FrameMeasurement figures_of(const RegionPlanes *planes, const Sums *sums)
     }
     measure_colour(rgb, variance, &out);
     out.luminance = about(out.xyz[1], SIGMAS_95 * sqrt(sums->noise.luminance) / n, &out);
+    out.luminance.high += sums->missing / n;
     measure_display(planes, sums, &out);
     return out;
 }

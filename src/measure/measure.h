@@ -13,10 +13,10 @@
  *          cluster at night, where halves would make it 1.4, 2.2 and 3.2 times. What a display
  *          reflects has halves of its own; without them the noise of what it shows counts for
  *          its contrast, too. A contrast falls as the reflected light rises: its interval goes
- *          from the one end of that light's to the other; the upper end of that light has what
- *          few bright samples may have left out (confidence.h). No interval of a display's
- *          luminance and colour is narrower than what channels in single precision leave, 1e-6
- *          of the value.
+ *          from the one end of that light's to the other. The upper end of that light, and that
+ *          of the luminance of 16 pixels or more, have what few bright samples may have left
+ *          out (confidence.h). No interval of a display's luminance and colour is narrower than
+ *          what channels in single precision leave, 1e-6 of the value.
  * Displays are measured by coverage (display_part.h): a pixel at the rim counts by its part,
  *          and with the display's own light, wherever the frame has the layers of it. Of frames
  *          that have not, rims are left out where display.coverage tells them; else pixels

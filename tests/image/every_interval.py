@@ -15,7 +15,7 @@ truth fails. Rooms, each with few samples, as people have them:
                chance
 Truths are closed forms; what has none (colours, small causes) is held against the mean of all
 seeds, which is said. --all: 200 seeds a room, of which 93 % must hold, but for what chance
-makes of 93 % once in 20 (180 of 200); else three seeds, of which one may miss."""
+makes of 93 % once in 20 (180 of 200); else three seeds or fewer, one of which may miss."""
 import json
 import math
 import os
@@ -32,6 +32,8 @@ from review import PANEL, Report, Reviewer, moment
 
 SHARE, ONCE_IN = 0.93, 20
 SEEDS, ALL_SEEDS = 3, 200
+FEWER = {"patch": 2, "frame": 2, "image": 1}  # of the first
+ROUNDING = 1e-9  # of a mean over many
 OF_SEEDS = "of seeds"  # a truth that is the mean over seeds of the figure beside the interval
 
 
@@ -94,10 +96,11 @@ class Tally:
     """Intervals by what they are of."""
 
     def __init__(self, report):
-        self.report, self.told = report, {}
+        self.report, self.told, self.answers = report, {}, {}
 
     def add(self, room, answer, truths, skip=()):
         """truths: path's end -> number, list of numbers, or OF_SEEDS."""
+        self.answers[room] = self.answers.get(room, 0) + 1
         for path, figure, interval in intervals(answer):
             if any(path.endswith(end) for end in skip):
                 continue
@@ -109,23 +112,22 @@ class Tally:
             many = pairs(figure, interval)
             truth = truth if isinstance(truth, list) else [truth] * len(many)
             for k, ((value, (low, high)), right) in enumerate(zip(many, truth)):
-                name = f"{room}: {path}" + (f" {k}" if len(many) > 1 else "")
+                name = room, path + (f" {k}" if len(many) > 1 else "")
                 self.told.setdefault(name, []).append((value, low, high, right))
 
-    def finish(self, seeds):
-        for name, rows in self.told.items():
-            mean = None
-            if rows[0][3] == OF_SEEDS:
-                if len(rows) < seeds:  # among the others at times: no mean of its own
-                    continue
-                mean = sum(row[0] for row in rows) / len(rows)
-            held = sum(low <= (right if mean is None else mean) <= high
-                       for _, low, high, right in rows)
-            off = sum((low + high) / 2 - (right if mean is None else mean)
-                      for _, low, high, right in rows) / len(rows)
-            half = sum(high - low for _, low, high, _ in rows) / 2 / len(rows)
-            words = (f"{name}: {held} of {len(rows)} hold, half {half:.3g}, middle "
-                     f"{off:+.2g}" + (", mean of seeds" if mean is not None else ""))
+    def finish(self):
+        for (room, path), rows in self.told.items():
+            is_mean = rows[0][3] == OF_SEEDS
+            if is_mean and len(rows) < self.answers[room]:
+                continue  # among the others at times: no mean of its own
+            mean = sum(row[0] for row in rows) / len(rows) if is_mean else None
+            rows = [(low, high, mean if is_mean else right) for _, low, high, right in rows]
+            held = sum(low - ROUNDING * abs(low) <= right <= high + ROUNDING * abs(high)
+                       for low, high, right in rows)
+            off = sum((low + high) / 2 - right for low, high, right in rows) / len(rows)
+            half = sum(high - low for low, high, _ in rows) / 2 / len(rows)
+            words = (f"{room}: {path}: {held} of {len(rows)} hold, half {half:.3g}, middle "
+                     f"{off:+.2g}" + (", mean of seeds" if is_mean else ""))
             print(words, flush=True)
             self.report.claim(held >= least_held(len(rows)), words)
 
@@ -168,7 +170,7 @@ def patch(reviewer, tally, seeds):
             precision={"seed": seed},
             variants={"dim": {"levels": {"set": {"*": DIMMER * LEVEL}}}})
         review = reviewer.review(document, f"out{seed % 2}",
-                                 *(["--diff", "out0"] if seed % 2 and seed > 1 else []))[1]
+                                 *(["--diff", f"out{1 - seed % 2}"] if seed > 1 else []))[1]
         case = review["cases"][0]
         light, part = case["luminance_cd_m2"], case["judged_part_uv"]
         part = [part[side] for side in ("left", "top", "right", "bottom")]
@@ -196,8 +198,8 @@ def patch(reviewer, tally, seeds):
             causes.remove(first)
             (found["cases"][0] if kind == "review" else found)["first_cause"] = first
             tally.add(f"patch, {kind}", found, {**known, "first_cause/interval": reflected})
-        if seed % 2 and seed > 1:
-            with open(os.path.join(reviewer.folder, "out1", "diff.json"),
+        if seed > 1:
+            with open(os.path.join(reviewer.folder, f"out{seed % 2}", "diff.json"),
                       encoding="utf-8") as file:
                 tally.add("patch, diff", json.load(file), {"/contrast_interval": ratio})
 
@@ -380,17 +382,17 @@ ROOMS = {"patch": patch, "frame": frame, "fisheye": fisheye, "glint": glint, "im
 
 
 def main(words):
-    seeds = ALL_SEEDS if "--all" in words else SEEDS
+    seeds, fewer = (ALL_SEEDS, {}) if "--all" in words else (SEEDS, FEWER)
     if "--seeds" in words:
-        seeds = int(words[words.index("--seeds") + 1])
+        seeds, fewer = int(words[words.index("--seeds") + 1]), {}
     names = [name for name in ROOMS if name in words] or list(ROOMS)
     report = Report()
     tally = Tally(report)
     for name in names:
         with tempfile.TemporaryDirectory() as folder:
             shutil.copy(PANEL, os.path.join(folder, "ips.panel"))
-            ROOMS[name](Reviewer(words[-1], folder), tally, seeds)
-    tally.finish(seeds)
+            ROOMS[name](Reviewer(words[-1], folder), tally, fewer.get(name, seeds))
+    tally.finish()
     return report.finish()
 
 
