@@ -153,6 +153,10 @@ run "another maker's car" other-maker python3 tests/image/other_maker.py $progra
 run 'discomfort of every size' glare-sizes python3 tests/image/glare.py --all $program
 run 'intervals of light that is rare' gaze-intervals-long \
     python3 tests/image/gaze_intervals.py --all $program
+of "$review src/measure src/compare tests/image"
+run 'every interval that commands print' every-interval-long \
+    python3 tests/image/every_interval.py --all $program
+of "$review scenes tests/image"
 run 'verdicts beside their limits' review-laws python3 tests/image/review_laws.py $program \
     scenes/glance.review.json dimmed 0.4 0.45 0.0025
 run "laws of a whole car's review" review-laws-car \

@@ -59,6 +59,8 @@ start 'a hunt for wrong answers' hunt python3 tests/hunt/hunt.py --count 3 --ung
 start 'discomfort beside closed forms' glare python3 tests/image/glare.py $program
 start 'intervals of light that is rare' gaze-intervals \
     python3 tests/image/gaze_intervals.py $program
+start 'intervals that commands print' every-interval \
+    python3 tests/image/every_interval.py $program
 start 'symbols that lie half in the sun' worst-part \
     python3 tests/image/worst_part.py $program
 start 'variants of a review' variants python3 tests/image/variants.py $program

@@ -178,7 +178,7 @@ void probe_trace(const ProbeAim *asked, int first, int end, const PathListener *
         start_path(aim, path, statistics, &one);
         one.start.collector = &by_way.base;
         one.start.manner.is_spared = one.start.manner.has_sheets =
-            listener->reach == PATH_BY_MIRRORS;
+            listener->reach >= PATH_BY_MIRRORS;
         if (!aim->meter && pixel_ray_is_wanted(aim->context))
             one.start.collector = &pixel.base;
         go(aim, &one);

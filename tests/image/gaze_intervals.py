@@ -107,7 +107,8 @@ class Place:
     def __init__(self, reviewer, place, seeds, references):
         self.reviewer, self.place = reviewer, place
         dark = [self.review(seed, 0.001)["gazes"][0] for seed in range(1, 1 + references)]
-        self.dark = {"veil_cd_m2": sum(g["veil_cd_m2"] for g in dark) / len(dark),
+        self.dark = {**{key: sum(g[key] for g in dark) / len(dark)
+                        for key in ("veil_cd_m2", "cornea_lx")},
                      "veil_parts_cd_m2": {"near": sum(
                          g["veil_parts_cd_m2"]["near"] for g in dark) / len(dark)}}
         self.reviews = [self.review(seed, LAMP) for seed in seeds]

@@ -64,10 +64,10 @@ class Disc:
                 self.weights += self.sr / steps ** 2 / position_index(*d) ** 2
 
 
-def figures(even, discs, low_light=True):
-    """Illuminance, UGR, DGP, DGI of discs in an even field."""
+def figures(even, discs, low_light=True, around_lx=None):
+    """Illuminance, UGR, DGP, DGI of discs in an even field, or in one that gives so much."""
     sources = sum(d.luminance * d.cosines for d in discs)
-    background = math.pi * even - even * sum(d.cosines for d in discs)
+    background = (around_lx or math.pi * even) - even * sum(d.cosines for d in discs)
     lux, behind = sources + background, background / math.pi
     squares = sum(d.luminance ** 2 * d.weights for d in discs)
     ugr = 8 * math.log10(0.25 / behind * squares)

@@ -67,7 +67,7 @@ static bool ask_less(PathCollector *c, PathState *path, const Surface *surface, 
     PathReach          reach = ((HistoryCollector *)c)->listener->reach;
     (void)surface, (void)wo, (void)guiding;
     if (reach == PATH_TO_SUNLIT_SURFACE) path->spare->asked = SUN_ALONE;
-    return reach == PATH_TO_SURFACE || reach == PATH_BY_MIRRORS;
+    return reach == PATH_TO_SURFACE || reach >= PATH_BY_MIRRORS;
 }
 
 static bool refuse_beyond(PathCollector *c, PathState *path, const Surface *surface,
@@ -76,8 +76,23 @@ static bool refuse_beyond(PathCollector *c, PathState *path, const Surface *surf
     bool      is_across = next->is_delta && next->wi.z * surface->local_wo.z < 0;
     PathReach reach = ((HistoryCollector *)c)->listener->reach;
     (void)path;
-    if (reach == PATH_BY_MIRRORS) return !next->is_delta;
+    if (reach >= PATH_BY_MIRRORS) return !next->is_delta;
     return reach != PATH_TO_ITS_END && !is_across;
+}
+
+/* What lies behind something opaque is not seen: chance need not choose its mirror. */
+static bool choose_mirror(PathCollector *c, PathState *path, const Surface *surface,
+                          BsdfSample *next)
+{
+    const Bsdf *bsdf = &surface->bsdf;
+    Vec3 wo = surface->local_wo;
+    (void)path;
+    if (((HistoryCollector *)c)->listener->reach != PATH_BY_SURE_MIRRORS ||
+        bsdf_is(bsdf, BSDF_REFRACTS) || !spectrum_is_zero(bsdf_pass(bsdf, wo)))
+        return false;
+    *next = (BsdfSample){.wi = vec3(-wo.x, -wo.y, wo.z), .pdf = 1, .is_delta = true,
+                         .weight = bsdf_mirror(bsdf, wo)};
+    return !spectrum_is_zero(next->weight);
 }
 
 /* ---- light ------------------------------------------------------------------------------- */
@@ -137,7 +152,8 @@ HistoryCollector history_collector(const PathListener *listener, PathCollector *
 {
     static const CollectorKind kind = {
         .size = sizeof(HistoryCollector), .start = start, .meet = meet, .behind = behind,
-        .turn = turn, .vertex = ask_less, .refuse = refuse_beyond, .on_light = on_light};
+        .turn = turn, .vertex = ask_less, .choose = choose_mirror, .refuse = refuse_beyond,
+        .on_light = on_light};
     return (HistoryCollector){{&kind, next}, history_start(), listener, NULL};
 }
 

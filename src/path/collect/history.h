@@ -51,9 +51,12 @@ typedef enum PathReach {
     PATH_TO_ITS_END,
     PATH_TO_SUNLIT_SURFACE, /* until a surface scatters or mirrors, which asks the sun alone */
     PATH_TO_SURFACE,        /* or nobody */
-    PATH_BY_MIRRORS         /* from mirror to mirror and through panes, of which thin ones show
+    PATH_BY_MIRRORS,        /* from mirror to mirror and through panes, of which thin ones show
                                both ways always, until a surface scatters; that asks nobody: all
                                light that comes without being scattered, for little time */
+    PATH_BY_SURE_MIRRORS    /* the same, but what is opaque and mirrors always does, by as much
+                               as it mirrors: what a ray finds is no matter of chance. A coat
+                               whose normals are others than its base's is left out */
 } PathReach;
 
 typedef struct PathListener {

@@ -30,6 +30,7 @@ typedef struct EyePath {
     double apart[EYE_SOURCES]; /* of it, the part that light samples do not read; */
     double told;               /* of the latter, what the rays of glare_field.h tell; */
     double images;             /* and of the glints the sun's */
+    double mirrored;           /* and of bright lamps those that lamp_images.h tells */
     int    lamp;               /* part that was met by mirrors; NO_ID: none */
     float  share;              /* that its last mirror lets the eye see of what lies there: */
     Ray    image;              /* (0: it met none) */
@@ -48,6 +49,7 @@ typedef struct EyePaths {
     EyePath     *found;
     GlareSample *samples[LIGHT_SETS]; /* of the pupil's plane, likewise */
     const FalseSuns *images;
+    BrightLamps  lamps;
 } EyePaths;
 
 static Vec3 local_direction(double theta, double phi)
@@ -97,15 +99,23 @@ static EyeSource source_of(const PathHistory *history)
     return history->source == LIGHTS_SUN ? EYE_SUN : EYE_LAMPS;
 }
 
+/* One path at work. */
+typedef struct EyeListener {
+    EyePath           *path;
+    const BrightLamps *lamps;
+} EyeListener;
+
 static void add_found(void *user, const PathHistory *history, const float xyz[3])
 {
-    EyePath *path = user;
+    const EyeListener *listener = user;
+    EyePath           *path = listener->path;
     bool     is_direct = history->count == 0;
     if (is_direct && history->source == LIGHTS_SUN) return;
     path->seen += (double)xyz[1];
     if (!is_direct || history->source == LIGHTS_SKY)
         path->apart[source_of(history)] += (double)xyz[1];
     if (glare_field_tells(history)) path->told += (double)xyz[1];
+    if (bright_lamps_tell(listener->lamps, history)) path->mirrored += (double)xyz[1];
     if (source_of(history) != EYE_GLINTS) return;
     if (history->source == LIGHTS_SUN) path->images += (double)xyz[1];
     if (history->source == LIGHTS_EMITTERS) path->lamp = history->source_id;
@@ -113,7 +123,7 @@ static void add_found(void *user, const PathHistory *history, const float xyz[3]
 
 static void note_mirror(void *user, const PathHistory *history, Vec3 towards, float share)
 {
-    EyePath *path = user;
+    EyePath *path = ((const EyeListener *)user)->path;
     if (history->count > PATH_STEPS_MAX) return;
     for (int i = 0; i < history->count; i++)
         if (history->step[i].event == PATH_SCATTERS) return;
@@ -127,8 +137,8 @@ static void read_chunk(void *user, int item, int worker)
     EyePaths      *paths = user;
     PathStatistics statistics = {0};
     for (int i = item * CHUNK; i < (item + 1) * CHUNK; i++) {
-        PathListener listener = {.on_light = add_found, .on_mirror = note_mirror,
-                                 .user = &paths->found[i]};
+        EyeListener  own = {&paths->found[i], &paths->lamps};
+        PathListener listener = {.on_light = add_found, .on_mirror = note_mirror, .user = &own};
         paths->found[i].lamp = NO_ID;
         paths->setup->tools.kernel->trace(&paths->aim, i, i + 1, &listener, &statistics);
     }
@@ -245,7 +255,7 @@ static void add_path(const EyePaths *paths, int i, EyeSums *sums)
     bool   is_near = degrees_between(d, paths->gaze) < EYE_NEAR_DEG;
     double weight = paths->solid_angles[i] * (double)vec3_dot(d, paths->gaze);
     double veil = veil_of(paths, d, weight) * paths->count / PATHS, all = 0;
-    sums->rest[i] = -path->told;
+    sums->rest[i] = -path->told - path->mirrored;
     for (int k = 0; k < EYE_SOURCES; k++) {
         double left = path->apart[k];
         if (k == EYE_GLINTS && has_images(paths, d)) left -= path->images;
@@ -385,7 +395,8 @@ static GlareReading read_glare(const EyePaths *paths, const EyeSums *sums, Arena
                     .head = {paths->aim.eye, paths->right, paths->up, paths->gaze},
                     .told = {towards, paths->solid_angles, told, paths->count},
                     .rest = {towards, paths->solid_angles, sums->rest, paths->count},
-                    .rounds = paths->count / PATHS, .images = sums->images,
+                    .lamps = &paths->lamps, .rounds = paths->count / PATHS,
+                    .images = sums->images,
                     .image_count = sums->image_count, .task_cd_m2 = task_luminance(paths)};
     for (int i = 0; i < paths->count; i++) {
         towards[i] = direction_of(paths, i);
@@ -435,6 +446,9 @@ static EyeReading read_eye(const Setup *setup, const EyeLook *look, Arena scratc
                       .solid_angles = ARENA_NEW(&scratch, double, count),
                       .found = ARENA_NEW(&scratch, EyePath, count)};
     Frame    frame = frame_from_z(paths.gaze);
+    double   least = setup->request->glare.task_factor > 0
+                         ? 0 : setup->request->glare.threshold_cd_m2;
+    paths.lamps = bright_lamps(setup->scene, least, &scratch);
     for (int set = 0; set < LIGHT_SETS; set++)
         paths.samples[set] = ARENA_NEW(&scratch, GlareSample, count);
     set_head(&paths);

@@ -13,8 +13,7 @@
 #define AGAIN_SEED 0x6167u
 #define PIXELS_A_CHUNK 256
 #define FIELD_BYTES ((size_t)1 << 32) /* of address space */
-#define DEAL 4 /* every square of 4 by 4 has one in each group */
-_Static_assert(DEAL * DEAL == GLARE_GROUPS && SIDE % DEAL == 0, "as many in each group");
+_Static_assert(SIDE % GLARE_DEAL == 0, "as many in each group");
 
 /* ---- what a ray tells -------------------------------------------------------------------- */
 
@@ -67,14 +66,6 @@ typedef struct LookedAt {
     uint8_t  *classes; /* [pixel] bits */
 } LookedAt;
 
-static Vec3 direction_of(const GlareHead *head, double x, double y)
-{
-    double t = hypot(x, y), s = t > 0 ? sin(t) / t : 1;
-    Vec3   d = vec3_add(vec3_scale(head->right, (float)(s * x)),
-                        vec3_scale(head->up, (float)(s * y)));
-    return vec3_normalize(vec3_add(d, vec3_scale(head->gaze, (float)cos(t))));
-}
-
 /* Somewhere in cell `cell` of a raster of `count` by `count` over the field. */
 static FieldRay place_of(const GlareFieldAsk *ask, int count, int cell, uint32_t seed)
 {
@@ -86,7 +77,7 @@ static FieldRay place_of(const GlareFieldAsk *ask, int count, int cell, uint32_t
     FieldRay ray = {0};
     if (!(t < PI / 2)) return ray;
     ray.sr = (float)(step * step * (t > 0 ? sin(t) / t : 1));
-    ray.towards = direction_of(&ask->rest->head, x, y);
+    ray.towards = glare_head_direction(&ask->rest->head, x, y);
     return ray;
 }
 
@@ -360,19 +351,15 @@ static void add_ray(const FieldSums *sums, const FieldRay *ray, int pixel, int g
                   (double)vec3_dot(ray->towards, head->up), forward);
 }
 
-static int group_at(int x, int y)
-{
-    return y % DEAL * DEAL + x % DEAL;
-}
-
 static void add_pixel(const FieldSums *sums, int pixel)
 {
     const LookedAt *field = sums->field;
     int          count = field->ask->pixels, again = field->again[pixel];
     if (again == NO_ID)
-        add_ray(sums, &field->rays[pixel], pixel, group_at(pixel % count, pixel / count));
+        add_ray(sums, &field->rays[pixel], pixel, glare_group_at(pixel % count, pixel / count));
     for (int k = 0; again != NO_ID && k < RAYS; k++)
-        add_ray(sums, &field->others[again * RAYS + k], pixel, group_at(k % SIDE, k / SIDE));
+        add_ray(sums, &field->others[again * RAYS + k], pixel,
+                glare_group_at(k % SIDE, k / SIDE));
 }
 
 static void add_all(const LookedAt *field, GlareTable *table, GlareBackground *background,

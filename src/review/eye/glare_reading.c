@@ -212,6 +212,32 @@ static void add_images(GlareWork *work)
     }
 }
 
+/* ---- images of lamps --------------------------------------------------------------------- */
+
+static void add_lamp_images(GlareWork *work, Arena scratch)
+{
+    const GlareAsk *ask = work->ask;
+    LampImagesAsk   wanted = {ask->setup, &ask->head, ask->lamps, PIXELS_ONCE,
+                              review_seed(ask->setup->request, SEED + 1)};
+    LampImages found = lamp_images_find(&wanted, &scratch);
+    int       *sources = ARENA_NEW(&scratch, int, found.pairs);
+    for (int i = 0; i < found.count; i++) {
+        const LampImage *image = &found.list[i];
+        int group = glare_group_at(image->x, image->y), *source = &sources[image->pair];
+        if (image->cd_m2 <= work->threshold) {
+            work->samples_lx[group] +=
+                image->cd_m2 * image->sr * forward_of(work, image->towards);
+            continue;
+        }
+        if (!*source) {
+            glare_table_add(&work->table, work->arena);
+            *source = work->table.count;
+        }
+        add_piece(work, image->towards, image->cd_m2, image->sr,
+                  &work->table.list[*source - 1].group[group]);
+    }
+}
+
 /* ---- all --------------------------------------------------------------------------------- */
 
 /* The rest of the background is as unsure as the light of its paths. */
@@ -247,6 +273,7 @@ GlareReading glare_read(const GlareAsk *ask, Arena scratch)
     add_surfaces(&work, scratch);
     add_lamps(&work, scratch);
     add_images(&work);
+    add_lamp_images(&work, scratch);
     glare_field_add(&field, &work.table, &work.background, &sources);
     add_background(&work);
     GlareReading out = glare_table_read(&work.table, settings, work.threshold, scratch);

@@ -9,6 +9,7 @@
  *   a lamp without a surface: by its illuminance and the area of its opening; of a point of
  *       0.005 m^2, as CIE 147 counts small sources, and a directional light of the sun's disc;
  *   sky above the settings' peak, as a sun in a picture: by light samples; all of it is one;
+ *   images of bright lamps in mirrors: lamp_images.h looks for them; one a lamp and mirror;
  *   images of the sun in mirrors: who looked for them (false_suns.h) names them; one a mirror;
  *   all else, such as sky in windows, sunlit walls, mirrored light: by glare_field.h, one where
  *       pixels touch.
@@ -19,6 +20,7 @@
 #pragma once
 #include "review/eye/glare_rest.h"
 #include "review/eye/glare_table.h"
+#include "review/eye/lamp_images.h"
 #include "review/light/setup.h"
 
 /* A light sample of the pupil's plane. */
@@ -45,7 +47,8 @@ typedef struct GlareAsk {
     GlareHead          head;
     GlarePaths         told; /* what glare_field_tells of paths, */
     GlarePaths         rest; /* and of the same ones what neither samples nor
-                                rays tell */
+                                rays tell, */
+    const BrightLamps *lamps; /* nor images of these */
     const GlareSample *samples[LIGHT_SETS]; /* [rest.count] */
     int                rounds;   /* of as many of both: they differ in nothing but chance */
     GlareImage        *images;   /* are put in order */

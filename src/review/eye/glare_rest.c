@@ -15,6 +15,14 @@ typedef struct RestSums {
     double sr, light, squares, paths;
 } RestSums;
 
+Vec3 glare_head_direction(const GlareHead *head, double x, double y)
+{
+    double t = hypot(x, y), s = t > 0 ? sin(t) / t : 1;
+    Vec3   d = vec3_add(vec3_scale(head->right, (float)(s * x)),
+                        vec3_scale(head->up, (float)(s * y)));
+    return vec3_normalize(vec3_add(d, vec3_scale(head->gaze, (float)cos(t))));
+}
+
 static int cell_of(const GlareRest *rest, Vec3 d)
 {
     const GlareHead *head = &rest->head;

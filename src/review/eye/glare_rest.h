@@ -20,6 +20,9 @@ typedef struct GlareHead {
     Vec3 right, up, gaze;
 } GlareHead;
 
+/* Of an equidistant picture about the gaze: x to the right, y up, radians. */
+Vec3 glare_head_direction(const GlareHead *head, double x, double y);
+
 #define GLARE_REST_FROM_DEG 0.1
 #define GLARE_REST_TO_DEG 90.0
 

@@ -14,7 +14,14 @@
 #include "base/confidence.h"
 #include "vision/discomfort.h"
 
-#define GLARE_GROUPS 16
+#define GLARE_DEAL 4
+#define GLARE_GROUPS (GLARE_DEAL * GLARE_DEAL)
+
+/* Of a raster's cells every square of 4 by 4 has one in each group. */
+static inline int glare_group_at(int x, int y)
+{
+    return y % GLARE_DEAL * GLARE_DEAL + x % GLARE_DEAL;
+}
 
 /* One source. */
 typedef struct GlareTally {

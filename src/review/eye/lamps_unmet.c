@@ -19,7 +19,7 @@ static double part_luminance(const Scene *scene, const Part *part)
     return (double)(panel_mean_luminance(display->panel, WHITE) * display->level);
 }
 
-static Lamp lamp_of(const Scene *scene, uint32_t triangle, double cd_m2)
+Lamp lamp_of_triangle(const Scene *scene, uint32_t triangle, double cd_m2)
 {
     const uint32_t *vertex = scene->triangles[triangle].vertex;
     Lamp            lamp = {.middle = vec3(0, 0, 0), .cd_m2 = cd_m2};
@@ -29,6 +29,23 @@ static Lamp lamp_of(const Scene *scene, uint32_t triangle, double cd_m2)
         Vec3 off = vec3_sub(scene->positions[vertex[k]], lamp.middle);
         lamp.radius = fmax(lamp.radius, (double)vec3_length(off));
     }
+    return lamp;
+}
+
+Lamp lamp_of_part(const Scene *scene, int part_id)
+{
+    const Part *part = &scene->parts[part_id];
+    Lamp        lamp = {.cd_m2 = part_luminance(scene, part)};
+    Vec3        low = vec3(INFINITY, INFINITY, INFINITY), high = vec3_neg(low);
+    uint32_t    corners = 3 * part->triangle_count;
+    for (uint32_t i = 0; i < corners; i++) {
+        Vec3 p = scene_corner(scene, part->first_triangle + i / 3, (int)(i % 3));
+        low = vec3(fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z));
+        high = vec3(fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z));
+    }
+    if (!corners) return (Lamp){.cd_m2 = 0};
+    lamp.middle = vec3_scale(vec3_add(low, high), 0.5f);
+    lamp.radius = 0.5 * (double)vec3_length(vec3_sub(high, low));
     return lamp;
 }
 
@@ -50,7 +67,7 @@ UnmetLamps lamps_unmet(const Setup *setup, const bool *met, Arena *arena)
         const Part *part = &scene->parts[i];
         double      cd_m2 = met[i] ? 0 : part_luminance(scene, part);
         for (uint32_t t = 0; cd_m2 > 0 && t < part->triangle_count; t++)
-            out.list[out.count++] = lamp_of(scene, part->first_triangle + t, cd_m2);
+            out.list[out.count++] = lamp_of_triangle(scene, part->first_triangle + t, cd_m2);
     }
     if (out.count) qsort(out.list, (size_t)out.count, sizeof *out.list, brightest_first);
     return out;

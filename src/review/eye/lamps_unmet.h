@@ -13,11 +13,16 @@
 #pragma once
 #include "review/light/setup.h"
 
-/* A triangle of one: the ball that holds it. */
+/* A triangle of one, or all of it: the ball that holds it. */
 typedef struct Lamp {
     Vec3   middle;
     double radius, cd_m2;
 } Lamp;
+
+Lamp lamp_of_triangle(const Scene *scene, uint32_t triangle, double cd_m2);
+
+/* cd_m2 0: the part is no lamp. */
+Lamp lamp_of_part(const Scene *scene, int part_id);
 
 /* Brightest first. */
 typedef struct UnmetLamps {

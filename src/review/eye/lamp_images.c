@@ -1,0 +1,448 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "review/eye/lamp_images.h"
+
+#include <math.h>
+
+#include "base/parallel.h"
+#include "base/sampler.h"
+#include "base/units.h"
+
+#define PER_SIDE 4    /* cells along each side of one that is cut */
+#define LEVELS 7      /* pictures, each finer than the one before: at last 0.8 arc seconds */
+#define ENOUGH 200    /* cells that show an image: its rim makes an error of 1.5 % */
+#define HIDDEN 8      /* times as many where it may lie: the rest of it is hidden */
+#define CELLS_MOST (1 << 20)
+#define CELLS_A_CHUNK 256
+#define KEPT 4        /* lamps that a ray finds, mirrors that it meets */
+#define BOUNCES 8
+#define LOOKS_FEW 2   /* rays that agree are sure, */
+#define LOOKS_NONE 8  /* so many that find nothing, too; */
+#define LOOKS_MANY 32 /* others are a matter of chance: their mean is the image */
+#define ALIKE 0.1
+
+/* ---- lamps ------------------------------------------------------------------------------- */
+
+static Lamp *pieces_of(const Scene *scene, const Part *part, double cd_m2, Arena *arena)
+{
+    Lamp *out = ARENA_NEW(arena, Lamp, part->triangle_count);
+    for (uint32_t t = 0; t < part->triangle_count; t++)
+        out[t] = lamp_of_triangle(scene, part->first_triangle + t, cd_m2);
+    return out;
+}
+
+BrightLamps bright_lamps(const Scene *scene, double least_cd_m2, Arena *arena)
+{
+    int         parts = scene->part_count;
+    BrightLamps out = {.scene = scene, .list = ARENA_NEW(arena, Lamp, parts),
+                       .pieces = ARENA_NEW(arena, Lamp *, parts),
+                       .part_ids = ARENA_NEW(arena, int, parts),
+                       .is_one = ARENA_NEW(arena, bool, parts)};
+    for (int i = 0; i < parts; i++) {
+        Lamp lamp = lamp_of_part(scene, i);
+        out.is_one[i] = lamp.cd_m2 > least_cd_m2;
+        if (!out.is_one[i]) continue;
+        out.part_ids[out.count] = i;
+        out.pieces[out.count] = pieces_of(scene, &scene->parts[i], lamp.cd_m2, arena);
+        out.list[out.count++] = lamp;
+    }
+    return out;
+}
+
+/* No chance chose the way. */
+static bool is_sure(const Scene *scene, const PathHistory *history)
+{
+    if (!history->count || history->count > PATH_STEPS_MAX) return false;
+    for (int i = 0; i < history->count; i++) {
+        const Part     *part = &scene->parts[history->step[i].part_id];
+        const Material *material = &scene->materials[part->material_id];
+        if (history->step[i].event != PATH_REFLECTS) return false;
+        if (material->transmission > 0 && (i || material->is_solid)) return false;
+    }
+    return true;
+}
+
+bool bright_lamps_tell(const BrightLamps *lamps, const PathHistory *history)
+{
+    return history->source == LIGHTS_EMITTERS && lamps->is_one[history->source_id] &&
+           is_sure(lamps->scene, history);
+}
+
+/* ---- a ray ------------------------------------------------------------------------------- */
+
+typedef struct LampFound {
+    int   mirror_id, lamp_id; /* parts: the first mirror's, the lamp's */
+    float cd_m2;              /* 0: it may be there */
+} LampFound;
+
+/* What lies behind a mirror is seen along it. */
+typedef struct MirroredRay {
+    Ray ray;
+    int mirror_id, depth; /* of the first mirror, how many there are */
+} MirroredRay;
+
+typedef struct LampRay {
+    const BrightLamps *lamps;
+    LampFound   found[KEPT];
+    MirroredRay mirrored[KEPT];
+    int         found_count, mirrored_count;
+} LampRay;
+
+static LampFound *found_of(LampFound *list, int *count, int mirror_id, int lamp_id)
+{
+    for (int i = 0; i < *count; i++)
+        if (list[i].mirror_id == mirror_id && list[i].lamp_id == lamp_id) return &list[i];
+    if (*count == KEPT) return NULL;
+    list[*count] = (LampFound){mirror_id, lamp_id, 0};
+    return &list[(*count)++];
+}
+
+static void on_light(void *user, const PathHistory *history, const float xyz[3])
+{
+    LampRay *ray = user;
+    if (!bright_lamps_tell(ray->lamps, history)) return;
+    LampFound *found = found_of(ray->found, &ray->found_count, history->step[0].part_id,
+                                history->source_id);
+    if (found) found->cd_m2 += xyz[1];
+}
+
+static void on_mirror(void *user, const PathHistory *history, Vec3 towards, float share)
+{
+    LampRay *ray = user;
+    if (ray->mirrored_count == KEPT || !(share > 0)) return;
+    if (!is_sure(ray->lamps->scene, history)) return;
+    Vec3 from = history->step[history->count - 1].position;
+    ray->mirrored[ray->mirrored_count++] = (MirroredRay){
+        {from, towards, 0, INFINITY}, history->step[0].part_id, history->count};
+}
+
+typedef struct LampSearch {
+    const LampImagesAsk *ask;
+    PathContext context;
+    int         count; /* cells over 180 degrees */
+    struct LampCell *cells;
+    int         cell_count;
+} LampSearch;
+
+static LampRay look(const LampSearch *search, Vec3 towards, uint32_t seed, int index)
+{
+    LampRay        ray = {.lamps = search->ask->lamps};
+    Vec3           eye = search->ask->head->eye, target = vec3_add(eye, towards);
+    ProbeAim       aim = {.context = &search->context, .eye = eye, .targets = &target,
+                          .target_count = 1, .seed = seed};
+    PathListener   listener = {.on_light = on_light, .on_mirror = on_mirror, .user = &ray,
+                               .reach = PATH_BY_SURE_MIRRORS};
+    PathStatistics statistics = {0};
+    search->ask->setup->tools.kernel->trace(&aim, index, index + 1, &listener, &statistics);
+    return ray;
+}
+
+/* ---- a cell ------------------------------------------------------------------------------ */
+
+/* found: what it shows, or may have somewhere (cd_m2 0). */
+typedef struct LampCell {
+    int       x, y;
+    Vec3      towards;
+    float     sr; /* 0: it does not look ahead */
+    LampFound found[KEPT];
+    bool      touches[KEPT]; /* its ray meets the ball of a triangle of the lamp */
+    int       found_count;
+} LampCell;
+
+/* How far beside the ray a cell sees, m, where the ray starts and per metre. */
+typedef struct RayWidth {
+    double start, grows;
+} RayWidth;
+
+static bool is_within(const Lamp *lamp, Ray ray, RayWidth width)
+{
+    Vec3   to = vec3_sub(lamp->middle, ray.origin);
+    double t = fmax((double)vec3_dot(to, ray.direction), 0);
+    double beside = (double)vec3_length(vec3_along(to, ray.direction, -(float)t));
+    return beside <= lamp->radius + width.start + t * width.grows;
+}
+
+/* Does it meet a triangle's ball, of those of a part? */
+static bool meets_part(const BrightLamps *lamps, int i, Ray ray, RayWidth width)
+{
+    const Part *part = &lamps->scene->parts[lamps->part_ids[i]];
+    if (!is_within(&lamps->list[i], ray, width)) return false;
+    for (uint32_t t = 0; t < part->triangle_count; t++)
+        if (is_within(&lamps->pieces[i][t], ray, width)) return true;
+    return false;
+}
+
+/* A second ray, at half a cell's width to the side and up, tells how mirrors spread a cell; its
+ * far corner lies at most twice as far off. Mirrors that the other ray does not meet are taken
+ * for flat. */
+#define CORNER 2.5
+
+static RayWidth width_of(const LampSearch *search, const MirroredRay *ray, const LampRay *other)
+{
+    double step = PI / search->count, apart = step / sqrt(2.0);
+    Vec3   eye = search->ask->head->eye;
+    double start = apart * (double)vec3_length(vec3_sub(ray->ray.origin, eye)), grows = apart;
+    for (int i = 0; i < other->mirrored_count; i++) {
+        const MirroredRay *m = &other->mirrored[i];
+        if (m->mirror_id != ray->mirror_id || m->depth != ray->depth) continue;
+        start = (double)vec3_length(vec3_sub(m->ray.origin, ray->ray.origin));
+        grows = (double)vec3_length(vec3_sub(m->ray.direction, ray->ray.direction));
+    }
+    return (RayWidth){CORNER * start, CORNER * grows};
+}
+
+/* Notes lamps that the cell may see. */
+static void note_near(const LampSearch *search, const LampRay *ray, const LampRay *other,
+                      LampCell *cell)
+{
+    const BrightLamps *lamps = search->ask->lamps;
+    for (int k = 0; k < ray->mirrored_count; k++) {
+        const MirroredRay *mirrored = &ray->mirrored[k];
+        RayWidth           width = width_of(search, mirrored, other);
+        for (int i = 0; i < lamps->count; i++) {
+            if (!meets_part(lamps, i, mirrored->ray, width)) continue;
+            LampFound *found = found_of(cell->found, &cell->found_count, mirrored->mirror_id,
+                                        lamps->part_ids[i]);
+            if (found && meets_part(lamps, i, mirrored->ray, (RayWidth){0, 0}))
+                cell->touches[found - cell->found] = true;
+        }
+    }
+}
+
+static void add_look(LampCell *cell, const LampRay *ray)
+{
+    for (int i = 0; i < ray->found_count; i++) {
+        LampFound *to = found_of(cell->found, &cell->found_count, ray->found[i].mirror_id,
+                                 ray->found[i].lamp_id);
+        if (to) to->cd_m2 += ray->found[i].cd_m2;
+    }
+}
+
+static bool are_alike(const LampRay *a, const LampRay *b)
+{
+    float x = 0, y = 0;
+    for (int i = 0; i < a->found_count; i++) x += a->found[i].cd_m2;
+    for (int i = 0; i < b->found_count; i++) y += b->found[i].cd_m2;
+    return x > 0 && y > 0 && fabsf(x - y) <= (float)ALIKE * fmaxf(x, y);
+}
+
+/* The mean of rays towards where a lamp lies. */
+static void look_well(const LampSearch *search, const LampRay *first, uint32_t seed,
+                      LampCell *cell)
+{
+    int looks = LOOKS_MANY, found = first->found_count, i = 1;
+    add_look(cell, first);
+    for (; i < looks; i++) {
+        LampRay ray = look(search, cell->towards, seed, i);
+        add_look(cell, &ray);
+        found += ray.found_count;
+        if (i + 1 == LOOKS_FEW && are_alike(first, &ray)) looks = LOOKS_FEW;
+        if (i + 1 == LOOKS_NONE && !found) looks = LOOKS_NONE;
+    }
+    for (i = 0; i < cell->found_count; i++) cell->found[i].cd_m2 /= (float)looks;
+}
+
+static bool touches_any(const LampCell *cell)
+{
+    bool touches = false;
+    for (int i = 0; i < cell->found_count; i++) touches |= cell->touches[i];
+    return touches;
+}
+
+/* Somewhere in its place of the raster, and what is seen there. */
+static void look_at_cell(const LampSearch *search, LampCell *cell)
+{
+    double   step = PI / search->count;
+    uint32_t seed = hash_combine(hash_combine(hash_u32(search->ask->seed), (uint32_t)cell->x),
+                                 (uint32_t)cell->y);
+    double   u = seed * 0x1p-32, v = hash_u32(seed) * 0x1p-32;
+    double   x = (cell->x + u) * step - PI / 2, y = PI / 2 - (cell->y + v) * step;
+    double   t = hypot(x, y);
+    if (!(t < PI / 2)) return;
+    cell->sr = (float)(step * step * (t > 0 ? sin(t) / t : 1));
+    cell->towards = glare_head_direction(search->ask->head, x, y);
+    LampRay ray = look(search, cell->towards, seed, 0);
+    if (!ray.mirrored_count) return;
+    Vec3    beside = glare_head_direction(search->ask->head, x + step / 2, y + step / 2);
+    LampRay other = look(search, beside, seed, 0);
+    note_near(search, &ray, &other, cell);
+    if (ray.found_count || touches_any(cell)) look_well(search, &ray, seed, cell);
+}
+
+static void look_chunk(void *user, int item, int worker)
+{
+    (void)worker;
+    const LampSearch *search = user;
+    int first = item * CELLS_A_CHUNK;
+    for (int i = first; i < first + CELLS_A_CHUNK && i < search->cell_count; i++)
+        look_at_cell(search, &search->cells[i]);
+}
+
+/* ---- pictures, ever finer ---------------------------------------------------------------- */
+
+/* A lamp and the first mirror that shows it, over all cells of a picture. */
+typedef struct LampPair {
+    int  mirror_id, lamp_id;
+    long shown, touched;
+} LampPair;
+
+typedef struct LampPairs {
+    LampPair *list;
+    int       count;
+} LampPairs;
+
+static int pair_of(LampPairs *pairs, const LampFound *found, Arena *arena)
+{
+    for (int i = 0; i < pairs->count; i++)
+        if (pairs->list[i].mirror_id == found->mirror_id &&
+            pairs->list[i].lamp_id == found->lamp_id)
+            return i;
+    pairs->list = ARENA_GROW(arena, LampPair, pairs->list, pairs->count, pairs->count + 1);
+    pairs->list[pairs->count] = (LampPair){found->mirror_id, found->lamp_id, 0, 0};
+    return pairs->count++;
+}
+
+static void count_pairs(const LampSearch *search, LampPairs *pairs, Arena *arena)
+{
+    for (int i = 0; i < pairs->count; i++) pairs->list[i].shown = pairs->list[i].touched = 0;
+    for (int i = 0; i < search->cell_count; i++) {
+        const LampCell *cell = &search->cells[i];
+        for (int k = 0; k < cell->found_count; k++) {
+            int pair = pair_of(pairs, &cell->found[k], arena);
+            pairs->list[pair].shown += cell->found[k].cd_m2 > 0;
+            pairs->list[pair].touched += cell->touches[k];
+        }
+    }
+}
+
+/* Is it to be looked at again, by finer ones? */
+static bool is_cut(const LampCell *cell, LampPairs *pairs, Arena *arena)
+{
+    for (int k = 0; k < cell->found_count; k++) {
+        const LampPair *pair = &pairs->list[pair_of(pairs, &cell->found[k], arena)];
+        if (pair->shown < ENOUGH && pair->touched < ENOUGH * HIDDEN) return true;
+    }
+    return false;
+}
+
+/* Where the cell at x, y stands in the list: by a table of at least twice as many entries,
+ * whose index is a hash of the place. */
+typedef struct CellTable {
+    int     *at; /* in the list, and one more; 0: none */
+    uint32_t mask;
+} CellTable;
+
+static uint32_t entry_of(const CellTable *table, const LampCell *cells, int x, int y)
+{
+    uint32_t i = hash_combine(hash_u32((uint32_t)x), (uint32_t)y) & table->mask;
+    while (table->at[i] && (cells[table->at[i] - 1].x != x || cells[table->at[i] - 1].y != y))
+        i = (i + 1) & table->mask;
+    return i;
+}
+
+static CellTable table_of(const LampSearch *search, Arena *arena)
+{
+    uint32_t size = 2;
+    while (size < 2 * (uint32_t)search->cell_count) size *= 2;
+    CellTable table = {ARENA_NEW(arena, int, size), size - 1};
+    for (int i = 0; i < search->cell_count; i++) {
+        const LampCell *cell = &search->cells[i];
+        table.at[entry_of(&table, search->cells, cell->x, cell->y)] = i + 1;
+    }
+    return table;
+}
+
+/* Those that are cut: with their neighbours, of which a ray may just have missed the rim of a
+ * mirror. Else the rim of what was met would be cut away and nothing added. */
+static bool *cut_of(const LampSearch *search, LampPairs *pairs, Arena *of_pairs, Arena *arena)
+{
+    CellTable table = table_of(search, arena);
+    bool     *out = ARENA_NEW(arena, bool, search->cell_count);
+    for (int i = 0; i < search->cell_count; i++) {
+        const LampCell *cell = &search->cells[i];
+        if (!is_cut(cell, pairs, of_pairs)) continue;
+        for (int k = 0; k < 9; k++) {
+            uint32_t entry = entry_of(&table, search->cells, cell->x + k % 3 - 1,
+                                      cell->y + k / 3 - 1);
+            if (table.at[entry]) out[table.at[entry] - 1] = true;
+        }
+    }
+    return out;
+}
+
+static void tell(const LampCell *cell, LampPairs *pairs, LampImages *out, Arena *arenas[2])
+{
+    for (int k = 0; k < cell->found_count; k++) {
+        const LampFound *found = &cell->found[k];
+        if (!(found->cd_m2 > 0)) continue;
+        out->list = ARENA_GROW(arenas[0], LampImage, out->list, out->count, out->count + 1);
+        out->list[out->count++] = (LampImage){
+            pair_of(pairs, found, arenas[1]), cell->towards, (double)found->cd_m2,
+            (double)cell->sr, cell->x, cell->y};
+    }
+}
+
+static void cut(const LampCell *cell, LampCell *to)
+{
+    for (int i = 0; i < PER_SIDE * PER_SIDE; i++)
+        to[i] = (LampCell){.x = cell->x * PER_SIDE + i % PER_SIDE,
+                           .y = cell->y * PER_SIDE + i / PER_SIDE};
+}
+
+/* Tells what is known well, and leaves the cells of the next picture. */
+static void go_finer(LampSearch *search, bool is_last, LampPairs *pairs, LampImages *out,
+                     Arena *arenas[3])
+{
+    int       count = 0, pieces = PER_SIDE * PER_SIDE;
+    LampCell *cells = search->cells, *finer = NULL;
+    bool     *is_cut_up = cut_of(search, pairs, arenas[1], arenas[2]);
+    for (int i = 0; i < search->cell_count; i++) count += is_cut_up[i] ? pieces : 0;
+    bool is_end = is_last || count > CELLS_MOST;
+    if (!is_end) finer = ARENA_NEW(arenas[2], LampCell, count);
+    count = 0;
+    for (int i = 0; i < search->cell_count; i++) {
+        if (is_end || !is_cut_up[i]) {
+            tell(&cells[i], pairs, out, arenas);
+            continue;
+        }
+        cut(&cells[i], finer + count);
+        count += pieces;
+    }
+    search->cells = finer;
+    search->cell_count = is_end ? 0 : count;
+    search->count *= PER_SIDE;
+}
+
+static void set_first(LampSearch *search, Arena *arena)
+{
+    int side = search->ask->pixels;
+    search->count = side;
+    search->cell_count = side * side;
+    search->cells = ARENA_NEW(arena, LampCell, search->cell_count);
+    for (int i = 0; i < search->cell_count; i++)
+        search->cells[i] = (LampCell){.x = i % side, .y = i / side};
+}
+
+#define BYTES ((size_t)1 << 34) /* of address space */
+
+LampImages lamp_images_find(const LampImagesAsk *ask, Arena *arena)
+{
+    LampImages out = {0};
+    LampPairs  pairs = {0};
+    LampSearch search = {.ask = ask, .context = ask->setup->context};
+    if (!ask->lamps->count) return out;
+    Arena  of_pairs = arena_reserve(BYTES), of_cells = arena_reserve(BYTES);
+    Arena *arenas[3] = {arena, &of_pairs, &of_cells};
+    search.context.max_bounces = BOUNCES;
+    search.context.guide = NULL;
+    set_first(&search, &of_cells);
+    for (int level = 0; level < LEVELS && search.cell_count; level++) {
+        int chunks = (search.cell_count + CELLS_A_CHUNK - 1) / CELLS_A_CHUNK;
+        parallel_for(ask->setup->tools.threads, chunks, look_chunk, &search);
+        count_pairs(&search, &pairs, &of_pairs);
+        go_finer(&search, level == LEVELS - 1, &pairs, &out, arenas);
+    }
+    out.pairs = pairs.count;
+    arena_release(&of_pairs);
+    arena_release(&of_cells);
+    return out;
+}
