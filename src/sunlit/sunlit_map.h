@@ -32,7 +32,7 @@
 typedef struct SunlitQuarters {
     float    centre[3][4]; /* x, y, z of the spheres about them, m */
     float    square[4];    /* of the spheres' radii, m^2 */
-    float    axis[3][4];   /* unit: the mean of their normals, to the side that the sun lights */
+    float    axis[3][4];   /* unit: the mean of their normals, to the sun's side */
     float    cosine[4], sine[4]; /* of the cone about it that holds them; -1: light leaves to
                                     all sides */
     float    power[4];     /* relative; 0: there is nothing */

@@ -100,8 +100,8 @@ TEST(a_patch_of_sun_lights_a_wall_as_its_form_factor_says)
     }
 }
 
-/* One of the first rays in seven comes in by the slit: what is looked at about those leaves gaps
- * between them. */
+/* One of the first rays in seven comes in by the slit: what is looked at about those leaves
+ * gaps between them. */
 TEST(a_slit_narrower_than_a_pixel_is_followed_to_its_ends)
 {
     const Room room = {.hole = 0.2f, .gap = 0.0004f, .floor = 0.8f};
