@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "base/parallel.h"
-#include "base/units.h"
 #include "base/sampler.h"
+#include "base/units.h"
 #include "estimate/estimate.h"
 
 #define BATCHES ESTIMATE_BATCHES /* each with a seed of its own, its samples well spread */
