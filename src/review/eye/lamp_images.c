@@ -7,10 +7,11 @@
 #include "base/sampler.h"
 #include "base/units.h"
 
-#define PER_SIDE 4    /* cells along each side of one that is cut */
-#define LEVELS 7      /* pictures, each finer than the one before: at last 0.8 arc seconds */
+#define PER_SIDE 2    /* cells along each side of one that is cut */
+#define LEVELS 13     /* pictures, each finer than the one before: at last 0.8 arc seconds */
 #define ENOUGH 200    /* cells that show an image: its rim makes an error of 1.5 % */
 #define HIDDEN 8      /* times as many where it may lie: the rest of it is hidden */
+#define SLIGHT 0.01   /* of all images, by the square of their luminance */
 #define CELLS_MOST (1 << 20)
 #define CELLS_A_CHUNK 256
 #define KEPT 4        /* lamps that a ray finds, mirrors that it meets */
@@ -19,6 +20,7 @@
 #define LOOKS_NONE 8  /* so many that find nothing, too; */
 #define LOOKS_MANY 32 /* others are a matter of chance: their mean is the image */
 #define ALIKE 0.1
+#define NO_MIRROR (-1)
 
 /* ---- lamps ------------------------------------------------------------------------------- */
 
@@ -36,10 +38,12 @@ BrightLamps bright_lamps(const Scene *scene, double least_cd_m2, Arena *arena)
     BrightLamps out = {.scene = scene, .list = ARENA_NEW(arena, Lamp, parts),
                        .pieces = ARENA_NEW(arena, Lamp *, parts),
                        .part_ids = ARENA_NEW(arena, int, parts),
-                       .is_one = ARENA_NEW(arena, bool, parts)};
+                       .is_one = ARENA_NEW(arena, bool, parts),
+                       .cd_m2 = ARENA_NEW(arena, double, parts)};
     for (int i = 0; i < parts; i++) {
         Lamp lamp = lamp_of_part(scene, i);
         out.is_one[i] = lamp.cd_m2 > least_cd_m2;
+        out.cd_m2[i] = lamp.cd_m2;
         if (!out.is_one[i]) continue;
         out.part_ids[out.count] = i;
         out.pieces[out.count] = pieces_of(scene, &scene->parts[i], lamp.cd_m2, arena);
@@ -141,6 +145,7 @@ static LampRay look(const LampSearch *search, Vec3 towards, uint32_t seed, int i
 /* found: what it shows, or may have somewhere (cd_m2 0). */
 typedef struct LampCell {
     int       x, y;
+    int       mirror_id; /* part, which both of its rays meet; NO_MIRROR: its rim, or none */
     Vec3      towards;
     float     sr; /* 0: it does not look ahead */
     LampFound found[KEPT];
@@ -176,14 +181,17 @@ static bool meets_part(const BrightLamps *lamps, int i, Ray ray, RayWidth width)
  * for flat. */
 #define CORNER 2.5
 
-static RayWidth width_of(const LampSearch *search, const MirroredRay *ray, const LampRay *other)
+static RayWidth width_of(const LampSearch *search, const MirroredRay *ray, const LampRay *other,
+                         bool *is_met)
 {
     double step = PI / search->count, apart = step / sqrt(2.0);
     Vec3   eye = search->ask->head->eye;
     double start = apart * (double)vec3_length(vec3_sub(ray->ray.origin, eye)), grows = apart;
+    *is_met = false;
     for (int i = 0; i < other->mirrored_count; i++) {
         const MirroredRay *m = &other->mirrored[i];
         if (m->mirror_id != ray->mirror_id || m->depth != ray->depth) continue;
+        *is_met = true;
         start = (double)vec3_length(vec3_sub(m->ray.origin, ray->ray.origin));
         grows = (double)vec3_length(vec3_sub(m->ray.direction, ray->ray.direction));
     }
@@ -195,9 +203,12 @@ static void note_near(const LampSearch *search, const LampRay *ray, const LampRa
                       LampCell *cell)
 {
     const BrightLamps *lamps = search->ask->lamps;
+    cell->mirror_id = ray->mirrored[0].mirror_id;
     for (int k = 0; k < ray->mirrored_count; k++) {
         const MirroredRay *mirrored = &ray->mirrored[k];
-        RayWidth           width = width_of(search, mirrored, other);
+        bool               is_met;
+        RayWidth           width = width_of(search, mirrored, other, &is_met);
+        if (!is_met || mirrored->mirror_id != cell->mirror_id) cell->mirror_id = NO_MIRROR;
         for (int i = 0; i < lamps->count; i++) {
             if (!meets_part(lamps, i, mirrored->ray, width)) continue;
             LampFound *found = found_of(cell->found, &cell->found_count, mirrored->mirror_id,
@@ -254,6 +265,7 @@ static void look_at_cell(const LampSearch *search, LampCell *cell)
     double   step = PI / search->count;
     uint32_t seed = hash_combine(hash_combine(hash_u32(search->ask->seed), (uint32_t)cell->x),
                                  (uint32_t)cell->y);
+    cell->mirror_id = NO_MIRROR;
     double   u = seed * 0x1p-32, v = hash_u32(seed) * 0x1p-32;
     double   x = (cell->x + u) * step - PI / 2, y = PI / 2 - (cell->y + v) * step;
     double   t = hypot(x, y);
@@ -281,13 +293,16 @@ static void look_chunk(void *user, int item, int worker)
 
 /* A lamp and the first mirror that shows it, over all cells of a picture. */
 typedef struct LampPair {
-    int  mirror_id, lamp_id;
-    long shown, touched;
+    int    mirror_id, lamp_id;
+    long   shown, touched;
+    double glare;   /* the squares of the luminance of its cells, times their solid angles */
+    bool   is_well; /* known well enough */
 } LampPair;
 
 typedef struct LampPairs {
     LampPair *list;
     int       count;
+    double    told; /* glare of cells that are not looked at again */
 } LampPairs;
 
 static int pair_of(LampPairs *pairs, const LampFound *found, Arena *arena)
@@ -297,31 +312,48 @@ static int pair_of(LampPairs *pairs, const LampFound *found, Arena *arena)
             pairs->list[i].lamp_id == found->lamp_id)
             return i;
     pairs->list = ARENA_GROW(arena, LampPair, pairs->list, pairs->count, pairs->count + 1);
-    pairs->list[pairs->count] = (LampPair){found->mirror_id, found->lamp_id, 0, 0};
+    pairs->list[pairs->count] = (LampPair){found->mirror_id, found->lamp_id, 0, 0, 0, false};
     return pairs->count++;
+}
+
+static double glare_of(const LampFound *found, const LampCell *cell)
+{
+    return (double)found->cd_m2 * (double)found->cd_m2 * (double)cell->sr;
+}
+
+static void add_cell(LampPairs *pairs, const LampCell *cell, Arena *arena)
+{
+    for (int k = 0; k < cell->found_count; k++) {
+        int       i = pair_of(pairs, &cell->found[k], arena);
+        LampPair *pair = &pairs->list[i];
+        pair->shown += cell->found[k].cd_m2 > 0;
+        pair->touched += cell->touches[k];
+        pair->glare += glare_of(&cell->found[k], cell);
+    }
+}
+
+/* A pair is known well by many cells, or where the error of few is slight beside all images:
+ * that of a count of n is its root, of none that is seen a cell of the lamp itself. */
+static bool is_well(const LampSearch *search, const LampPair *pair, double all)
+{
+    double step = PI / search->count, cd_m2 = search->ask->lamps->cd_m2[pair->lamp_id];
+    double error = pair->shown ? pair->glare / sqrt((double)pair->shown)
+                               : cd_m2 * cd_m2 * step * step;
+    return pair->shown >= ENOUGH || pair->touched >= ENOUGH * HIDDEN || error <= SLIGHT * all;
 }
 
 static void count_pairs(const LampSearch *search, LampPairs *pairs, Arena *arena)
 {
-    for (int i = 0; i < pairs->count; i++) pairs->list[i].shown = pairs->list[i].touched = 0;
-    for (int i = 0; i < search->cell_count; i++) {
-        const LampCell *cell = &search->cells[i];
-        for (int k = 0; k < cell->found_count; k++) {
-            int pair = pair_of(pairs, &cell->found[k], arena);
-            pairs->list[pair].shown += cell->found[k].cd_m2 > 0;
-            pairs->list[pair].touched += cell->touches[k];
-        }
+    double all = pairs->told;
+    for (int i = 0; i < pairs->count; i++) {
+        LampPair *pair = &pairs->list[i];
+        pair->shown = pair->touched = 0;
+        pair->glare = 0;
     }
-}
-
-/* Is it to be looked at again, by finer ones? */
-static bool is_cut(const LampCell *cell, LampPairs *pairs, Arena *arena)
-{
-    for (int k = 0; k < cell->found_count; k++) {
-        const LampPair *pair = &pairs->list[pair_of(pairs, &cell->found[k], arena)];
-        if (pair->shown < ENOUGH && pair->touched < ENOUGH * HIDDEN) return true;
-    }
-    return false;
+    for (int i = 0; i < search->cell_count; i++) add_cell(pairs, &search->cells[i], arena);
+    for (int i = 0; i < pairs->count; i++) all += pairs->list[i].glare;
+    for (int i = 0; i < pairs->count; i++)
+        pairs->list[i].is_well = is_well(search, &pairs->list[i], all);
 }
 
 /* Where the cell at x, y stands in the list: by a table of at least twice as many entries,
@@ -351,20 +383,28 @@ static CellTable table_of(const LampSearch *search, Arena *arena)
     return table;
 }
 
-/* Those that are cut: with their neighbours, of which a ray may just have missed the rim of a
- * mirror. Else the rim of what was met would be cut away and nothing added. */
+/* A lamp in a mirror is looked for in the cell and in those of its neighbours that may hold
+ * the mirror's rim, which their rays have just missed: else it would be cut away. A neighbour
+ * whose rays meet the mirror knows for itself. */
+static void cut_near(const LampSearch *search, const CellTable *table, const LampCell *cell,
+                     int mirror_id, bool *out)
+{
+    for (int k = 0; k < 9; k++) {
+        int x = cell->x + k % 3 - 1, y = cell->y + k / 3 - 1;
+        int i = table->at[entry_of(table, search->cells, x, y)] - 1;
+        if (i >= 0 && (k == 4 || search->cells[i].mirror_id != mirror_id)) out[i] = true;
+    }
+}
+
 static bool *cut_of(const LampSearch *search, LampPairs *pairs, Arena *of_pairs, Arena *arena)
 {
     CellTable table = table_of(search, arena);
     bool     *out = ARENA_NEW(arena, bool, search->cell_count);
     for (int i = 0; i < search->cell_count; i++) {
         const LampCell *cell = &search->cells[i];
-        if (!is_cut(cell, pairs, of_pairs)) continue;
-        for (int k = 0; k < 9; k++) {
-            uint32_t entry = entry_of(&table, search->cells, cell->x + k % 3 - 1,
-                                      cell->y + k / 3 - 1);
-            if (table.at[entry]) out[table.at[entry] - 1] = true;
-        }
+        for (int k = 0; k < cell->found_count; k++)
+            if (!pairs->list[pair_of(pairs, &cell->found[k], of_pairs)].is_well)
+                cut_near(search, &table, cell, cell->found[k].mirror_id, out);
     }
     return out;
 }
@@ -374,6 +414,7 @@ static void tell(const LampCell *cell, LampPairs *pairs, LampImages *out, Arena 
     for (int k = 0; k < cell->found_count; k++) {
         const LampFound *found = &cell->found[k];
         if (!(found->cd_m2 > 0)) continue;
+        pairs->told += glare_of(found, cell);
         out->list = ARENA_GROW(arenas[0], LampImage, out->list, out->count, out->count + 1);
         out->list[out->count++] = (LampImage){
             pair_of(pairs, found, arenas[1]), cell->towards, (double)found->cd_m2,

@@ -26,6 +26,7 @@ typedef struct BrightLamps {
     Lamp       **pieces;   /* and one of its triangles each */
     int         *part_ids; /* likewise */
     bool        *is_one;   /* [part] */
+    double      *cd_m2;    /* likewise */
     int          count;
 } BrightLamps;
 
