@@ -78,7 +78,10 @@ def broken_decision_laws(case, most):
     is_above = limit["found"] > limit["value"]
     end = case["reflected_interval"][1 if is_above else 0]
     error = abs(contrast(case["luminance_cd_m2"], end) - limit["found"]) / 1.959964
-    half = abs(limit["found"] - limit["interval"][0 if is_above else 1])
+    far = limit["interval"][0 if is_above else 1]
+    if far is None:  # without an end: nothing may be reflected on black
+        return
+    half = abs(limit["found"] - far)
     panel = math.sqrt(max(half ** 2 - (1.959964 * error) ** 2, 0))
     never = share_within(abs(limit["found"] - limit["value"]), error, panel)
     is_known = case["luminance_cd_m2"]["mirror"] < 0.01 * case["luminance_cd_m2"]["reflected"]
