@@ -108,18 +108,18 @@ static void print_text(const Places *places, const Illuminance *found)
     float xy[2];
     xy_of(found, xy);
     if (places->is_single) {
-        print("illuminance  %.6g +- %.2g lx\nx, y         %.4f, %.4f\n", found->xyz_lx[1],
-              0.5 * (found->high_lx - found->low_lx), (double)xy[0], (double)xy[1]);
+        print("illuminance  %.6g lx, 95 %% interval %.6g to %.6g\nx, y         %.4f, %.4f\n",
+              found->xyz_lx[1], found->low_lx, found->high_lx, (double)xy[0], (double)xy[1]);
         return;
     }
-    print("%9s %9s %9s  %7s %7s %7s  %12s %10s  %-6s  %s\n", "x", "y", "z", "nx", "ny", "nz",
-          "lx", "+-", "CIE x", "CIE y");
+    print("%9s %9s %9s  %7s %7s %7s  %12s %12s %12s  %-6s  %s\n", "x", "y", "z", "nx", "ny",
+          "nz", "lx", "low lx", "high lx", "CIE x", "CIE y");
     for (int i = 0; i < places->count; i++) {
         const double *p = places->list[i].place, *n = places->list[i].normal;
         xy_of(&found[i], xy);
-        print("%9.4g %9.4g %9.4g  %7.4f %7.4f %7.4f  %12.6g %10.2g  %.4f  %.4f\n", p[0], p[1],
-              p[2], n[0], n[1], n[2], found[i].xyz_lx[1],
-              0.5 * (found[i].high_lx - found[i].low_lx), (double)xy[0], (double)xy[1]);
+        print("%9.4g %9.4g %9.4g  %7.4f %7.4f %7.4f  %12.6g %12.6g %12.6g  %.4f  %.4f\n", p[0],
+              p[1], p[2], n[0], n[1], n[2], found[i].xyz_lx[1], found[i].low_lx,
+              found[i].high_lx, (double)xy[0], (double)xy[1]);
     }
 }
 
