@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# long.sh [--list | --changed [COMMIT]] -- what takes too long for run.sh: slow units, every
-# closed form, guide and fault, two hundred pairs of frames of other noise, a hundred kills, all
-# units and thousands of broken models and panels under the address sanitizer, the thread
-# sanitizer, packages, another Debian, the second compiler, five minutes of fuzzing.
+# long.sh [--list | --changed [COMMIT]] -- what takes too long for run.sh: slow units, what one
+# room alone can break (lamps, pictures as light, --for, jobs, installing), every closed form,
+# guide and fault, two hundred pairs of frames of other noise, a hundred kills, all units and
+# thousands of broken models and panels under the address sanitizer, the thread sanitizer,
+# packages, another Debian, the second compiler, five minutes of fuzzing.
 # A step that passed is not run again until a file that it depends on changes: stopped, it goes
 # on where it was. --list says which steps would be run; --changed runs of them those alone that
 # a commit after COMMIT reaches (the last one, if none is named), or what is not committed.
@@ -92,6 +93,8 @@ done
 of "$panels tests/library"
 start 'a second reader, 100,000 questions' agreement-long \
     python3 tests/library/agreement.py .build/release --queries 100000
+start 'a second reader of panels' library-agreement \
+    python3 tests/library/agreement.py .build/release
 start 'another renderer, less noise' renderer-long \
     python3 tests/library/other_renderer.py .build/release --samples 1024
 of "$light tests/structure tests/unit CONTRIBUTING.md"
@@ -110,6 +113,38 @@ start 'one judged quantity a row, every profile' judged-long \
     python3 tests/hostile/judged.py $program --all
 start "a sweep through a roof blind's slit" slit-sweep \
     python3 tests/image/slit_sweep.py $program
+of "$all scenes tests/hostile tests/image"
+start 'names give a terminal no commands' printed python3 tests/hostile/printed.py $program
+start 'every option given twice' options-long \
+    python3 tests/hostile/options.py --all $program
+start 'a render that is watched' live-view python3 tests/hostile/live_view.py $program
+of "$all scenes tests/slurm tests/image"
+start 'a frame shared in a job' job python3 tests/slurm/job.py $program
+of "$all scenes tests/blender tests/image"
+start 'the Blender add-on' blender python3 tests/blender/run.py $program
+of "$all scenes README.md CONTRIBUTING.md tests"
+start 'installed, moved, read, completed' install \
+    python3 tests/install/install.py .build/release
+of "$all scenes tests/image"
+start 'same bytes, four names' names-long python3 tests/image/names.py --all $program
+start 'a scene far off is the same' far python3 tests/image/far.py $program
+start 'displays under sun and sky' reflection python3 tests/image/reflection.py $program
+start 'half the space and its glare' fisheye python3 tests/image/fisheye.py $program
+start 'light that few paths find' rare python3 tests/image/rare.py $program
+of "$review scenes tests/image"
+start 'why a display looks so' explain python3 tests/image/explain.py $program
+start 'what would mend it, built' remedies python3 tests/image/remedies.py $program
+start 'through sunglasses' sunglasses python3 tests/image/sunglasses.py $program
+of "$compare scenes tests/image"
+start 'samples for an area' favour python3 tests/image/favour.py $program
+start 'people in the seats' occupants python3 tests/image/occupants.py $program
+start 'pictures as light' hdri python3 tests/image/hdri.py $program
+start 'luminaires as lamps' lamps python3 tests/image/lamps.py $program
+start 'groups of lights' lights python3 tests/image/lights.py $program
+start 'polarised light' polarised python3 tests/image/polarised.py $program
+start 'sub-pixels' subpixels python3 tests/image/subpixels.py $program
+start 'displays by their part of a pixel' display-area \
+    python3 tests/image/display_area.py $program
 gather
 of "$render scenes tests/image"
 run 'all closed forms in frames' image-long python3 tests/image/run.py --all $program

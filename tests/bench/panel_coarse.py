@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""panel_coarse.py PARHELION [--cases all|some|few] [--share K/N] [--jobs N] -- does a panel's
+"""panel_coarse.py PARHELION [--cases all|some] [--share K/N] [--jobs N] -- does a panel's
 verdict know what its grid saw?
 
 For grids, lobes and mirrors of every width: simulate, fit, ask, and compare with the closed
 form. A row of the table is WRONG, and the status 1, when anything asked is more than 5 % off
-and the verdict is "good" all the same. few: the cases of every day.
+and the verdict is "good" all the same.
 --share: of N shares of them the Kth.
 
 The panel   haze (1 + b^2 / w^2)^-1.8, whose full width at half is the lobe's; it takes 3 % of
@@ -32,9 +32,6 @@ import panels  # noqa: E402
 GRIDS = ("12x24", "22x36", "44x90", "88x120", "88x360")
 LOBES = (0.2, 0.5, 1, 2, 5, 10)
 MIRRORS = (0, 0.002, 0.006, 0.02, 0.06)
-FEW = (("12x24", 10, 0.006, False), ("22x36", 5, 0, False), ("22x36", 10, 0.02, False),
-       ("22x36", 5, 0.006, True), ("22x36", 10, 0.002, True), ("44x90", 10, 0.02, False),
-       ("44x90", 5, 0.006, False))
 INCIDENCES, ASKED = (20, 30, 40, 50, 60), (20, 30, 35, 50, 60)
 WAVELENGTHS = (450, 620)
 POWER, HAZE, FLOOR, LEAST = 1.8, 0.03, 0.003, 0.002
@@ -171,8 +168,6 @@ def cases_of(kind):
     """All: every lobe with every mirror on every grid. Some: every lobe on every grid with
     three of the mirrors in turn, two on the fine grids, whose fits take a minute; with a
     specular measurement one."""
-    if kind == "few":
-        return list(FEW)
     told = [(g, l, m, True) for g in GRIDS[:3] for l in LOBES[2:] for m in MIRRORS[1:]]
     if kind == "all":
         return [(g, l, m, False) for g in GRIDS for l in LOBES for m in MIRRORS] + told

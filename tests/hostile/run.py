@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """run.py [--all] PARHELION -- models that are broken, foreign or strange: no crash, no hang, no
 report of a sanitizer; what is valid loads and renders, what is not is refused in one clear line
-or reported by `check`. Made for the build with the address sanitizer; model_commands of that
-build is enough of the program. --all: more mutations, and where light comes from is learnt of
-every model, not of the sound one alone.
+or reported by `check`. --all, which tests/long.sh runs under the address sanitizer: more
+mutations, and where light comes from is learnt of every model, not of the sound one alone.
 """
 import concurrent.futures
 import glob

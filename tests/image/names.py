@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""names.py PARHELION -- what a command writes has the same bytes whatever its outputs are
-called, wherever they stand, and however the run is shown, shared among threads or kept.
+"""names.py [--all] PARHELION -- what a command writes has the same bytes whatever its outputs
+are called, wherever they stand, and however the run is shown, shared among threads or kept.
+Without --all by two names.
 """
 import itertools
 import os
@@ -31,8 +32,9 @@ RENDER_WAYS = [[], ["--png", "{stem}.png", "--exposure", "12", "--view", "raw"],
 
 
 class Work:
-    def __init__(self, report, program, folder):
+    def __init__(self, report, program, folder, whole):
         self.report, self.program, self.folder = report, program, folder
+        self.names = STEMS if whole else STEMS[:2]
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -43,7 +45,7 @@ class Work:
         self.report.claim(done.returncode == 0, f"{words}: {done.stderr.strip()}")
 
     def stems(self):
-        return [stem.format(folder=self.folder) for stem in STEMS]
+        return [stem.format(folder=self.folder) for stem in self.names]
 
     def contents(self, name):
         """A file's bytes, or those of all files below a folder by their names."""
@@ -148,7 +150,8 @@ def check_panels(work):
 def main():
     report = Report()
     with tempfile.TemporaryDirectory() as folder:
-        work = Work(report, os.path.abspath(sys.argv[1]), os.path.realpath(folder))
+        work = Work(report, os.path.abspath(sys.argv[-1]), os.path.realpath(folder),
+                    "--all" in sys.argv)
         os.mkdir(work.path("another folder"))
         write_scene(work.path("small.gltf"))
         check_frames(work)

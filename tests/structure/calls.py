@@ -84,10 +84,10 @@ def check_itself(report):
 
 def main():
     report, names = Report(), sources(".c", ".h", ".cpp", ".hpp")
+    found = [(kind, f"{name}:{line}: {function}") for name in names
+             for line, function, kind in calls_in(name, read(name))]
     for what in FORBIDDEN:
-        report.claim_none(f"calls of {what}", [
-            f"{name}:{line}: {function}" for name in names
-            for line, function, kind in calls_in(name, read(name)) if kind == what])
+        report.claim_none(f"calls of {what}", [call for kind, call in found if kind == what])
     report.claim_none("headers of other programs and the network", [
         f"{name}: {match[0]}" for name in names if name != SENDER
         for match in HEADERS.finditer(read(name))
