@@ -265,6 +265,9 @@ static bool compare_folders(CompareRun *run, Error *err)
         progress_update(&progress, i + 1);
     }
     progress_end(&progress, pairs.count);
+    if (run->count == 0)
+        return error_at(err, ERROR_INPUT, r->reference, "",
+                        "there is no picture in this folder: nothing was compared");
     if (!write_files(run, err) || !print_total(run, err)) return false;
     if (run->failed) return answered(run->first_failure, err);
     return answered(run->different ? ERROR_DIFFERENT : ERROR_NONE, err);

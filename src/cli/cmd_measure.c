@@ -10,7 +10,7 @@
 #include "cli/luxmeter.h"
 #include "cli/measure_glare.h"
 #include "cli/options/answer.h"
-#include "image/radiance/frame_file.h"
+#include "image/light_file.h"
 #include "measure/light_shares.h"
 #include "text/interval_text.h"
 #include "text/json_text.h"
@@ -347,15 +347,18 @@ static bool print_json(const MeasureWords *typed, const FrameMeasurement *m,
 
 static bool measure(const MeasureWords *typed, Arena *arena, Error *err)
 {
-    FrameImage  frame;
+    LightFile        file;
     FrameMeasurement measured;
+    Problems         problems = problems_start(arena);
     if (typed->luxmeter.places.count)
         return luxmeter_run(&typed->cli, &typed->luxmeter, arena, err);
-    if (!frame_file_read(typed->request.frame_name, arena, &frame, err)) return false;
+    const char *name = typed->request.frame_name;
+    if (!light_file_read(name, arena, &problems, &file, err)) return false;
+    cli_print_warnings(&problems);
     if (typed->glare.given)
-        return measure_glare(&typed->cli, &frame, &typed->glare, arena, err);
-    if (!measure_frame(&frame, &typed->request, *arena, &measured, err)) return false;
-    LightShares lights = light_shares_measure(&frame, &typed->request,
+        return measure_glare(&typed->cli, &file.frame, &typed->glare, arena, err);
+    if (!measure_frame(&file.frame, &typed->request, *arena, &measured, err)) return false;
+    LightShares lights = light_shares_measure(&file.frame, &typed->request,
                                               measured.luminance.value, arena);
     if (typed->cli.json) return print_json(typed, &measured, &lights, err);
     print_text(&measured, typed->request.display != NULL);

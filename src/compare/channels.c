@@ -62,6 +62,7 @@ static bool is_rim(const Pair *pair, size_t i)
            has_beside(pair, pair->values[1 - missing], i, false);
 }
 
+/* Or NaN both. */
 static bool same_gap(float a, float b)
 {
     return isnan(a) ? isnan(b) : a == b;
@@ -95,7 +96,10 @@ static ChannelDifference compare_channel(const char *name, const Pair *pair,
         long  place = pair->frame ? selection_place(pair->frame, i) : (long)i;
         float a = pair->values[0][i], b = pair->values[1][i];
         bool  is_finite = isfinite(a) && isfinite(b);
-        if (place < 0) continue;
+        if (place < 0) {
+            all->outside += !same_gap(a, b);
+            continue;
+        }
         if (!selection->counts[place]) {
             all->left_out[0] += pair->is_light && !isfinite(a);
             all->left_out[1] += pair->is_light && !isfinite(b);
@@ -124,7 +128,7 @@ static Pair frame_pair(const CompareInput *reference, const CompareInput *test,
     return (Pair){{frame_channel(f, name), frame_channel(&test->frame, name)},
                   frame_pixel_count(f), f->data.x1 - f->data.x0, f, reference->light.width,
                   !is_surface_layer(name) && !is_noise_layer(name), is_noise_layer(name),
-                  !structure->shares_noise};
+                  !structure->shares_paths};
 }
 
 static void compare_frames(const CompareInput *reference, const CompareInput *test,
@@ -207,6 +211,9 @@ void channels_report(const ChannelDifferences *channels, Lines *reasons, Lines *
 {
     for (int i = 0; i < channels->count; i++) report_nonfinite(&channels->list[i], reasons);
     report_gaps(channels, reasons);
+    if (channels->outside)
+        lines_add(notes, "%ld values outside of the display window differ, which no figure "
+                  "counts", channels->outside);
     if (channels->left_out[0] || channels->left_out[1])
         lines_add(notes, "%ld values of the reference and %ld of the test are NaN or infinite "
                   "in pixels that do not count", channels->left_out[0],

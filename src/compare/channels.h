@@ -3,8 +3,8 @@
  *
  * NaN and infinity in light are a fault on whichever side, even on both. In layers of the first
  * surface (display.*, depth, position, normal, albedo, uv) they mean "nothing there" and must
- * stand at the same places; frames whose noise differs may disagree at the rim of a surface,
- * where one pixel was hit by a few samples only. In layers of the noise itself (variance,
+ * stand at the same places; frames whose paths differ (another seed, other instructions) may
+ * disagree at the rim of a surface, where one pixel was hit by a few samples only. In layers of the noise itself (variance,
  * halves, display.halves) they mean "too few samples".
  *
  * Memory   from the arena. Threads: pure.
@@ -29,6 +29,7 @@ typedef struct ChannelDifferences {
     long           differing;    /* pixels of which some channel differs */
     unsigned char *differs;      /* which: one byte a pixel of the display window */
     long           left_out[2];  /* pixels without finite light that do not count: see mask */
+    long           outside;      /* values that differ outside of the display window */
 } ChannelDifferences;
 
 /* Both sides have the same pixels. Only channels that both have are looked at. */

@@ -57,6 +57,9 @@ static void judge_statistic(Comparison *out)
 static void judge_equality(Comparison *out)
 {
     double share = out->value[METRIC_DIFFERING];
+    if (out->channels.outside > 0)
+        lines_add(&out->reasons, "%ld values outside of the display window differ",
+                  out->channels.outside);
     if (out->channels.differing == 0) return;
     lines_add(&out->reasons, "%ld of %ld pixels differ (%.3g %%)", out->channels.differing,
               out->selection.pixels, 100 * share);
@@ -145,8 +148,10 @@ static const char *contrast_held_text(const Comparison *out, Arena *arena)
 static const char *same_verdict(const CompareOptions *options, const Comparison *out,
                                 Arena *arena)
 {
-    if (out->judged_by == JUDGED_BY_EQUALITY || out->channels.differing == 0)
-        return "equal in every pixel";
+    if (out->judged_by == JUDGED_BY_EQUALITY ||
+        (out->channels.differing == 0 && out->channels.outside == 0))
+        return out->selection.is_part ? "equal in every pixel that counts"
+                                      : "equal in every pixel";
     const char *limits = limits_text(options, out, arena);
     if (out->judged_by == JUDGED_BY_LIMITS) return arena_format(arena, "within the limits (%s)",
                                                                 limits);
@@ -206,6 +211,17 @@ typedef struct RowBand {
     size_t    first, end; /* those that count, among the planes' */
 } RowBand;
 
+/* A channel that is left out is the same on both sides, for every figure. */
+static void share_codes(const CompareRules *rules, const CodeRows *from, CodeRows *to)
+{
+    static const char *const NAMES[3] = {"R", "G", "B"};
+    for (int c = 0; c < 3; c++) {
+        if (!metadata_ignores(rules, NAMES[c])) continue;
+        to->codes.rgb[c] = from->codes.rgb[c];
+        to->light.rgb[c] = from->light.rgb[c];
+    }
+}
+
 /* The band that begins with row y0; false below the picture. */
 static bool next_band(const CompareOptions *options, const Comparison *c, int y0, int halo,
                       Arena *arena, RowBand *out)
@@ -222,6 +238,7 @@ static bool next_band(const CompareOptions *options, const Comparison *c, int y0
                  .end = (size_t)(y1 - top) * (size_t)size->width};
     band.side[0] = input_unpack(&c->reference, top, bottom, arena);
     band.side[1] = input_unpack(&c->test, top, bottom, arena);
+    share_codes(&options->rules, &band.side[0], &band.side[1]);
     *out = band;
     return true;
 }
@@ -313,7 +330,7 @@ static void measure_ssim(const CompareOptions *options, Arena arena, Comparison 
 
 static void map_flip(const RowBand *band, int threads, Arena scratch, float *map)
 {
-    const FlipOptions options = {.threads = threads};
+    const FlipOptions options = {.threads = threads, .mask = band->mask};
     const Planes     *light = &band->side[0].light;
     float            *own = ARENA_NEW(&scratch, float, planes_pixel_count(light));
     flip_ldr(light, &band->side[1].light, &options, scratch, own);
@@ -346,7 +363,8 @@ static void measure_maps(const CompareOptions *options, unsigned groups, Arena a
     if (groups & GROUP_FLIP) {
         Arena scratch = arena;
         int   halo = flip_filters_create(FLIP_PIXELS_PER_DEGREE, &scratch).radius;
-        fill_map(options, out, halo, arena, map_flip, map);
+        /* what fills a mask comes from as far beyond what a filter reaches */
+        fill_map(options, out, 2 * halo, arena, map_flip, map);
         MapSummary s = map_summary(map, count, out->selection.counts);
         metrics_set_flip(&s, out);
     }
@@ -440,6 +458,31 @@ static void take_display(const CompareOptions *options, Arena *arena, Comparison
     lines_add(&out->notes, "%s: %s", why.file, why.text);
 }
 
+/* As share_codes, of whole pictures and of frames. */
+static bool share_ignored(const CompareOptions *options, Arena *arena, Comparison *out,
+                          Error *err)
+{
+    FrameImage *frame = &out->test.frame;
+    ExrChannel *channels = ARENA_NEW(arena, ExrChannel, frame->channel_count);
+    if (!out->structure.same_pixels || !options->rules.ignored_count) return true;
+    if (out->reference.kind == INPUT_PICTURE) {
+        const CodeRows from = {out->reference.codes, out->reference.light, NULL};
+        CodeRows       to = {out->test.codes, out->test.light, NULL};
+        share_codes(&options->rules, &from, &to);
+        out->test.codes = to.codes;
+        out->test.light = to.light;
+        return true;
+    }
+    for (int i = 0; i < frame->channel_count; i++) {
+        channels[i] = frame->channels[i];
+        const float *other = frame_channel(&out->reference.frame, channels[i].name);
+        if (other && metadata_ignores(&options->rules, channels[i].name))
+            channels[i].values = (float *)other;
+    }
+    frame->channels = channels;
+    return input_view_light(&out->test, arena, err);
+}
+
 bool compare_inputs(const CompareInput *reference, const CompareInput *test,
                     const CompareOptions *options, Arena *arena, Comparison *out, Error *err)
 {
@@ -449,6 +492,7 @@ bool compare_inputs(const CompareInput *reference, const CompareInput *test,
     start(reference, test, arena, &made);
     made.structure = structure_compare(reference, test, &options->rules, arena, &made.reasons,
                                        &made.notes);
+    if (!share_ignored(options, arena, &made, err)) return false;
     take_display(options, arena, &made);
     if (!metrics_develop(options, arena, &made, err)) return false;
     if (made.structure.same_pixels && !compare_pixels(options, arena, &made, err)) return false;

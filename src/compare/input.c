@@ -34,31 +34,37 @@ bool input_view_light(CompareInput *input, Arena *arena, Error *err)
     return true;
 }
 
-static bool read_frame(FileBytes bytes, Arena *arena, CompareInput *input, Error *err)
+static bool read_parts(FileBytes bytes, Arena *arena, CompareInput *input, Error *err)
 {
-    input->kind = INPUT_FRAME;
-    input->has_metadata = true;
-    return frame_read_memory(bytes.data, bytes.size, input->name, arena, &input->frame,
-                             err) &&
-           input_view_light(input, arena, err);
+    ExrReader *reader;
+    bool       ok = true;
+    if (!input->frame.more_parts) return true;
+    if (!exr_reader_create(input->name, bytes.data, bytes.size, &reader, err))
+        return error_in_file(err, input->name);
+    input->parts = ARENA_NEW(arena, ExrPart, input->frame.more_parts);
+    for (int i = 0; i < input->frame.more_parts && ok; i++) {
+        ExrPart *part = &input->parts[i];
+        ok = exr_reader_part(reader, i, part, err);
+        if (ok) part->name = arena_string(arena, part->name, strlen(part->name));
+    }
+    exr_reader_destroy(reader);
+    return ok || error_in_file(err, input->name);
 }
 
-/* Floats without metadata become a frame of R, G, B, and A where it is not 1 everywhere. */
-static bool frame_from_floats(const Image *image, Arena *arena, CompareInput *input, Error *err)
+static bool take_light(const LightFile *file, Arena *arena, CompareInput *input, Error *err)
 {
-    const float *rgba = image->pixels;
-    size_t       count = (size_t)image->width * (size_t)image->height;
-    bool         has_alpha = false;
-    for (size_t i = 0; i < count && !has_alpha; i++) has_alpha = rgba[4 * i + 3] != 1;
     input->kind = INPUT_FRAME;
-    input->frame = frame_create(image->width, image->height,
-                                  (ExrWindow){0, 0, image->width, image->height}, 4, 0, arena);
-    for (size_t c = 0; c < (has_alpha ? 4u : 3u); c++) {
-        const char name[2] = {"RGBA"[c], 0};
-        float     *plane = frame_add_channel(&input->frame, name, false, arena);
-        for (size_t i = 0; i < count; i++) plane[i] = rgba[4 * i + c];
-    }
+    input->file = file->format;
+    input->frame = file->frame;
     return input_view_light(input, arena, err);
+}
+
+static bool read_frame(FileBytes bytes, Arena *arena, CompareInput *input, Error *err)
+{
+    LightFile file;
+    return light_file_read_memory(bytes.data, bytes.size, input->name, arena, &input->problems,
+                                  &file, err) &&
+           take_light(&file, arena, input, err) && read_parts(bytes, arena, input, err);
 }
 
 /* ---- pictures ---------------------------------------------------------------------------- */
@@ -89,22 +95,51 @@ static void unpack_16(const uint16_t *packed, size_t count, float *codes, float 
     }
 }
 
+/* Negative codes for negative light, which other primaries can have. */
+static float extended_srgb(float light)
+{
+    return light < 0 ? -srgb_from_linear(-light) : srgb_from_linear(light);
+}
+
+/* Pixels from the first on whose codes are not sRGB's. */
+static void unpack_tagged(const CompareInput *input, size_t first, size_t count,
+                          float *const codes[3], float *const light[3])
+{
+    const Image *image = &input->packed;
+    for (size_t i = 0; i < count; i++) {
+        size_t at = 4 * (first + i);
+        float  rgb[3];
+        for (size_t c = 0; c < 3; c++)
+            rgb[c] = input->lights[c][image->format == IMAGE_RGBA8
+                                          ? ((const uint8_t *)image->pixels)[at + c]
+                                          : ((const uint16_t *)image->pixels)[at + c]];
+        colour_apply(&input->tags.light.rec709, rgb, rgb);
+        for (int c = 0; c < 3; c++) {
+            light[c][i] = rgb[c];
+            codes[c][i] = extended_srgb(rgb[c]);
+        }
+    }
+}
+
 CodeRows input_unpack(const CompareInput *input, int y0, int y1, Arena *arena)
 {
     const Image *image = &input->packed;
     size_t       first = (size_t)y0 * (size_t)image->width;
     size_t       count = (size_t)(y1 - y0) * (size_t)image->width;
     CodeRows     rows = {.codes = {image->width, y1 - y0, {NULL}}};
+    float       *codes[3], *light[3];
     rows.light = rows.codes;
     for (size_t c = 0; c < 3; c++) {
-        float *codes = ARENA_NEW(arena, float, count), *light = ARENA_NEW(arena, float, count);
+        rows.codes.rgb[c] = codes[c] = ARENA_NEW(arena, float, count);
+        rows.light.rgb[c] = light[c] = ARENA_NEW(arena, float, count);
+        if (input->lights[0]) continue;
         if (image->format == IMAGE_RGBA8)
-            unpack_8((const uint8_t *)image->pixels + 4 * first + c, count, codes, light);
+            unpack_8((const uint8_t *)image->pixels + 4 * first + c, count, codes[c], light[c]);
         else
-            unpack_16((const uint16_t *)image->pixels + 4 * first + c, count, codes, light);
-        rows.codes.rgb[c] = codes;
-        rows.light.rgb[c] = light;
+            unpack_16((const uint16_t *)image->pixels + 4 * first + c, count, codes[c],
+                      light[c]);
     }
+    if (input->lights[0]) unpack_tagged(input, first, count, codes, light);
     if (!input->has_alpha) return rows;
     float *alpha = ARENA_NEW(arena, float, count);
     for (size_t i = 0; i < count; i++) alpha[i] = code_at(image, 4 * (first + i) + 3);
@@ -120,11 +155,25 @@ static bool has_alpha(const Image *image)
     return false;
 }
 
+static void set_lights(Arena *arena, CompareInput *input)
+{
+    int count = input->bits == 8 ? 256 : 65536;
+    if (input->tags.is_srgb || !input->tags.is_known) return;
+    for (int c = 0; c < 3; c++) {
+        float *table = ARENA_NEW(arena, float, count);
+        for (int i = 0; i < count; i++)
+            table[i] = (float)code_curve_at(&input->tags.light.curve[c], i / (count - 1.0));
+        input->lights[c] = table;
+    }
+}
+
 static void read_codes(const Image *image, long whole_pixels, Arena *arena, CompareInput *input)
 {
     input->kind = INPUT_PICTURE;
     input->bits = image->format == IMAGE_RGBA8 ? 8 : 16;
-    input->packed = *image;
+    input->packed = picture_upright(image, input->tags.orientation, arena);
+    image = &input->packed;
+    set_lights(arena, input);
     input->has_alpha = has_alpha(image);
     input->light = input->codes = (Planes){image->width, image->height, {NULL}};
     if ((long)image->width * image->height > (whole_pixels ? whole_pixels : INPUT_WHOLE_PIXELS))
@@ -141,7 +190,11 @@ static bool read_picture(FileBytes bytes, long whole_pixels, Arena *arena, Compa
     Image image;
     if (!image_read_memory(bytes.data, bytes.size, input->name, arena, &image, err))
         return false;
-    if (image.format == IMAGE_RGBA32F) return frame_from_floats(&image, arena, input, err);
+    if (image.format == IMAGE_RGBA32F) {
+        LightFile file = light_file_of_floats(&image, arena);
+        return take_light(&file, arena, input, err);
+    }
+    input->tags = picture_tags_read(bytes.data, bytes.size, arena);
     read_codes(&image, whole_pixels, arena, input);
     return true;
 }
@@ -151,12 +204,11 @@ static bool read_picture(FileBytes bytes, long whole_pixels, Arena *arena, Compa
 bool input_read(const char *path, long whole_pixels, Arena *arena, CompareInput *out,
                 Error *err)
 {
-    static const unsigned char EXR[4] = {0x76, 0x2f, 0x31, 0x01};
-    Arena                      file = arena_reserve(MAX_FILE_BYTES + 4096);
-    FileBytes                  bytes;
-    CompareInput               input = {.name = path};
-    bool                       ok = file_read(path, MAX_FILE_BYTES, &file, &bytes, err);
-    if (ok && bytes.size >= sizeof EXR && !memcmp(bytes.data, EXR, sizeof EXR))
+    Arena        file = arena_reserve(MAX_FILE_BYTES + 4096);
+    FileBytes    bytes;
+    CompareInput input = {.name = path, .problems = problems_start(arena)};
+    bool         ok = file_read(path, MAX_FILE_BYTES, &file, &bytes, err);
+    if (ok && light_file_recognise(bytes.data, bytes.size))
         ok = read_frame(bytes, arena, &input, err);
     else if (ok)
         ok = read_picture(bytes, whole_pixels, arena, &input, err);

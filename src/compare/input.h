@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* input.h -- one side of a comparison: a frame of light or a finished picture.
  *
- * A frame is an OpenEXR file, in cd m^-2; a Radiance picture or a TIFF of floats is taken for
- * one that carries no metadata. Everything else is a picture of sRGB codes.
+ * A frame is a file of light (image/light_file.h). Everything else is a picture of codes, the
+ * right way up, and as sRGB codes of the light that its file says they mean
+ * (image/picture_tags.h); of other primaries these reach out of 0 .. 1.
  *
  * Layout   the display window, row 0 at the top.
  * Memory   pixels come from the arena that is passed in.
@@ -11,8 +12,8 @@
  */
 #pragma once
 #include "compare/metrics/planes.h"
-#include "image/frame.h"
-#include "image/image.h"
+#include "image/light_file.h"
+#include "image/picture_tags.h"
 
 typedef enum InputKind { INPUT_FRAME, INPUT_PICTURE } InputKind;
 
@@ -21,9 +22,13 @@ typedef struct CompareInput {
     InputKind kind;
     Planes      light; /* linear Rec.709: cd m^-2, or 0 .. 1; NaN outside a data window */
     Planes      codes; /* sRGB codes 0 .. 1; of frames once they are developed */
-    bool        has_metadata; /* OpenEXR */
+    LightFormat   file;         /* frames: of which kind */
     FrameImage  frame;        /* frames: channels, windows, attributes */
+    ExrPart    *parts;        /* frames: further parts of the file, frame.more_parts of them */
+    Problems    problems;     /* of reading it */
     int         bits;         /* pictures: 8 or 16 */
+    PictureTags tags;         /* pictures: what their file states */
+    const float *lights[3];   /* pictures that are not sRGB: the light of each of their codes */
     bool        has_alpha;    /* pictures: it is not 1 everywhere */
     const float *alpha;       /* pictures: 0 .. 1; NULL when all of it is 1 */
     Image       packed;       /* pictures: as decoded, 4 or 8 bytes a pixel */

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/count.h"
-#include "image/colour.h"
 
 /* ---- what is left out and what decides --------------------------------------------------- */
 
@@ -28,8 +27,9 @@ bool metadata_ignores(const CompareRules *rules, const char *name)
 /* Attributes that decide the picture, by their whole names or, with a dot at the end,
  * prefixes. */
 static const char *const DECIDING[] = {
-    "chromaticities",      "whiteLuminance",       "adoptedNeutral",    "worldToCamera",
-    "worldToNDC",          "pixelAspectRatio",     "screenWindowWidth", "parhelion:unit",
+    "adoptedNeutral",      "envmap",               "view",              "worldToCamera",
+    "worldToNDC",          "pixelAspectRatio",     "screenWindowWidth", "screenWindowCenter",
+    "parhelion:unit",
     "parhelion:camera",    "parhelion:yfov_deg",   "parhelion:ymag_m",  "parhelion:maxBounces",
     "parhelion:projection", "VIEW",
     "parhelion:unbiased",  "parhelion:complete",   "parhelion:part.",   "parhelion:display.",
@@ -50,17 +50,23 @@ static bool decides(const char *name)
 static int value_count(ExrKind kind)
 {
     switch (kind) {
-    case EXR_STRING: return 0;
+    case EXR_STRING:
+    case EXR_OTHER: return 0;
     case EXR_CHROMATICITIES: return 8;
     case EXR_MATRIX44: return 16;
     default: return 1;
     }
 }
 
+static bool has_text(const ExrAttribute *attribute)
+{
+    return attribute->kind == EXR_STRING || attribute->kind == EXR_OTHER;
+}
+
 static const char *value_text(const ExrAttribute *attribute, Arena *arena)
 {
     if (!attribute) return NULL;
-    if (attribute->kind == EXR_STRING) return attribute->text ? attribute->text : "";
+    if (has_text(attribute)) return attribute->text ? attribute->text : "";
     const char *text = "";
     for (int i = 0; i < value_count(attribute->kind); i++)
         text = arena_format(arena, "%s%s%.9g", text, i ? " " : "", attribute->values[i]);
@@ -71,7 +77,7 @@ static const char *value_text(const ExrAttribute *attribute, Arena *arena)
 static bool same_value(const ExrAttribute *a, const ExrAttribute *b)
 {
     if (!a || !b || a->kind != b->kind) return false;
-    if (a->kind == EXR_STRING) return !strcmp(a->text ? a->text : "", b->text ? b->text : "");
+    if (has_text(a)) return !strcmp(a->text ? a->text : "", b->text ? b->text : "");
     for (int i = 0; i < value_count(a->kind); i++) {
         bool both_nan = a->values[i] != a->values[i] && b->values[i] != b->values[i];
         if (!both_nan && a->values[i] != b->values[i]) return false;
@@ -79,14 +85,14 @@ static bool same_value(const ExrAttribute *a, const ExrAttribute *b)
     return true;
 }
 
-/* Whether it has the value that a missing attribute stands for: such a one changes no
- * picture. */
+/* Whether it has the value that a missing attribute stands for: such a one changes no picture.
+ * What a file says of its light is applied when it is read, and these two are the same in all
+ * frames; those that stand in their place explain (frame.h). */
 static bool is_default(const ExrAttribute *attribute)
 {
-    if (!strcmp(attribute->name, "chromaticities"))
-        return attribute->kind == EXR_CHROMATICITIES &&
-               chromaticities_are_rec709(attribute->values);
-    return !strcmp(attribute->name, "pixelAspectRatio") && attribute->values[0] == 1;
+    return !strcmp(attribute->name, "chromaticities") ||
+           !strcmp(attribute->name, "whiteLuminance") ||
+           (!strcmp(attribute->name, "pixelAspectRatio") && attribute->values[0] == 1);
 }
 
 static bool has_attributes(const FrameImage *frame, const char *prefix)

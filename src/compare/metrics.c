@@ -164,7 +164,8 @@ static void note_silly_range(Comparison *out)
 static void measure_flip(const CompareOptions *options, Arena *arena, Comparison *out)
 {
     size_t      count = planes_pixel_count(&out->light[0]);
-    FlipOptions flip = {.threads = options->threads, .has_range = options->has_range};
+    FlipOptions flip = {.threads = options->threads, .mask = out->mask,
+                        .has_range = options->has_range};
     out->flip_map = ARENA_NEW(arena, float, count);
     if (options->has_range) {
         flip.start_ev = stops_of_ev(options->range_ev[1]);

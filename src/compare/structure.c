@@ -326,9 +326,30 @@ static void compare_channels(const CompareInput *reference, const CompareInput *
     if (more[0]) lines_add(reasons, "channels are missing in the reference: %s", more);
 }
 
+/* Codes are compared as light where their files say which they mean. */
+static void compare_tags(const CompareInput *reference, const CompareInput *test,
+                         Lines *reasons, Lines *notes)
+{
+    const PictureTags *a = &reference->tags, *b = &test->tags;
+    const char        *texts[2] = {picture_tags_text(a, notes->arena),
+                            picture_tags_text(b, notes->arena)};
+    for (int side = 0; side < 2; side++)
+        if (texts[side][0])
+            lines_add(notes, "the %s states %s", side ? "test" : "reference", texts[side]);
+    if (a->is_known && b->is_known) return;
+    if (a->digest == b->digest)
+        lines_add(notes, "both state the same of their codes, which is not read: they are taken "
+                  "for sRGB");
+    else
+        lines_add(reasons, "what the %s states of its codes is not read (%s): wanted sRGB, a "
+                  "profile of a matrix and curves, gAMA and cHRM",
+                  a->is_known ? "test" : "reference", a->is_known ? b->words : a->words);
+}
+
 static void compare_pictures(const CompareInput *reference, const CompareInput *test,
                              const CompareRules *rules, Lines *reasons, Lines *notes)
 {
+    compare_tags(reference, test, reasons, notes);
     if (reference->bits != test->bits)
         lines_add(notes, "the reference has %d bits, the test %d: codes are compared as "
                   "fractions", reference->bits, test->bits);
@@ -337,7 +358,73 @@ static void compare_pictures(const CompareInput *reference, const CompareInput *
                   reference->has_alpha ? "reference" : "test");
 }
 
+/* ---- files of light ---------------------------------------------------------------------- */
+
+static const ExrPart *part_of(const CompareInput *input, const char *name)
+{
+    for (int i = 0; i < input->frame.more_parts; i++)
+        if (!strcmp(input->parts[i].name, name)) return &input->parts[i];
+    return NULL;
+}
+
+/* Pixels are those of the first parts. Of others it is known whether they are the same. */
+static void compare_part(const char *name, const ExrPart *a, const ExrPart *b, Lines *reasons)
+{
+    char text[256];
+    snprintf(text, sizeof text, "(--ignore %s leaves it out)", name);
+    if (!a || !b)
+        lines_add(reasons, "part %s is missing in the %s %s", name, a ? "test" : "reference",
+                  text);
+    else if (!a->is_flat || !b->is_flat)
+        lines_add(reasons, "part %s is deep, or has channels coarser than its pixels, and is "
+                  "not compared %s", name, text);
+    else if (a->digest != b->digest)
+        lines_add(reasons, "part %s differs: pixels are compared of the first part alone %s",
+                  name, text);
+}
+
+static void compare_parts(const CompareInput *reference, const CompareInput *test,
+                          const CompareRules *rules, Lines *reasons)
+{
+    for (int i = 0; i < reference->frame.more_parts; i++) {
+        const char *name = reference->parts[i].name;
+        if (!metadata_ignores(rules, name))
+            compare_part(name, &reference->parts[i], part_of(test, name), reasons);
+    }
+    for (int i = 0; i < test->frame.more_parts; i++) {
+        const char *name = test->parts[i].name;
+        if (!metadata_ignores(rules, name) && !part_of(reference, name))
+            compare_part(name, NULL, &test->parts[i], reasons);
+    }
+}
+
+static void note_problems(const Problems *problems, Lines *notes)
+{
+    for (int i = 0; i < problems->count; i++) {
+        const Problem *p = &problems->list[i];
+        lines_add(notes, "%s: %s%s%s", p->file, p->path, p->path[0] ? ": " : "", p->message);
+    }
+}
+
+static void note_kinds(const CompareInput *reference, const CompareInput *test, Lines *notes)
+{
+    note_problems(&reference->problems, notes);
+    note_problems(&test->problems, notes);
+    if (reference->file == LIGHT_FILE_FLOATS || test->file == LIGHT_FILE_FLOATS)
+        lines_add(notes, "%s carries no metadata and no unit: its light is taken for cd/m2",
+                  reference->file == LIGHT_FILE_FLOATS ? "the reference" : "the test");
+    else if (reference->file != test->file)
+        lines_add(notes, "the %s is a Radiance picture: its metadata is not compared",
+                  reference->file == LIGHT_FILE_RADIANCE ? "reference" : "test");
+}
+
 /* ---- both ------------------------------------------------------------------------------- */
+
+static bool same_string(const FrameImage *a, const FrameImage *b, const char *name)
+{
+    const char *one = frame_string(a, name), *other = frame_string(b, name);
+    return one && other ? !strcmp(one, other) : one == other;
+}
 
 Structure structure_compare(const CompareInput *reference, const CompareInput *test,
                             const CompareRules *rules, Arena *arena, Lines *reasons,
@@ -350,14 +437,15 @@ Structure structure_compare(const CompareInput *reference, const CompareInput *t
     }
     compare_channels(reference, test, rules, arena, reasons);
     compare_layers(reference, test, rules, arena, rules->strict ? reasons : notes);
-    out.shares_noise = noisy_pair_shares_noise(&reference->frame, &test->frame);
-    if (reference->has_metadata && test->has_metadata) {
+    out.shares_paths = noisy_pair_shares_noise(&reference->frame, &test->frame) &&
+                       same_string(&reference->frame, &test->frame, "parhelion:isa") &&
+                       same_string(&reference->frame, &test->frame, "software");
+    compare_parts(reference, test, rules, reasons);
+    if (reference->file == test->file && reference->file != LIGHT_FILE_FLOATS) {
         out.metadata = metadata_compare(&reference->frame, &test->frame, rules, arena,
                                         &out.metadata_count);
         metadata_report(out.metadata, out.metadata_count, rules->strict, reasons, notes);
-    } else {
-        lines_add(notes, "%s carries no metadata and no unit: its light is taken for cd/m2",
-                  reference->has_metadata ? "the test" : "the reference");
     }
+    note_kinds(reference, test, notes);
     return out;
 }

@@ -15,7 +15,8 @@
 
 typedef struct Structure {
     bool         same_pixels; /* one size, and frames one data window */
-    bool         shares_noise; /* frames that state one seed and the same samples */
+    bool         shares_paths; /* frames of one seed, the same samples, instructions and
+                                  program: their paths are the same where the scene is */
     MetadataRow *metadata;
     int          metadata_count;
 } Structure;

@@ -2,6 +2,7 @@
 #include "image/frame.h"
 
 #include <assert.h>
+#include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
@@ -195,6 +196,122 @@ static bool check_memory(const ExrPicture *picture, const Arena *arena, Error *e
                      left >> 20);
 }
 
+/* ---- what a file states of its light ---------------------------------------------------- */
+
+bool frame_needs_rec709(const FrameImage *frame, ColourMatrix *out)
+{
+    const ExrAttribute *a = frame_attribute(frame, "chromaticities");
+    if (!a || a->kind != EXR_CHROMATICITIES || !chromaticities_are_usable(a->values) ||
+        chromaticities_are_rec709(a->values))
+        return false;
+    *out = rec709_from_primaries(a->values);
+    return true;
+}
+
+static bool check_statements(const FrameImage *frame, Error *err)
+{
+    const ExrAttribute *colours = frame_attribute(frame, "chromaticities");
+    const ExrAttribute *white = frame_attribute(frame, "whiteLuminance");
+    bool is_number = !white || white->kind == EXR_FLOAT || white->kind == EXR_DOUBLE ||
+                     white->kind == EXR_INT;
+    if (colours && (colours->kind != EXR_CHROMATICITIES ||
+                    !chromaticities_are_usable(colours->values)))
+        return error_set(err, ERROR_INPUT, "chromaticities: wanted x and y of red, green, blue "
+                         "and white, of primaries that light can be mixed from");
+    if (!is_number) return error_set(err, ERROR_INPUT, "whiteLuminance is no number");
+    return !white || (white->values[0] > 0 && isfinite(white->values[0])) ||
+           error_set(err, ERROR_INPUT, "whiteLuminance is %g, wanted the cd/m2 of white, above 0",
+                     white->values[0]);
+}
+
+/* From stored values to cd/m2 of Rec.709. */
+typedef struct StatedLight {
+    bool         has_matrix;
+    ColourMatrix matrix;
+    double       white;
+} StatedLight;
+
+/* Three variances at once: the greatest that mixed colours can have, as if they rose and fell
+ * together. */
+static void convert_variance(const StatedLight *stated, const float in[3], float out[3])
+{
+    for (int c = 0; c < 3; c++) {
+        double sigma = 0;
+        for (int k = 0; k < 3 && stated->has_matrix; k++)
+            sigma += fabs(stated->matrix.m[c][k]) * sqrt((double)in[k]);
+        double variance = stated->has_matrix ? sigma * sigma : (double)in[c];
+        out[c] = (float)(variance * stated->white * stated->white);
+    }
+}
+
+static void convert_light(const StatedLight *stated, const float in[3], float out[3])
+{
+    memcpy(out, in, 3 * sizeof *out);
+    if (stated->has_matrix) colour_apply(&stated->matrix, in, out);
+    for (int c = 0; c < 3; c++) out[c] = (float)((double)out[c] * stated->white);
+}
+
+/* The layer whose red is channel i, if it is one. */
+static void convert_layer(FrameImage *frame, int i, const StatedLight *stated, Arena scratch)
+{
+    const char  *name = frame->channels[i].name, *dot = strrchr(name, '.');
+    const float *rgb[3];
+    StatedLight  own = *stated;
+    size_t       length = dot ? (size_t)(dot - name) : 0;
+    char        *layer = arena_string(&scratch, name, length);
+    if (strcmp(dot ? dot + 1 : name, "R") != 0 || !frame_rgb(frame, layer, rgb)) return;
+    if (!strcmp(layer, "albedo")) own.white = 1;
+    bool is_variance = length >= 8 && !strcmp(layer + length - 8, "variance");
+    for (size_t k = 0; k < frame_pixel_count(frame); k++) {
+        float in[3] = {rgb[0][k], rgb[1][k], rgb[2][k]}, out[3];
+        if (is_variance) convert_variance(&own, in, out);
+        else convert_light(&own, in, out);
+        for (int c = 0; c < 3; c++) ((float *)rgb[c])[k] = out[c];
+    }
+}
+
+/* A grey picture has the colour of the file's white. */
+static void spread_grey(FrameImage *frame, bool has_matrix, double white, Arena *arena)
+{
+    for (int i = 0; i < frame->channel_count; i++) {
+        ExrChannel *grey = &frame->channels[i];
+        if (strcmp(grey->name, "Y") != 0 || frame_channel(frame, "R")) continue;
+        float *values = grey->values;
+        size_t count = frame_pixel_count(frame);
+        if (!has_matrix) {
+            for (size_t k = 0; k < count; k++) values[k] = (float)((double)values[k] * white);
+            return;
+        }
+        grey->name = "R";
+        memcpy(frame_add_channel(frame, "G", false, arena), values, count * sizeof *values);
+        memcpy(frame_add_channel(frame, "B", false, arena), values, count * sizeof *values);
+        return;
+    }
+}
+
+static bool apply_statements(FrameImage *frame, Arena *arena, Error *err)
+{
+    const ExrAttribute *white = frame_attribute(frame, "whiteLuminance");
+    StatedLight         stated = {.white = white ? white->values[0] : 1};
+    if (!check_statements(frame, err)) return false;
+    stated.has_matrix = frame_needs_rec709(frame, &stated.matrix);
+    if (!stated.has_matrix && stated.white == 1) return true;
+    spread_grey(frame, stated.has_matrix, stated.white, arena);
+    for (int i = 0; i < frame->channel_count; i++) convert_layer(frame, i, &stated, *arena);
+    if (stated.white != 1) {
+        frame_set_values(frame, "whiteLuminance", EXR_FLOAT, &ONE, arena);
+        frame_set_values(frame, "parhelion:whiteLuminance", EXR_FLOAT, &stated.white, arena);
+    }
+    if (stated.has_matrix) {
+        double own[8];
+        memcpy(own, frame_attribute(frame, "chromaticities")->values, sizeof own);
+        frame_set_values(frame, "chromaticities", EXR_CHROMATICITIES, REC709_CHROMATICITIES,
+                         arena);
+        frame_set_values(frame, "parhelion:chromaticities", EXR_CHROMATICITIES, own, arena);
+    }
+    return true;
+}
+
 static bool read_picture(ExrReader *reader, Arena *arena, FrameImage *out, Error *err)
 {
     const ExrPicture *picture = exr_reader_picture(reader);
@@ -205,6 +322,7 @@ static bool read_picture(ExrReader *reader, Arena *arena, FrameImage *out, Error
     float    **planes = ARENA_NEW(&scratch, float *, frame.channel_count);
     for (int i = 0; i < frame.channel_count; i++) planes[i] = frame.channels[i].values;
     if (!exr_reader_read(reader, planes, err)) return false;
+    if (!apply_statements(&frame, &kept, err)) return false;
     *arena = kept;
     *out = frame;
     return true;

@@ -54,6 +54,7 @@
  */
 #pragma once
 #include "base/arena.h"
+#include "image/colour.h"
 #include "openexr/exr_file.h"
 
 /* The contents of an OpenEXR file; `Frame` is an orthonormal frame (base/vec.h). */
@@ -105,8 +106,15 @@ const char *frame_display_names(const FrameImage *frame, Arena *arena);
  * `path`, flushed to the disk, then renamed: after a failure nothing is left. */
 bool frame_write(const char *path, const FrameImage *frame, Error *err);
 
-/* Any flat OpenEXR file; a data window that reaches out of the display window is kept so. */
+/* The first part of an OpenEXR file, which is flat; a data window that reaches out of the display
+ * window is kept so. What the file states of its light is applied: layers R, G, B are times its
+ * whiteLuminance and of Rec.709, whatever its chromaticities (layer albedo: these alone). What
+ * that was is kept as "parhelion:whiteLuminance" and "parhelion:chromaticities". */
 bool frame_read(const char *path, Arena *arena, FrameImage *out, Error *err);
+
+/* What takes the colours that the attributes state to Rec.709; false where they are that
+ * already, as they are without a statement. */
+bool frame_needs_rec709(const FrameImage *frame, ColourMatrix *out);
 
 /* The same for a file that lies in memory; `name` is for messages. */
 bool frame_read_memory(const void *bytes, size_t size, const char *name, Arena *arena,

@@ -141,14 +141,20 @@ static ColourMatrix adaptation_to_d50(const double white[3])
     return colour_product(&back, &scaled);
 }
 
+ColourMatrix icc_d50_from_primaries(const double c[8])
+{
+    const double white[3] = {c[6] / c[7], 1, (1 - c[6] - c[7]) / c[7]};
+    ColourMatrix adaptation = adaptation_to_d50(white), xyz = xyz_from_primaries(c);
+    return colour_product(&adaptation, &xyz);
+}
+
 IccProfile icc_profile_create(const double c[8], IccCurve curve, const char *description,
                               Arena *arena)
 {
     static const char *const NAMES[3] = {"rXYZ", "gXYZ", "bXYZ"};
     ProfileWriter       w = {ARENA_NEW(arena, unsigned char, MAX_BYTES), 0, 0};
     const double white[3] = {c[6] / c[7], 1, (1 - c[6] - c[7]) / c[7]};
-    ColourMatrix adaptation = adaptation_to_d50(white), xyz = xyz_from_primaries(c);
-    ColourMatrix primaries = colour_product(&adaptation, &xyz);
+    ColourMatrix adaptation = adaptation_to_d50(white), primaries = icc_d50_from_primaries(c);
     put_header(&w);
     put_text(&w, "desc", description);
     put_text(&w, "cprt", "No copyright, use freely");

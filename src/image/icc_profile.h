@@ -7,6 +7,7 @@
 #include <stddef.h>
 
 #include "base/arena.h"
+#include "image/colour.h"
 
 typedef enum IccCurve {
     ICC_CURVE_SRGB,   /* IEC 61966-2-1 */
@@ -17,6 +18,9 @@ typedef struct IccProfile {
     const void *bytes;
     size_t      size;
 } IccProfile;
+
+/* From RGB to XYZ, the white adapted to D50 by Bradford's matrix, as profiles have it. */
+ColourMatrix icc_d50_from_primaries(const double chromaticities[8]);
 
 /* ICC.1:2010 (version 4.3), class "display", matrix and curve. chromaticities: x, y of red,
  * green, blue and white; the white is adapted to D50 by Bradford's matrix, as the standard

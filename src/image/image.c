@@ -2,7 +2,6 @@
 #include "image/image.h"
 
 #include <ctype.h>
-#include <math.h>
 #include <stddef.h>
 #include <string.h>
 #include <webp/decode.h>
@@ -11,8 +10,10 @@
 #include "base/count.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "image/colour.h"
+#include "image/frame.h"
 #include "image/plain_png.h"
+#include "image/radiance_file.h"
+#include "image/tiff_directory.h"
 #include "openexr/exr_file.h"
 #include "openimageio/image_file.h"
 
@@ -123,51 +124,12 @@ static bool check_dpx(const unsigned char *bytes, size_t size, Error *err)
                      "the file has %zu", user, size);
 }
 
-/* A TIFF or, with wider numbers, a BigTIFF. */
-typedef struct Tiff {
-    const unsigned char *bytes;
-    size_t size;
-    bool   is_big_endian, is_wide;
-} Tiff;
-
-/* 0 where the file does not hold all of its bytes. */
-static uint64_t tiff_number(const Tiff *tiff, uint64_t at, unsigned width)
-{
-    uint64_t value = 0;
-    if (at > tiff->size || tiff->size - at < width) return 0;
-    for (unsigned i = 0; i < width; i++)
-        value = value << 8 | tiff->bytes[at + (tiff->is_big_endian ? i : width - 1 - i)];
-    return value;
-}
-
-/* The numbers of one entry of the first directory; count 0: it has none. */
-typedef struct TiffList {
-    uint64_t at, count;
-    unsigned width;
-} TiffList;
-
-static TiffList tiff_list(const Tiff *tiff, unsigned tag)
-{
-    unsigned wide = tiff->is_wide ? 8 : 4, head = tiff->is_wide ? 8 : 2;
-    uint64_t at = tiff_number(tiff, wide, wide), entries = tiff_number(tiff, at, head);
-    at += head;
-    for (uint64_t i = 0; i < entries && at < tiff->size; i++, at += 4 + 2 * wide) {
-        if (tiff_number(tiff, at, 2) != tag) continue;
-        uint64_t type = tiff_number(tiff, at + 2, 2), value = at + 4 + wide;
-        TiffList out = {value, tiff_number(tiff, at + 4, wide),
-                        type == 3 ? 2 : type == 16 ? 8 : 4};
-        if (out.count * out.width > wide) out.at = tiff_number(tiff, value, wide);
-        return out;
-    }
-    return (TiffList){0, 0, 0};
-}
-
 /* The library takes strips and tiles behind the end of the bytes for black (TIFF 6.0, sections
  * 2, 8 and 15). */
 static bool check_tiff(const unsigned char *bytes, size_t size, Error *err)
 {
     static const unsigned tags[2][2] = {{273, 279}, {324, 325}}; /* where, how many bytes */
-    const Tiff tiff = {bytes, size, bytes[0] == 'M', bytes[2] == '+' || bytes[3] == '+'};
+    const Tiff tiff = tiff_open(bytes, size);
     for (int k = 0; k < 2; k++) {
         TiffList where = tiff_list(&tiff, tags[k][0]), length = tiff_list(&tiff, tags[k][1]);
         for (uint64_t i = 0; i < where.count && i < length.count && i < size; i++) {
@@ -296,20 +258,22 @@ static bool decode_other(const Encoded *file, Arena *arena, Image *out, Error *e
     return ok;
 }
 
-/* A code of a Radiance picture is the whole steps of a value: Radiance's tools take (m + 1/2)
- * 2^(e - 136) (G. Ward, "Real Pixels", Graphics Gems II, 1991), the library takes m. A step is
- * a 256th of the power of two above the largest component. */
-static void move_to_middles(const Image *image)
+static bool decode_radiance(const Encoded *file, Arena *arena, Image *out, Error *err)
 {
-    float *rgba = (float *)image->pixels;
-    size_t count = (size_t)image->width * (size_t)image->height;
-    for (size_t i = 0; i < count; i++, rgba += 4) {
-        float most = fmaxf(rgba[0], fmaxf(rgba[1], rgba[2]));
-        int   exponent;
-        if (!(most > 0)) continue;
-        frexpf(most, &exponent);
-        for (int c = 0; c < 3; c++) rgba[c] += ldexpf(0.5f, exponent - 8);
-    }
+    RadianceFile radiance;
+    Arena        scratch = *arena;
+    if (!radiance_open(file->bytes, file->size, file->name, &scratch, &radiance, err))
+        return false;
+    size_t line = 4 * (size_t)radiance.length;
+    if (!check_size(radiance.width, radiance.height, 4 * sizeof(float), line, arena, err))
+        return false;
+    Arena  kept = *arena;
+    float *rgba = ARENA_NEW(&kept, float,
+                            4 * (size_t)radiance.width * (size_t)radiance.height);
+    if (!radiance_read(&radiance, kept, rgba, err)) return false;
+    *arena = kept;
+    *out = (Image){radiance.width, radiance.height, IMAGE_RGBA32F, rgba};
+    return true;
 }
 
 /* A PNG without the library. False: it is for the library. */
@@ -437,20 +401,6 @@ static void place_pixels(const ExrPlanes *from, const ColourMatrix *to_rec709, f
     }
 }
 
-/* False when the file's colours are Rec.709 already, as they are when it states none. */
-static bool needs_rec709(const ExrPicture *picture, ColourMatrix *matrix)
-{
-    for (int i = 0; i < picture->attribute_count; i++) {
-        const ExrAttribute *a = &picture->attributes[i];
-        if (a->kind != EXR_CHROMATICITIES || strcmp(a->name, "chromaticities") != 0) continue;
-        if (!chromaticities_are_usable(a->values) || chromaticities_are_rec709(a->values))
-            return false;
-        *matrix = rec709_from_primaries(a->values);
-        return true;
-    }
-    return false;
-}
-
 static bool decode_exr(ExrReader *reader, Arena *arena, Image *out, Error *err)
 {
     const ExrPicture *picture = exr_reader_picture(reader);
@@ -467,7 +417,7 @@ static bool decode_exr(ExrReader *reader, Arena *arena, Image *out, Error *err)
     ExrPlanes    from;
     ColourMatrix matrix;
     if (!read_planes(reader, &scratch, &from, err)) return false;
-    place_pixels(&from, needs_rec709(picture, &matrix) ? &matrix : NULL, pixels);
+    place_pixels(&from, frame_needs_rec709(picture, &matrix) ? &matrix : NULL, pixels);
     *arena = kept;
     image.pixels = pixels;
     *out = image;
@@ -479,11 +429,8 @@ static bool decode(const Encoded *file, Arena *arena, Image *out, Error *err)
     ExrReader *reader;
     if (decode_plain(file, arena, out)) return true;
     if (strcmp(file->format, "webp") == 0) return decode_webp(file, arena, out, err);
-    if (strcmp(file->format, "openexr") != 0) {
-        if (!decode_other(file, arena, out, err)) return false;
-        if (strcmp(file->format, "hdr") == 0) move_to_middles(out);
-        return true;
-    }
+    if (strcmp(file->format, "hdr") == 0) return decode_radiance(file, arena, out, err);
+    if (strcmp(file->format, "openexr") != 0) return decode_other(file, arena, out, err);
     if (!exr_reader_create(file->name, file->bytes, file->size, &reader, err)) return false;
     bool ok = decode_exr(reader, arena, out, err);
     exr_reader_destroy(reader);

@@ -204,15 +204,10 @@ static void convert(LayerView *view, const ColourMatrix *matrix, Arena *arena)
     for (int c = 0; c < 3; c++) view->planes[c] = out[c];
 }
 
-static void convert_to_rec709(const FrameImage *frame, bool is_xyz, LayerView *view,
-                              Arena *arena)
+static void convert_xyz(LayerView *view, Arena *arena)
 {
     static const double XYZ_PRIMARIES[8] = {1, 0, 0, 1, 0, 0, 1 / 3.0, 1 / 3.0};
-    const ExrAttribute *a = frame_attribute(frame, "chromaticities");
-    const double       *from = a && a->kind == EXR_CHROMATICITIES ? a->values : NULL;
-    if (is_xyz) from = XYZ_PRIMARIES;
-    if (!from || !chromaticities_are_usable(from) || chromaticities_are_rec709(from)) return;
-    ColourMatrix matrix = rec709_from_primaries(from);
+    ColourMatrix        matrix = rec709_from_primaries(XYZ_PRIMARIES);
     convert(view, &matrix, arena);
 }
 
@@ -256,8 +251,7 @@ bool layer_view_find(const FrameImage *frame, const char *layer, Arena *arena, L
     view.height = (int)height;
     for (int c = 0; c < 3; c++)
         if (view.planes[c]) view.planes[c] = display_plane(frame, view.planes[c], arena);
-    if (view.show == SHOW_LIGHT || view.show == SHOW_REFLECTANCE)
-        convert_to_rec709(frame, !strcmp(layer, "xyz"), &view, arena);
+    if (view.show == SHOW_LIGHT && !strcmp(layer, "xyz")) convert_xyz(&view, arena);
     if (view.show == SHOW_NUMBER && view.planes[2])
         view.planes[0] = strcmp(layer, "variance") ? luminance_size(&view, arena)
                                                    : luminance_variance(&view, arena);

@@ -2,190 +2,117 @@
 #include "image/light_picture.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "image/colour.h"
-#include "openexr/exr_file.h"
+#include "base/mathd.h"
+#include "base/units.h"
+#include "image/layer_view.h"
+#include "image/light_file.h"
+#include "openexr/exr_cube.h"
 
-/* How stored values become linear Rec.709 in cd/m2: scaled, then through the matrix. */
-typedef struct LightScale {
-    double       scale[3], unit_cd_m2;
-    bool         has_matrix;
-    ColourMatrix rec709;
-} LightScale;
+/* ---- cube maps --------------------------------------------------------------------------- */
 
-/* ---- Radiance ---------------------------------------------------------------------------- */
+enum { ACROSS = 4 }; /* places of a pixel along a side whose mean it is */
 
-enum { LINE_MAX_BYTES = 512 }; /* of a line whose numbers are read */
-
-typedef struct RadianceHeader {
-    const char *next, *end, *name;
-    long        line; /* the one that was read last, from 1 */
-    char        text[LINE_MAX_BYTES];
-    Error      *err;
-} RadianceHeader;
-
-/* False at the end of the bytes. What does not fit is cut off: comments may be long. */
-static bool next_line(RadianceHeader *in)
+/* Of the parts of a pixel, each in proportion to its solid angle. */
+static void mean_over_pixel(const Image *cube, int x, int y, int width, float rgba[4])
 {
-    if (in->next >= in->end) return false;
-    const char *stop = memchr(in->next, '\n', (size_t)(in->end - in->next));
-    if (!stop) return false;
-    size_t length = (size_t)(stop - in->next);
-    if (length && in->next[length - 1] == '\r') length--;
-    if (length > LINE_MAX_BYTES - 1) length = LINE_MAX_BYTES - 1;
-    memcpy(in->text, in->next, length);
-    in->text[length] = 0;
-    in->next = stop + 1;
-    in->line++;
+    const float *from = cube->pixels;
+    double       sum[4] = {0, 0, 0, 0};
+    for (int i = 0; i < ACROSS * ACROSS; i++) {
+        double azimuth = 2 * PI * (0.5 - (x + (i % ACROSS + 0.5) / ACROSS) / width);
+        double zenith = 2 * PI * (y + (i / ACROSS + 0.5) / ACROSS) / width;
+        double sine = sin_d(zenith);
+        double d[3] = {sine * sin_d(azimuth), cos_d(zenith), sine * cos_d(azimuth)};
+        size_t at = 4 * exr_cube_pixel(d, cube->width);
+        for (int c = 0; c < 3; c++) sum[c] += sine * (double)from[at + (size_t)c];
+        sum[3] += sine;
+    }
+    for (int c = 0; c < 4; c++) rgba[c] = (float)(sum[c] / sum[3]);
+}
+
+static bool unfold_cube(const char *name, Arena *arena, Image *image, Error *err)
+{
+    Image out = {4 * image->width, 2 * image->width, IMAGE_RGBA32F, NULL};
+    if (image->height != 6 * image->width || image->width > 8192)
+        return error_at(err, ERROR_INPUT, name, "envmap",
+                        "is a cube map of %dx%d pixels, wanted six square faces of at most 8192 "
+                        "below each other", image->width, image->height);
+    float *rgba = ARENA_NEW(arena, float, 4 * (size_t)out.width * (size_t)out.height);
+    for (int y = 0; y < out.height; y++)
+        for (int x = 0; x < out.width; x++)
+            mean_over_pixel(image, x, y, out.width,
+                            rgba + 4 * ((size_t)y * (size_t)out.width + (size_t)x));
+    out.pixels = rgba;
+    *image = out;
     return true;
 }
 
-static bool line_is_wrong(const RadianceHeader *in, const char *wanted)
+/* ---- any --------------------------------------------------------------------------------- */
+
+static bool has_text(const FrameImage *frame, const char *name, const char *text)
 {
-    char place[32];
-    snprintf(place, sizeof place, "line %ld", in->line);
-    return error_at(in->err, ERROR_INPUT, in->name, place, "'%.60s', wanted %s", in->text,
-                    wanted);
+    const ExrAttribute *a = frame_attribute(frame, name);
+    return a && a->kind == EXR_OTHER && !strcmp(a->text, text);
 }
 
-/* Exactly `count` numbers behind the sign of equality. */
-static bool line_numbers(const RadianceHeader *in, int count, double *out)
+/* Over the display window; what is not covered is black. */
+static bool take_pixels(const FrameImage *frame, const char *name, Arena *arena, Image *out,
+                        Error *err)
 {
-    const char *at = strchr(in->text, '=') + 1;
-    for (int i = 0; i < count; i++) {
-        char *after;
-        out[i] = strtod(at, &after);
-        if (after == at || !isfinite(out[i])) return false;
-        at = after;
+    LayerView view;
+    const ExrWindow w = frame->display, d = frame->data;
+    if (!layer_view_find(frame, NULL, arena, &view, err)) return error_in_file(err, name);
+    size_t count = (size_t)view.width * (size_t)view.height;
+    float *rgba = ARENA_NEW(arena, float, 4 * count);
+    for (size_t i = 0; i < count; i++) {
+        int  x = w.x0 + (int)(i % (size_t)view.width), y = w.y0 + (int)(i / (size_t)view.width);
+        bool has = x >= d.x0 && x < d.x1 && y >= d.y0 && y < d.y1;
+        for (size_t c = 0; c < 3; c++) rgba[4 * i + c] = has ? view.planes[c][i] : 0;
+        rgba[4 * i + 3] = 1;
     }
-    return at[strspn(at, " \t")] == 0;
-}
-
-/* Takes off again what the values were multiplied by. */
-static bool divide_by(const RadianceHeader *in, int count, const char *wanted,
-                      LightScale *out)
-{
-    double factor[3];
-    if (!line_numbers(in, count, factor)) return line_is_wrong(in, wanted);
-    for (int i = 0; i < 3; i++) {
-        double f = factor[count == 3 ? i : 0];
-        if (!(f > 0)) return line_is_wrong(in, wanted);
-        out->scale[i] /= f;
-    }
+    *out = (Image){view.width, view.height, IMAGE_RGBA32F, rgba};
     return true;
 }
 
-static bool set_primaries(const RadianceHeader *in, LightScale *out)
+static void clean_pixels(const char *name, const Image *image, Problems *problems)
 {
-    double xy[8];
-    if (!line_numbers(in, 8, xy) || !chromaticities_are_usable(xy))
-        return line_is_wrong(in, "x and y of red, green, blue and white, of primaries that "
-                             "light can be mixed from");
-    out->has_matrix = !chromaticities_are_rec709(xy);
-    if (out->has_matrix) out->rec709 = rec709_from_primaries(xy);
-    return true;
-}
-
-static bool begins(const char *text, const char *with)
-{
-    return !strncmp(text, with, strlen(with));
-}
-
-/* Lines that are indented describe pictures that this one was made from, and do not count. */
-static bool read_variable(const RadianceHeader *in, LightScale *out)
-{
-    if (begins(in->text, "EXPOSURE="))
-        return divide_by(in, 1, "EXPOSURE= and a number above 0", out);
-    if (begins(in->text, "COLORCORR="))
-        return divide_by(in, 3, "COLORCORR= and three numbers above 0", out);
-    if (begins(in->text, "PRIMARIES=")) return set_primaries(in, out);
-    if (!begins(in->text, "FORMAT=") || begins(in->text, "FORMAT=32-bit_rle_rgbe"))
-        return true;
-    return line_is_wrong(in, "FORMAT=32-bit_rle_rgbe");
-}
-
-/* Rows from the top, each from the left: the one order that the decoder knows. */
-static bool check_order(RadianceHeader *in)
-{
-    int width, height;
-    if (!next_line(in))
-        return error_at(in->err, ERROR_INPUT, in->name, "", "the header ends before the size");
-    return sscanf(in->text, "-Y %d +X %d", &height, &width) == 2 ||
-           line_is_wrong(in, "-Y HEIGHT +X WIDTH");
-}
-
-static bool read_radiance(const void *bytes, size_t size, const char *name, LightScale *out,
-                          Error *err)
-{
-    RadianceHeader in = {.next = bytes, .end = (const char *)bytes + size, .name = name,
-                         .err = err};
-    while (next_line(&in) && in.text[0])
-        if (!read_variable(&in, out)) return false;
-    if (!check_order(&in)) return false;
-    double y[3] = {0.2126, 0.7152, 0.0722}; /* of Rec.709's primaries */
-    if (out->has_matrix)
-        for (int i = 0; i < 3; i++)
-            y[i] = 0.2126 * out->rec709.m[0][i] + 0.7152 * out->rec709.m[1][i] +
-                   0.0722 * out->rec709.m[2][i];
-    out->unit_cd_m2 = 0;
-    for (int i = 0; i < 3; i++) {
-        out->scale[i] *= RADIANCE_LM_W;
-        out->unit_cd_m2 += y[i] * out->scale[i];
+    float *values = (float *)image->pixels;
+    size_t count = (size_t)image->width * (size_t)image->height, negative = 0, broken = 0;
+    for (size_t i = 0; i < 4 * count; i++) {
+        if (values[i] >= 0 && isfinite(values[i])) continue;
+        if (isfinite(values[i])) negative++;
+        else broken++;
+        values[i] = 0;
     }
-    return true;
-}
-
-/* ---- OpenEXR ----------------------------------------------------------------------------- */
-
-/* Colours are Rec.709's already once image_read_memory has been there. */
-static bool read_exr(const void *bytes, size_t size, const char *name, LightScale *out,
-                     Error *err)
-{
-    ExrReader *reader;
-    if (!exr_reader_create(name, bytes, size, &reader, err)) return false;
-    const ExrPicture *picture = exr_reader_picture(reader);
-    double white = 1;
-    for (int i = 0; i < picture->attribute_count; i++) {
-        const ExrAttribute *a = &picture->attributes[i];
-        if (a->kind == EXR_FLOAT && !strcmp(a->name, "whiteLuminance")) white = a->values[0];
-    }
-    exr_reader_destroy(reader);
-    for (int i = 0; i < 3; i++) out->scale[i] = white;
-    out->unit_cd_m2 = white;
-    return (white > 0 && isfinite(white)) ||
-           error_at(err, ERROR_INPUT, name, "whiteLuminance",
-                    "is %g, wanted the cd/m2 of white, above 0", white);
-}
-
-/* ---- any picture ------------------------------------------------------------------------- */
-
-static void apply(const LightScale *scale, const Image *image)
-{
-    const double *s = scale->scale;
-    float        *rgba = (float *)image->pixels;
-    size_t        count = (size_t)image->width * (size_t)image->height;
-    if (s[0] == 1 && s[1] == 1 && s[2] == 1 && !scale->has_matrix) return;
-    for (size_t i = 0; i < count; i++, rgba += 4) {
-        for (int c = 0; c < 3; c++) rgba[c] = (float)((double)rgba[c] * s[c]);
-        if (scale->has_matrix) colour_apply(&scale->rec709, rgba, rgba);
-    }
+    if (negative)
+        problems_add(problems, SEVERITY_WARNING, name, "", "%zu negative values count as 0",
+                     negative);
+    if (broken)
+        problems_add(problems, SEVERITY_WARNING, name, "",
+                     "%zu values that are not finite count as 0", broken);
 }
 
 bool light_picture_read(const void *bytes, size_t size, const char *name, Arena *arena,
-                        LightPicture *out, Error *err)
+                        Problems *problems, LightPicture *out, Error *err)
 {
-    LightScale   scale = {.scale = {1, 1, 1}, .unit_cd_m2 = 1};
-    LightPicture picture;
-    bool is_radiance = size > 2 && !memcmp(bytes, "#?", 2);
-    bool is_exr = size > 4 && !memcmp(bytes, "\x76\x2f\x31\x01", 4);
-    if (is_radiance && !read_radiance(bytes, size, name, &scale, err)) return false;
-    if (!image_read_memory(bytes, size, name, arena, &picture.image, err)) return false;
-    if (is_exr && !read_exr(bytes, size, name, &scale, err)) return error_in_file(err, name);
-    if (picture.image.format == IMAGE_RGBA32F) apply(&scale, &picture.image);
-    picture.unit_cd_m2 = scale.unit_cd_m2;
-    *out = picture;
+    LightFile file;
+    Image     image;
+    if (!light_file_read_memory(bytes, size, name, arena, problems, &file, err) ||
+        !take_pixels(&file.frame, name, arena, &image, err))
+        return false;
+    clean_pixels(name, &image, problems);
+    if (has_text(&file.frame, "envmap", "envmap 01") && !unfold_cube(name, arena, &image, err))
+        return false;
+    if (image.width != 2 * image.height)
+        problems_add(problems, SEVERITY_WARNING, name, "",
+                     "has %dx%d pixels; an equirectangular picture is twice as wide as high",
+                     image.width, image.height);
+    if (frame_string(&file.frame, "VIEW"))
+        problems_add(problems, SEVERITY_WARNING, name, "VIEW",
+                     "'%.60s' is the view of a camera; the picture is taken for an "
+                     "equirectangular one of all surroundings",
+                     frame_string(&file.frame, "VIEW"));
+    *out = (LightPicture){image, file.unit_cd_m2};
     return true;
 }

@@ -286,8 +286,3 @@ float lights_emitter_pdf(const Lights *lights, const LitPoint *from, const Hit *
                          (EmitterPoint){hit->triangle, hit->u, hit->v});
     return cosine > 1e-6f ? density.on_area * hit->t * hit->t / cosine + density.on_sphere : 0;
 }
-
-long lights_refused_pixels(const Lights *lights)
-{
-    return lights->sky.picture.refused_pixels;
-}

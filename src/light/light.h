@@ -115,5 +115,3 @@ bool lights_sky_polarisation(const Lights *lights, Vec3 direction,
 float lights_emitter_pdf(const Lights *lights, const LitPoint *from, const Hit *hit,
                          Vec3 direction, Vec3 ng);
 
-/* Pixels of the environment picture that had a negative or non-finite value, counted as 0. */
-long lights_refused_pixels(const Lights *lights);

@@ -113,30 +113,11 @@ static double horizontal_illuminance(const SkyPicture *picture)
     return sum;
 }
 
-/* Negative and non-finite values are set to 0 in a copy, and counted. */
-static void copy_pixels(SkyPicture *picture, const Image *image, Arena *arena)
-{
-    size_t count = (size_t)image->width * (size_t)image->height;
-    const float *from = image->pixels;
-    float *to = ARENA_NEW(arena, float, 4 * count);
-    for (size_t p = 0; p < count; p++) {
-        bool refused = false;
-        for (int i = 0; i < 3; i++) {
-            float value = from[4 * p + i];
-            bool  good = value >= 0 && isfinite(value);
-            to[4 * p + i] = good ? value : 0;
-            refused |= !good;
-        }
-        picture->refused_pixels += refused;
-    }
-    picture->pixels = to;
-}
-
 bool sky_picture_build(const Environment *environment, float turn, Arena *arena,
                        SkyPicture *out, Error *err)
 {
-    SkyPicture picture = {.width = environment->hdri.width, .height = environment->hdri.height};
-    copy_pixels(&picture, &environment->hdri, arena);
+    SkyPicture picture = {.width = environment->hdri.width, .height = environment->hdri.height,
+                          .pixels = environment->hdri.pixels};
     build_distribution(&picture, arena);
     picture.scale = environment->hdri_scale;
     if (environment->horizontal_illuminance_lx > 0) {

@@ -17,7 +17,6 @@ typedef struct SkyPicture {
     const float *row_cdf;     /* height + 1 values from 0 to 1 */
     const float *column_cdf;  /* height rows of width + 1 values */
     const uint16_t *row_guide, *column_guide; /* where to begin looking in them */
-    long   refused_pixels; /* had a negative or non-finite value */
 } SkyPicture;
 
 /* turn: compass azimuth of the scene's -Z, radians. */

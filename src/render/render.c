@@ -308,7 +308,6 @@ bool render_prepared(const RenderSetup *setup, const RenderOptions *options, Are
                      RenderResult *out, Error *err)
 {
     RenderResult result = {.kernel = setup->kernel,
-                           .refused_pixels = lights_refused_pixels(setup->context.lights),
                            .build_seconds = setup->build_seconds,
                            .build_peak_bytes = setup->build_peak_bytes,
                            .field_hash = setup->field_hash,

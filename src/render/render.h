@@ -76,7 +76,6 @@ struct RenderResult {
     uint32_t       samples;    /* of the frame, with those done before */
     uint32_t       resumed_samples; /* done before this session; 0: it began */
     bool           has_features; /* the samples' first surfaces were looked at */
-    long           refused_pixels; /* of the sky's picture: negative or not finite, as 0 */
     double         seconds;    /* of rendering alone, over all sessions */
     double         build_seconds; /* of the ray tracer's and the lights' structures, now */
     uint64_t       field_hash;    /* of what was learnt; 0: nothing */

@@ -31,7 +31,6 @@ static inline CompareInput frame_input(const char *name, Arena *arena)
     frame_set_string(&frame, "parhelion:inputs", "00aa  a.gltf\n00bb  b.png\n", arena);
     return (CompareInput){.name = name,
                           .kind = INPUT_FRAME,
-                          .has_metadata = true,
                           .light = {WIDTH, HEIGHT, {r, g, b}},
                           .frame = frame};
 }

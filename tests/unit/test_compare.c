@@ -13,7 +13,7 @@ ARENA_TEST(a_written_frame_is_read_as_light)
     assert_done(frame_write(path, &made.frame, &err));
     assert_done(input_read(path, 0, &arena, &read, &err));
     assert_int_equal(read.kind, INPUT_FRAME);
-    assert_true(read.has_metadata);
+    assert_int_equal(read.file, LIGHT_FILE_OPENEXR);
     for (int i = 0; i < COUNT; i++) assert_near(read.light.rgb[0][i], i, 0);
     assert_done(input_read(path, 0, &arena, &again, &err));
     Comparison c = compared(&read, &again, (CompareOptions){0}, &arena);

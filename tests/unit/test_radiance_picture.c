@@ -2,7 +2,7 @@
 #include "frame_fixture.h"
 
 #include "image/frame_view.h"
-#include "image/radiance/frame_file.h"
+#include "image/light_file.h"
 #include "image/radiance/radiance_picture.h"
 
 /* What Radiance's tools make of a pixel's bytes: the middles of the codes' steps, weighed for
@@ -80,12 +80,15 @@ MEMORY_TEST(dark_and_broken_pixels_are_black)
 MEMORY_TEST(what_is_written_is_read_with_its_view)
 {
     FrameImage frame = fisheye_frame(40, 40, arena), back;
+    LightFile  file;
+    Problems   problems = problems_start(arena);
     Error      err;
     for (int i = 0; i < 1600; i++)
         for (int c = 0; c < 3; c++) plane(&frame, c)[i] = (float)(1 + i % 37) * (float)(c + 3);
     const char *path = in_folder("c.hdr");
     written(&frame, path, arena);
-    assert_true(frame_file_read(path, arena, &back, &err));
+    assert_true(light_file_read(path, arena, &problems, &file, &err));
+    back = file.frame;
     assert_int_equal(frame_pixel_count(&back), 1600);
     for (int i = 0; i < 1600; i++) {
         double y = 0, wanted = 0;
@@ -109,13 +112,15 @@ MEMORY_TEST(the_last_view_of_the_header_counts)
                                "VIEW= -vtv -vh 40 -vv 40\n"
                                "VIEW= -vta -vh 180 -vv 180\n\tVIEW= -vtl\n"
                                "FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x80";
-    FrameImage frame;
-    FrameView  view;
-    Error      err;
-    assert_true(radiance_picture_read(HEAD, sizeof HEAD - 1, "x.hdr", arena, &frame, &err));
-    assert_true(frame_view_find(&frame, &view, &err));
+    LightFile file;
+    FrameView view;
+    Problems  problems = problems_start(arena);
+    Error     err;
+    assert_true(light_file_read_memory(HEAD, sizeof HEAD - 1, "x.hdr", arena, &problems, &file,
+                                       &err));
+    assert_true(frame_view_find(&file.frame, &view, &err));
     assert_int_equal(view.fisheye, FISHEYE_EQUIDISTANT);
-    assert_close(plane(&frame, 1)[0], 179 * 128.5 / 256, 1e-6);
+    assert_close(plane(&file.frame, 1)[0], 179 * 128.5 / 256, 1e-6);
 }
 
 MEMORY_TEST(a_write_that_fails_leaves_nothing)

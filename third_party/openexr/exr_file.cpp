@@ -5,28 +5,24 @@
 
 #include "base/file.h"
 #include "guarded/guarded.hpp"
+#include "openexr/exr_attribute.hpp"
 #include "openexr/exr_header.h"
 #include "openexr/memory_stream.hpp"
 
 #include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfChromaticitiesAttribute.h>
-#include <OpenEXR/ImfDoubleAttribute.h>
-#include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputPart.h>
-#include <OpenEXR/ImfIntAttribute.h>
-#include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
-#include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/OpenEXRConfig.h>
 
 #include <algorithm>
+#include <list>
 #include <memory>
 #include <string>
 #include <thread>
@@ -36,6 +32,7 @@ namespace {
 
 const char  MAGIC[] = "\x76\x2f\x31\x01";
 const char  DAMAGED[] = "damaged OpenEXR file";
+const char  OWN_WORDS[] = "parhelion:layers"; /* an attribute of a part of words */
 const float NONE_FROM_FILE = 4294967040.0f; /* the float below 2^32: whole "none" */
 
 /* Messages of the library may have several lines. */
@@ -69,56 +66,6 @@ Imath::Box2i closed(ExrWindow w)
     return {{w.x0, w.y0}, {w.x1 - 1, w.y1 - 1}};
 }
 
-/* False for kinds that ExrAttribute does not know. */
-bool describe_attribute(const Imf::Attribute &from, ExrAttribute *to)
-{
-    if (auto s = dynamic_cast<const Imf::StringAttribute *>(&from)) {
-        to->kind = EXR_STRING;
-        to->text = s->value().c_str();
-    } else if (auto i = dynamic_cast<const Imf::IntAttribute *>(&from)) {
-        to->kind = EXR_INT;
-        to->values[0] = i->value();
-    } else if (auto f = dynamic_cast<const Imf::FloatAttribute *>(&from)) {
-        to->kind = EXR_FLOAT;
-        to->values[0] = (double)f->value();
-    } else if (auto d = dynamic_cast<const Imf::DoubleAttribute *>(&from)) {
-        to->kind = EXR_DOUBLE;
-        to->values[0] = d->value();
-    } else if (auto c = dynamic_cast<const Imf::ChromaticitiesAttribute *>(&from)) {
-        const Imath::V2f points[4] = {c->value().red, c->value().green, c->value().blue,
-                                      c->value().white};
-        to->kind = EXR_CHROMATICITIES;
-        for (int k = 0; k < 8; k++) to->values[k] = (double)points[k / 2][k % 2];
-    } else if (auto m = dynamic_cast<const Imf::M44fAttribute *>(&from)) {
-        to->kind = EXR_MATRIX44;
-        for (int k = 0; k < 16; k++) to->values[k] = (double)m->value()[k / 4][k % 4];
-    } else {
-        return false;
-    }
-    return true;
-}
-
-void insert_attribute(Imf::Header *header, const ExrAttribute &a)
-{
-    const double *v = a.values;
-    auto          xy = [v](int k) { return Imath::V2f((float)v[k], (float)v[k + 1]); };
-    switch (a.kind) {
-    case EXR_STRING: header->insert(a.name, Imf::StringAttribute(a.text)); break;
-    case EXR_INT: header->insert(a.name, Imf::IntAttribute((int)v[0])); break;
-    case EXR_FLOAT: header->insert(a.name, Imf::FloatAttribute((float)v[0])); break;
-    case EXR_DOUBLE: header->insert(a.name, Imf::DoubleAttribute(v[0])); break;
-    case EXR_CHROMATICITIES:
-        header->insert(a.name, Imf::ChromaticitiesAttribute({xy(0), xy(2), xy(4), xy(6)}));
-        break;
-    case EXR_MATRIX44: {
-        Imath::M44f matrix;
-        for (int k = 0; k < 16; k++) matrix[k / 4][k % 4] = (float)v[k];
-        header->insert(a.name, Imf::M44fAttribute(matrix));
-        break;
-    }
-    }
-}
-
 } // namespace
 
 struct ExrReader {
@@ -131,6 +78,8 @@ struct ExrReader {
     std::vector<const char *>                word_names;
     std::vector<ExrAttribute>                word_attributes;
     ExrWords                                 words{};
+    std::vector<int>                         more_parts; /* their places */
+    std::list<std::string>                   texts;      /* of attributes */
 };
 
 static bool check_window(const char *which, const ExrWindow &window, Error *err)
@@ -158,19 +107,27 @@ static bool check_picture(const ExrPicture &p, Error *err)
     return true;
 }
 
+static bool is_one_of(const std::string &name, std::initializer_list<const char *> list)
+{
+    return std::find(list.begin(), list.end(), name) != list.end();
+}
+
 /* Attributes of how a part is stored, not of what the picture is. */
 static bool is_of_storage(const std::string &name)
 {
-    return name == "name" || name == "type" || name == "chunkCount";
+    return is_one_of(name, {"name", "type", "chunkCount", "version", "channels", "compression",
+                            "dwaCompressionLevel", "lineOrder", "tiles", "preview",
+                            "dataWindow", "displayWindow", "maxSamplesPerPixel"});
 }
 
-static std::vector<ExrAttribute> describe_attributes(const Imf::Header &header)
+static std::vector<ExrAttribute> describe_attributes(const Imf::Header &header,
+                                                     std::list<std::string> *texts)
 {
     std::vector<ExrAttribute> list;
     for (auto a = header.begin(); a != header.end(); ++a) {
-        ExrAttribute attribute = {a.name(), EXR_STRING, nullptr, {}};
-        if (!is_of_storage(a.name()) && describe_attribute(a.attribute(), &attribute))
-            list.push_back(attribute);
+        if (is_of_storage(a.name())) continue;
+        list.push_back({a.name(), EXR_STRING, nullptr, {}});
+        describe_attribute(a.attribute(), texts, &list.back());
     }
     return list;
 }
@@ -181,18 +138,22 @@ static bool describe(ExrReader *reader, Error *err)
     if (header.hasType() && header.type().rfind("deep", 0) == 0)
         return error_set(err, ERROR_INPUT, "a deep picture, a flat one is wanted");
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
-        if (c.channel().xSampling != 1 || c.channel().ySampling != 1)
+        if (c.channel().xSampling != 1 || c.channel().ySampling != 1 ||
+            is_one_of(c.name(), {"RY", "BY"}))
             return error_set(err, ERROR_INPUT,
                              "channel %s is sampled every %d x %d pixels (luminance-chroma "
                              "coding), one value for each pixel is wanted",
                              c.name(), c.channel().xSampling, c.channel().ySampling);
         reader->channels.push_back({c.name(), c.channel().type == Imf::UINT, nullptr});
     }
-    reader->attributes = describe_attributes(header);
+    for (int part = 1; part < reader->file->parts(); part++)
+        if (!reader->file->header(part).findTypedAttribute<Imf::IntAttribute>(OWN_WORDS))
+            reader->more_parts.push_back(part);
+    reader->attributes = describe_attributes(header, &reader->texts);
     reader->picture = {half_open(header.displayWindow()), half_open(header.dataWindow()),
                        (int)reader->channels.size(),      reader->channels.data(),
                        (int)reader->attributes.size(),    reader->attributes.data(), 0, 0,
-                       nullptr};
+                       nullptr,                           (int)reader->more_parts.size()};
     return check_picture(reader->picture, err);
 }
 
@@ -287,6 +248,78 @@ bool exr_reader_read(ExrReader *reader, float *const *planes, Error *err)
     }, one_line);
 }
 
+/* ---- further parts ----------------------------------------------------------------------- */
+
+static bool is_flat_part(const Imf::Header &header)
+{
+    if (header.type() != Imf::SCANLINEIMAGE && header.type() != Imf::TILEDIMAGE) return false;
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
+        if (c.channel().xSampling != 1 || c.channel().ySampling != 1) return false;
+    return true;
+}
+
+/* Names, windows, and what else decides what a part shows. */
+static void digest_header(const Imf::Header &header, XXH3_state_t *state)
+{
+    for (auto a = header.begin(); a != header.end(); ++a) {
+        if (!is_one_of(a.name(), {"chromaticities", "whiteLuminance", "envmap", "view",
+                                  "pixelAspectRatio", "dataWindow", "displayWindow"}))
+            continue;
+        const std::vector<char> bytes = bytes_of(a.attribute());
+        XXH3_64bits_update(state, a.name(), strlen(a.name()));
+        XXH3_64bits_update(state, bytes.data(), bytes.size());
+    }
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
+        XXH3_64bits_update(state, c.name(), strlen(c.name()) + 1);
+}
+
+#define BAND_VALUES 16000000 /* of some rows of all channels */
+
+static void digest_pixels(Imf::InputPart *part, XXH3_state_t *state)
+{
+    const Imath::Box2i     &window = part->header().dataWindow();
+    const Imf::ChannelList &channels = part->header().channels();
+    const long long width = (long long)window.max.x - window.min.x + 1;
+    long long       count = 0;
+    for (auto c = channels.begin(); c != channels.end(); ++c) count++;
+    const int rows = (int)std::clamp(BAND_VALUES / (width * (count + 1)), 1LL, 256LL);
+    std::vector<float> values((size_t)(width * rows * count));
+    for (long long y = window.min.y; y <= window.max.y; y += rows) {
+        const int        last = (int)std::min(y + rows - 1, (long long)window.max.y);
+        Imf::FrameBuffer buffer;
+        float           *plane = values.data();
+        for (auto c = channels.begin(); c != channels.end(); ++c, plane += width * rows)
+            buffer.insert(c.name(),
+                          Imf::Slice::Make(c.channel().type == Imf::UINT ? Imf::UINT
+                                                                         : Imf::FLOAT,
+                                           plane, Imath::V2i(window.min.x, (int)y), width,
+                                           last - y + 1));
+        part->setFrameBuffer(buffer);
+        part->readPixels((int)y, last);
+        plane = values.data();
+        for (long long c = 0; c < count; c++, plane += width * rows)
+            XXH3_64bits_update(state, plane, sizeof *plane * (size_t)(width * (last - y + 1)));
+    }
+}
+
+bool exr_reader_part(ExrReader *reader, int i, ExrPart *out, Error *err)
+{
+    return guarded(err, ERROR_INPUT, DAMAGED, [&] {
+        const int          place = reader->more_parts[(size_t)i];
+        const Imf::Header &header = reader->file->header(place);
+        XXH3_state_t       state;
+        *out = {header.name().c_str(), is_flat_part(header), 0};
+        if (!out->is_flat) return true;
+        if (!check_window("data", half_open(header.dataWindow()), err)) return false;
+        Imf::InputPart part(*reader->file, place);
+        XXH3_64bits_reset(&state);
+        digest_header(header, &state);
+        digest_pixels(&part, &state);
+        out->digest = XXH3_64bits_digest(&state);
+        return true;
+    }, one_line);
+}
+
 /* ---- words ------------------------------------------------------------------------------- */
 
 static bool describe_words(ExrReader *reader, int part, Error *err)
@@ -308,7 +341,7 @@ static bool describe_words(ExrReader *reader, int part, Error *err)
                          "its part \"%s\" does not hold 32-bit words of the picture's pixels",
                          header.name().c_str());
     reader->words_part = part;
-    reader->word_attributes = describe_attributes(header);
+    reader->word_attributes = describe_attributes(header, &reader->texts);
     reader->words = {header.name().c_str(),
                      (int)reader->word_names.size(),
                      reader->word_names.data(),

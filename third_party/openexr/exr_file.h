@@ -33,13 +33,14 @@ typedef enum ExrKind {
     EXR_FLOAT,          /* 1 value, single precision */
     EXR_DOUBLE,         /* 1 value */
     EXR_CHROMATICITIES, /* 8 values: x, y of red, green, blue, white */
-    EXR_MATRIX44        /* 16 values, rows, for row vectors (a translation is the last row) */
+    EXR_MATRIX44,       /* 16 values, rows, for row vectors (a translation is the last row) */
+    EXR_OTHER           /* text: its type and its bytes; is not written */
 } ExrKind;
 
 typedef struct ExrAttribute {
     const char *name;
     ExrKind     kind;
-    const char *text;       /* EXR_STRING */
+    const char *text;       /* EXR_STRING, EXR_OTHER */
     double      values[16]; /* the other kinds */
 } ExrAttribute;
 
@@ -60,9 +61,10 @@ typedef struct ExrPicture {
     int           channel_count;
     ExrChannel   *channels;
     int           attribute_count;
-    ExrAttribute *attributes; /* files keep them sorted by name; other kinds are left out */
+    ExrAttribute *attributes; /* files keep them sorted by name */
     int           channel_room, attribute_room; /* what the lists hold; not looked at here */
     const ExrWords *words;       /* a second part that is written; NULL: none, and when read */
+    int          more_parts;     /* of a file that is read: those behind the first, less words */
 } ExrPicture;
 
 /* Whole-file limits, refused before memory is taken for pixels. */
@@ -80,9 +82,19 @@ bool exr_reader_create(const char *name, const void *bytes, size_t size, ExrRead
 /* The same for a file on disk, which is read as pixels are asked for. */
 bool exr_reader_open(const char *path, ExrReader **out, Error *err);
 
-/* Channels without values; lives as long as the reader. What a file states of its parts
- * ("name", "type", "chunkCount") is not among the attributes. */
+/* Channels without values; lives as long as the reader. What a file states of how it is stored
+ * ("name", "type", "compression" ...) is not among the attributes. */
 const ExrPicture *exr_reader_picture(const ExrReader *reader);
+
+/* A part behind the first that is no words: 0 <= i < more_parts. */
+typedef struct ExrPart {
+    const char        *name;       /* lives as long as the reader */
+    bool               is_flat;
+    unsigned long long digest;     /* of a flat part: of its channels, of their values, and of
+                                      what else decides what they show */
+} ExrPart;
+
+bool exr_reader_part(ExrReader *reader, int i, ExrPart *out, Error *err);
 
 /* planes: one array of (data window) floats for each channel, in the picture's order; NULL
  * skips a channel. Half, float and unsigned become float. A file cut off or damaged is

@@ -62,12 +62,9 @@ static bool set_hdri(Change *change, const char *path, Error *err)
     FileBytes    bytes;
     LightPicture picture;
     if (!file_read(path, HDRI_BYTES_MAX, change->arena, &bytes, err) ||
-        !light_picture_read(bytes.data, bytes.size, path, change->arena, &picture, err))
+        !light_picture_read(bytes.data, bytes.size, path, change->arena, change->problems,
+                            &picture, err))
         return false;
-    if (picture.image.format != IMAGE_RGBA32F)
-        return error_at(err, ERROR_INPUT, path, NULL,
-                        "holds display codes, wanted linear light — an OpenEXR or Radiance HDR "
-                        "picture");
     if (environment->kind != ENVIRONMENT_HDRI) environment->hdri_scale = 1;
     environment->kind = ENVIRONMENT_HDRI;
     environment->hdri_path = path;

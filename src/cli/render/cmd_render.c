@@ -265,16 +265,6 @@ static void warn_of_dropped(RenderRun *work, const RenderResult *result)
                             dropped.first[0].sample_index));
 }
 
-/* A picture that the scene names was cleaned, and reported, when it was loaded. */
-static void warn_of_picture(RenderRun *work, const RenderResult *result)
-{
-    if (!result->refused_pixels || work->request.replays) return;
-    warn(work, arena_format(work->arena,
-                            "--environment %s: %ld pixels have negative values or values that "
-                            "are not finite, which count as 0",
-                            work->request.environment.environment, result->refused_pixels));
-}
-
 static void warn_of_noise(RenderRun *work, const RenderResult *result)
 {
     const RenderOptions *options = &work->request.render;
@@ -430,7 +420,6 @@ static bool develop(const RenderRun *work, const RenderResult *result, Error *er
 /* The checkpoint comes first: who stopped the render may not wait for long. */
 static bool hand_over(RenderRun *work, const RenderResult *result, Error *err)
 {
-    warn_of_picture(work, result);
     warn_of_dropped(work, result);
     warn_of_noise(work, result);
     warn_of_favour(work, result);

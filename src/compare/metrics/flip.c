@@ -7,6 +7,7 @@
 #include "base/mathd.h"
 #include "base/parallel.h"
 #include "compare/metrics/flip_tile.h"
+#include "compare/metrics/mask_fill.h"
 #include "compare/metrics/rank.h"
 
 enum { TILE_ROWS = 128 };
@@ -55,7 +56,9 @@ static double chosen_ppd(const FlipOptions *options)
 void flip_ldr(const Planes *reference, const Planes *test, const FlipOptions *options,
               Arena scratch, float *map)
 {
-    FlipJob job = flip_job_create(reference, test, chosen_ppd(options), &scratch);
+    const Planes filled[2] = {mask_fill(reference, options->mask, &scratch),
+                              mask_fill(test, options->mask, &scratch)};
+    FlipJob job = flip_job_create(&filled[0], &filled[1], chosen_ppd(options), &scratch);
     job.exposures = 1;
     job.map = map;
     run(&job, options->threads, scratch);
@@ -64,23 +67,26 @@ void flip_ldr(const Planes *reference, const Planes *test, const FlipOptions *op
 /* The greatest and the median luminance of what is not black; false for a black picture. The
  * median is that of FLIP 1.6 where less than half of the picture is black; beyond that the
  * authors' is 0, and their range has no end. */
-static bool find_luminances(const Planes *picture, Arena scratch, double *median, double *most)
+static bool find_luminances(const Planes *picture, PixelMask mask, Arena scratch,
+                            double *median, double *most)
 {
-    size_t         count = planes_pixel_count(picture), lit = 0;
+    size_t         count = planes_pixel_count(picture), lit = 0, counting = 0;
     float         *luminance = ARENA_NEW(&scratch, float, count);
     unsigned char *is_lit = ARENA_NEW(&scratch, unsigned char, count);
     for (size_t i = 0; i < count; i++) {
         const float weights[3] = {0.2126f, 0.7152f, 0.0722f};
+        if (mask && !mask[i]) continue;
+        counting++;
         for (int c = 0; c < 3; c++)
             luminance[i] += weights[c] * fmaxf(picture->rgb[c][i], 0);
         is_lit[i] = luminance[i] > 0;
         lit += is_lit[i];
     }
     if (!lit) return false;
-    *most = (double)rank_value(luminance, count, NULL, 1);
-    /* the value at count / 2, counted from 0 */
-    double middle = ((double)(count / 2) + 0.5) / (double)count;
-    *median = (double)rank_value(luminance, count, NULL, middle);
+    *most = (double)rank_value(luminance, count, mask, 1);
+    /* the value at counting / 2, counted from 0 */
+    double middle = ((double)(counting / 2) + 0.5) / (double)counting;
+    *median = (double)rank_value(luminance, count, mask, middle);
     if (!(*median > 0)) *median = (double)rank_value(luminance, count, is_lit, 0.5);
     return true;
 }
@@ -92,7 +98,7 @@ static FlipExposures find_exposures(const Planes *reference, const FlipOptions *
     FlipExposures range = {options->start_ev, options->stop_ev, options->exposures};
     double        median, most, bright = flip_tone_input(options->tone_mapper, 0.85);
     if (!options->has_range) {
-        bool has_light = find_luminances(reference, scratch, &median, &most);
+        bool has_light = find_luminances(reference, options->mask, scratch, &median, &most);
         range.start_ev = has_light ? log2_d(bright / most) : 0;
         range.stop_ev = has_light ? log2_d(bright / median) : 1;
     }
@@ -105,7 +111,9 @@ static FlipExposures find_exposures(const Planes *reference, const FlipOptions *
 FlipExposures flip_hdr(const Planes *reference, const Planes *test, const FlipOptions *options,
                        Arena scratch, float *map, float *exposure_map)
 {
-    FlipJob job = flip_job_create(reference, test, chosen_ppd(options), &scratch);
+    const Planes filled[2] = {mask_fill(reference, options->mask, &scratch),
+                              mask_fill(test, options->mask, &scratch)};
+    FlipJob job = flip_job_create(&filled[0], &filled[1], chosen_ppd(options), &scratch);
     const FlipExposures range = find_exposures(reference, options, scratch);
     double *gains = ARENA_NEW(&scratch, double, range.count);
     double  step = range.count > 1 ? (range.stop_ev - range.start_ev) / (range.count - 1) : 0;

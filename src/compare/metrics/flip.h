@@ -5,7 +5,8 @@
  *          Andersson et al., "Visualizing Errors in Rendered High Dynamic Range Images",
  *          Eurographics 2021 short papers. Constants as of FLIP 1.6.
  * Units    maps hold 0 (the same) .. 1. The reference comes first: HDR-FLIP is not symmetric.
- * Memory   scratch by value: about half a megabyte a thread, for HDR another 5 bytes a pixel.
+ * Memory   scratch by value: about half a megabyte a thread, for HDR another 5 bytes a pixel,
+ *          with a mask another 24.
  * Threads  `threads` of its own for tiles; the same bits for any number.
  * Range    pictures must be finite.
  */
@@ -21,6 +22,7 @@
 typedef struct FlipOptions {
     double pixels_per_degree; /* 1 .. 1000; 0: FLIP_PIXELS_PER_DEGREE */
     int    threads;           /* at least 1 */
+    PixelMask mask;           /* what counts: the pictures end there (mask_fill.h); NULL: all */
     FlipToneMapper tone_mapper; /* HDR */
     bool   has_range;         /* HDR: the exposures below, else from the reference */
     double start_ev, stop_ev; /* HDR: light is multiplied by 2^ev; start <= stop */
@@ -42,8 +44,6 @@ typedef struct FlipExposures {
  * shows its greatest luminance as 0.85 to the one that does so with its median (of what is not
  * black, where half of it is). With the sun in view nearly all exposures are black, so give a
  * range. A black reference has none: from 0 to 1.
- * exposure_map (may be NULL): the index of the exposure that decided.
- * What a pixel has around it counts in its value, masked or not: who wants to keep a region out
- * of a map's summary altogether makes it alike in both pictures. */
+ * exposure_map (may be NULL): the index of the exposure that decided. */
 FlipExposures flip_hdr(const Planes *reference, const Planes *test, const FlipOptions *options,
                        Arena scratch, float *map, float *exposure_map);

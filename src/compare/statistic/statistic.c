@@ -204,24 +204,24 @@ static bool is_proportional(const StatisticRegion *region)
     return apart < 3 * (region->shift_sigma + region->change_sigma); /* false for NaN */
 }
 
+/* Intervals are of 95 %, as those of every answer. */
+#define INTERVAL_PERCENT 196
+
 static void append_shift(const StatisticRegion *region, char *text, size_t size)
 {
     bool is_surer = fabs(region->change) / region->change_sigma >
                     fabs(region->shift) / region->shift_sigma;
     if (isnan(region->shift))
         append(text, size, "%.3g cd/m2 instead of 0", region->test);
-    else if (is_surer && is_proportional(region))
-        append(text, size, "%+.3g %% +- %.2g %%", 100 * region->change,
-               100 * region->change_sigma);
     else
-        append(text, size, "%+.3g %% +- %.2g %%", 100 * region->shift,
-               100 * region->shift_sigma);
+        append(text, size, "%+.3g +- %.2g %%", 100 * region->shift,
+               INTERVAL_PERCENT * region->shift_sigma);
     if (is_surer && !is_proportional(region))
-        append(text, size, ", where its pixels are known best %+.3g %% +- %.2g %%",
-               100 * region->change, 100 * region->change_sigma);
+        append(text, size, ", where its pixels are known best %+.3g +- %.2g %%",
+               100 * region->change, INTERVAL_PERCENT * region->change_sigma);
 }
 
-/* "display 'cluster': reflected light +1.02 % +- 0.21 %" */
+/* "display 'cluster': reflected light +1.02 +- 0.21 %" */
 static void append_region(const StatisticRegion *region, bool is_frame, char *text, size_t size)
 {
     static const char REFLECTED[] = " reflected";

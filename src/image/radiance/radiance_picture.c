@@ -7,13 +7,11 @@
 #include "base/file_write.h"
 #include "image/colour.h"
 #include "image/frame_view.h"
-#include "image/light_picture.h"
+#include "image/radiance_file.h"
 
 /* x, y of red, green, blue and white: Radiance's default. */
 static const double RADIANCE_CHROMATICITIES[8] = {0.640, 0.330, 0.290, 0.600,
                                                   0.150, 0.060, 1.0 / 3, 1.0 / 3};
-
-/* ---- written ----------------------------------------------------------------------------- */
 
 /* Keeps the luminance, of which white has as much of each component. */
 static void move_into_gamut(const double y[3], double rgb[3])
@@ -89,52 +87,4 @@ bool radiance_picture_write(const char *path, const FrameImage *frame, const cha
     if (!file_writer_open(path, &writer, err)) return false;
     return file_writer_add(&writer, header, strlen(header), err) &&
            file_writer_add(&writer, pixels, size, err) && file_writer_commit(&writer, err);
-}
-
-/* ---- read -------------------------------------------------------------------------------- */
-
-bool radiance_picture_recognise(const void *bytes, size_t size)
-{
-    return size > 2 && !memcmp(bytes, "#?", 2);
-}
-
-/* The last of the header, as Radiance's tools take it; indented ones are other pictures'. */
-static const char *view_line(const char *bytes, size_t size, Arena *arena)
-{
-    const char *at = bytes, *end = bytes + size, *found = NULL;
-    while (at < end && *at != '\n') {
-        const char *stop = memchr(at, '\n', (size_t)(end - at));
-        if (!stop) break;
-        size_t length = (size_t)(stop - at);
-        if (length && at[length - 1] == '\r') length--;
-        if (!length) break;
-        if (length > 5 && !memcmp(at, "VIEW=", 5))
-            found = arena_string(arena, at + 5, length - 5);
-        at = stop + 1;
-    }
-    return found;
-}
-
-bool radiance_picture_read(const void *bytes, size_t size, const char *name, Arena *arena,
-                           FrameImage *out, Error *err)
-{
-    LightPicture picture;
-    Arena        scratch = *arena;
-    if (!light_picture_read(bytes, size, name, &scratch, &picture, err)) return false;
-    const float *rgba = picture.image.pixels;
-    size_t       count = (size_t)picture.image.width * (size_t)picture.image.height;
-    int          width = picture.image.width, height = picture.image.height;
-    /* the decoded picture stays where it is: the frame's planes follow it */
-    FrameImage frame = frame_create(width, height, (ExrWindow){0, 0, width, height}, 3, 1,
-                                    &scratch);
-    for (int c = 0; c < 3; c++) {
-        const char name_of[2] = {"RGB"[c], 0};
-        float     *plane = frame_add_channel(&frame, name_of, false, &scratch);
-        for (size_t i = 0; i < count; i++) plane[i] = rgba[4 * i + (size_t)c];
-    }
-    const char *words = view_line(bytes, size, &scratch);
-    if (words) frame_set_string(&frame, "VIEW", words, &scratch);
-    *arena = scratch;
-    *out = frame;
-    return true;
 }

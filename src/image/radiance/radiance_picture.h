@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* radiance_picture.h -- a frame as a Radiance picture (.hdr), and such a picture as a frame.
+/* radiance_picture.h -- a frame as a Radiance picture (.hdr).
  *
  * Written  W m^-2 sr^-1 in Radiance's own primaries and equal-energy white, as PRIMARIES= says:
  *          179 (0.265 R + 0.670 G + 0.065 B) is the luminance, which is how evalglare and
@@ -8,7 +8,6 @@
  *          luminance is right within 0.4 %, and in the mean. Light out of the primaries' gamut
  *          moves towards white of its luminance; what is not finite or below 0 is black. The
  *          view is VIEW= (frame_view.h); of a frame's layers R, G, B alone are there.
- * Read     as light_picture.h takes light; VIEW= is kept as the attribute "VIEW".
  *          Source: G. Ward, "Radiance File Formats".
  * Fails    as frame.h: with the file's name; a write that fails leaves nothing.
  */
@@ -18,9 +17,3 @@
 /* command: a line of the header, in which Radiance's tools say what made a picture. */
 bool radiance_picture_write(const char *path, const FrameImage *frame, const char *command,
                             Arena scratch, Error *err);
-
-/* Do the bytes begin as such a picture? */
-bool radiance_picture_recognise(const void *bytes, size_t size);
-
-bool radiance_picture_read(const void *bytes, size_t size, const char *name, Arena *arena,
-                           FrameImage *out, Error *err);

@@ -50,23 +50,6 @@ static void read_sun(const GltfValue *sun, Environment *out)
         out->sun_angular_radius = radians(sun, "angular_radius_deg");
 }
 
-/* Light is not negative: such pixels (ringing of a filter) and NaN count as 0. */
-static void clean_pixels(GltfFile *file, const GltfValue *uri, const Image *image)
-{
-    float *values = (float *)image->pixels;
-    size_t count = (size_t)image->width * (size_t)image->height, negative = 0, broken = 0;
-    for (size_t i = 0; i < 4 * count; i++) {
-        if (i % 4 == 3 || (values[i] >= 0 && isfinite(values[i]))) continue;
-        if (isfinite(values[i]))
-            negative++;
-        else
-            broken++;
-        values[i] = 0;
-    }
-    if (negative) file_warning(file, uri, "%zu negative values count as 0", negative);
-    if (broken) file_warning(file, uri, "%zu values that are not finite count as 0", broken);
-}
-
 static void read_hdri(GltfFile *file, const GltfValue *extension, Environment *out)
 {
     Error err;
@@ -77,22 +60,12 @@ static void read_hdri(GltfFile *file, const GltfValue *extension, Environment *o
     out->horizontal_illuminance_lx = tree_float(extension, "horizontal_illuminance_lx", 0);
     if (!uri || !document_resolve(file, uri, &path)) return;
     out->hdri_path = load_keep(file->load, path);
-    LightPicture picture = {.unit_cd_m2 = 1};
+    LightPicture picture = {.image = {.format = IMAGE_RGBA32F}, .unit_cd_m2 = 1};
     bool is_read = load_light_picture(file->load, path, &picture, &err);
     out->hdri = picture.image;
     out->hdri_unit_cd_m2 = picture.unit_cd_m2;
     if (!is_read)
         file_error(file, uri, "%s: %s%s%s", path, err.path, err.path[0] ? ": " : "", err.text);
-    else if (out->hdri.format != IMAGE_RGBA32F)
-        file_error(file, uri,
-                   "%s holds integer codes; a picture of floats (EXR, HDR) is wanted", path);
-    else
-        clean_pixels(file, uri, &out->hdri);
-    if (out->hdri.width != 2 * out->hdri.height)
-        file_warning(file, uri,
-                     "%s has %dx%d pixels; an equirectangular picture is twice as wide "
-                     "as high",
-                     path, out->hdri.width, out->hdri.height);
 }
 
 static void read_time_and_place(const GltfValue *extension, DaylightInput *out)

@@ -186,5 +186,6 @@ bool load_light_picture(Loader *load, const char *path, LightPicture *out, Error
 {
     FileBytes bytes;
     return load_read(load, path, &load->scratch, &bytes, err) &&
-           light_picture_read(bytes.data, bytes.size, path, load->arena, out, err);
+           light_picture_read(bytes.data, bytes.size, path, load->arena, load->problems, out,
+                              err);
 }
