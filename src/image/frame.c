@@ -271,20 +271,15 @@ static void convert_layer(FrameImage *frame, int i, const StatedLight *stated, A
 }
 
 /* A grey picture has the colour of the file's white. */
-static void spread_grey(FrameImage *frame, bool has_matrix, double white, Arena *arena)
+static void spread_grey(FrameImage *frame, Arena *arena)
 {
+    const size_t bytes = frame_pixel_count(frame) * sizeof(float);
     for (int i = 0; i < frame->channel_count; i++) {
-        ExrChannel *grey = &frame->channels[i];
-        if (strcmp(grey->name, "Y") != 0 || frame_channel(frame, "R")) continue;
-        float *values = grey->values;
-        size_t count = frame_pixel_count(frame);
-        if (!has_matrix) {
-            for (size_t k = 0; k < count; k++) values[k] = (float)((double)values[k] * white);
-            return;
-        }
-        grey->name = "R";
-        memcpy(frame_add_channel(frame, "G", false, arena), values, count * sizeof *values);
-        memcpy(frame_add_channel(frame, "B", false, arena), values, count * sizeof *values);
+        const float *grey = frame->channels[i].values;
+        if (strcmp(frame->channels[i].name, "Y") != 0 || frame_channel(frame, "R")) continue;
+        frame->channels[i].name = "R";
+        memcpy(frame_add_channel(frame, "G", false, arena), grey, bytes);
+        memcpy(frame_add_channel(frame, "B", false, arena), grey, bytes);
         return;
     }
 }
@@ -295,8 +290,8 @@ static bool apply_statements(FrameImage *frame, Arena *arena, Error *err)
     StatedLight         stated = {.white = white ? white->values[0] : 1};
     if (!check_statements(frame, err)) return false;
     stated.has_matrix = frame_needs_rec709(frame, &stated.matrix);
+    spread_grey(frame, arena);
     if (!stated.has_matrix && stated.white == 1) return true;
-    spread_grey(frame, stated.has_matrix, stated.white, arena);
     for (int i = 0; i < frame->channel_count; i++) convert_layer(frame, i, &stated, *arena);
     if (stated.white != 1) {
         frame_set_values(frame, "whiteLuminance", EXR_FLOAT, &ONE, arena);

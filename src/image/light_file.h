@@ -3,7 +3,7 @@
  *
  * OpenEXR as frame.h says, Radiance pictures as radiance_file.h says, and other pictures of
  * floats (TIFF), which are taken for cd m^-2 of Rec.709. Every command that reads light reads
- * it here, so that all of them see the same. A grey channel Y is there as it is.
+ * it here, so that all of them see the same.
  *
  * Units    linear Rec.709, cd m^-2. Memory: the arena's. Threads: no shared state.
  * Fails    for a file that is no such one or that is damaged, and where what it states of its

@@ -208,7 +208,7 @@ def check_pictures(report, program):
     pictures.write_hdr(program.file("a.hdr"), WIDTH, HEIGHT, values)
     values[7] = 40.0
     pictures.write_hdr(program.file("b.hdr"), WIDTH, HEIGHT, values)
-    told(report, program.compare("a.hdr", "b.hdr"), 1, "carries no metadata")
+    told(report, program.compare("a.hdr", "b.hdr"), 1, "1 of 384 pixels differ")
     for ending in ("jpg", "tif"):
         for name in ("a", "b"):
             program.run("develop", f"{name}.exr", "-o", f"{name}.{ending}")

@@ -53,7 +53,7 @@ REFUSED = (
     ("COLORCORR=1 0 1\n", "", 3),
     ("PRIMARIES=0.3 0.3\n", "'PRIMARIES=0.3 0.3', wanted x and y of red, green, blue", 3),
     ("PRIMARIES=0.3 0.3 0.3 0.3 0.3 0.3 0.3 0.3\n", "", 3),
-    ("FORMAT=32-bit_rle_xyze\n", "'FORMAT=32-bit_rle_xyze', wanted FORMAT=32-bit_rle_rgbe", 3),
+    ("FORMAT=32-bit_rle_x\n", "'FORMAT=32-bit_rle_x', wanted FORMAT=32-bit_rle_rgbe", 3),
 )
 DOUBT = {"sun": "it shows a sun", "sky": "it shows a sky by day", "unit": "for a display"}
 # real pictures, none of which has a scale
@@ -124,10 +124,10 @@ def check_radiance(report, pictures):
         report.claim(done.returncode == 3 and f"bad.hdr: {message}" in done.stderr
                      and done.stderr.endswith(f"(line {line})\n"),
                      f"{header!r}: {done.returncode}, {done.stderr}")
-    pictures.put("turned.hdr", radiance("", (1, 1, 1)).replace(b"-Y 32 +X 64", b"+X 64 -Y 32"))
+    pictures.put("turned.hdr", radiance("", (1, 1, 1)).replace(b"-Y 32 +X 64", b"-Y 32 -Z 64"))
     done = pictures.run("sky", "--environment", "hdri:turned.hdr")
-    report.claim("turned.hdr: '+X 64 -Y 32', wanted -Y HEIGHT +X WIDTH (line 4)"
-                 in done.stderr, f"another order of rows: {done.stderr}")
+    report.claim("turned.hdr: '-Y 32 -Z 64', wanted -Y HEIGHT +X WIDTH" in done.stderr,
+                 f"another axis: {done.stderr}")
 
 
 def check_scene(report, pictures):
@@ -164,7 +164,7 @@ def check_exr(report, pictures):
               {"whiteLuminance": ("float", struct.pack("<f", -1))})
     done = pictures.run("sky", "--environment", "hdri:a.exr")
     report.claim(done.returncode == 3
-                 and "a.exr: is -1, wanted the cd/m2 of white" in done.stderr,
+                 and "a.exr: whiteLuminance is -1, wanted the cd/m2 of white" in done.stderr,
                  f"negative whiteLuminance: {done.stderr}")
 
 

@@ -49,6 +49,8 @@ static inline CompareInput picture_input(const char *name, int bits, Arena *aren
     CompareInput input = {.name = name,
                           .kind = INPUT_PICTURE,
                           .bits = bits,
+                          .tags = {.orientation = 1, .words = "", .is_srgb = true,
+                                   .is_known = true},
                           .light = {WIDTH, HEIGHT, {NULL}},
                           .codes = {WIDTH, HEIGHT, {NULL}}};
     for (int c = 0; c < 3; c++) {

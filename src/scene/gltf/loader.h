@@ -40,7 +40,7 @@ typedef struct Loader {
     ItemList parts;     /* PartDraft */
     ItemList materials; /* Material */
     ItemList material_uv_sets; /* int[2] a material: the TEXCOORD_n of Part.uv */
-    ItemList textures, displays, lights, cameras, curves;
+    ItemList textures, texture_words, displays, lights, cameras, curves;
     ItemList display_places; /* DisplayPlace, one a display */
     ItemList inputs;         /* const char * */
     ItemList input_hashes;   /* uint64_t */

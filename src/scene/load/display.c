@@ -135,9 +135,9 @@ static void set_panel(Loader *load, int display_id, const char *option, const ch
 static void set_content(Loader *load, int display_id, const char *option, const char *value)
 {
     Error err;
-    Image image;
+    DecodedImage decoded;
     Display *display = list_item(&load->displays, display_id);
-    if (!load_image(load, value, &image, &err)) {
+    if (!load_image(load, value, &decoded, &err)) {
         option_error(load, option, "%.300s: %.600s", value, err.text);
         return;
     }
@@ -146,8 +146,8 @@ static void set_content(Loader *load, int display_id, const char *option, const 
         display->content = (TextureSlot){.uv_from_uv = {1, 0, 0, 0, 1, 0}};
     else /* another picture on the same sampler */
         texture = *(const Texture *)list_item(&load->textures, display->content.texture_id);
-    texture.image = image;
-    display->content.texture_id = texture_add(load, texture);
+    texture.image = decoded.image;
+    display->content.texture_id = texture_add(load, texture, decoded.words);
 }
 
 /* Percent. Below 1 a share may be meant, above 100 what was measured is left: both are said
@@ -313,6 +313,18 @@ static void open_panel(Loader *load, int id)
                  "display \"%s\": %s: %s", display->name, display->panel_path, err.text);
 }
 
+/* A panel shows the codes that it gets, whatever a viewer would make of them. */
+static void warn_of_words(Loader *load, const Display *display, const DisplayPlace *place)
+{
+    const char *words =
+        *(const char **)list_item(&load->texture_words, display->content.texture_id);
+    if (words && words[0])
+        problems_add(load->problems, SEVERITY_WARNING, place->file, place->pointer,
+                     "display \"%s\": its content states %s, which is not applied: the values "
+                     "are taken as the codes that the panel gets, as they are stored",
+                     display->name, words);
+}
+
 static void check_content(Loader *load, int id)
 {
     const Display *display = list_item(&load->displays, id);
@@ -320,6 +332,8 @@ static void check_content(Loader *load, int id)
     if (display->content.texture_id == NO_ID)
         problems_add(load->problems, SEVERITY_WARNING, place->file, place->pointer,
                      "display \"%s\" has no content: it shows full white", display->name);
+    else
+        warn_of_words(load, display, place);
 }
 
 /* The scene's own word holds, else the panel's. */

@@ -5,6 +5,7 @@
 #include <strings.h>
 
 #include "scene/gltf/document.h"
+#include "image/picture_tags.h"
 #include "scene/gltf/variant.h"
 #include "text/uri.h"
 
@@ -119,7 +120,16 @@ static bool image_bytes(GltfFile *file, const GltfValue *image, FileBytes *bytes
            file_error(file, uri, "%s: %s", *name, err.text);
 }
 
-static void load_one_image(GltfFile *file, const GltfValue *image, ImageUse use, Image *out)
+/* What a file of codes says that they mean, and which way up; "" when that is usual. */
+static const char *words_of(FileBytes bytes, const Image *image, Arena *scratch)
+{
+    PictureTags tags = picture_tags_read(bytes.data, bytes.size, scratch);
+    if (image->format == IMAGE_RGBA32F) return "linear light";
+    return picture_tags_text(&tags, scratch);
+}
+
+static void load_one_image(GltfFile *file, const GltfValue *image, ImageUse use,
+                           DecodedImage *out)
 {
     Error err;
     FileBytes bytes;
@@ -127,8 +137,11 @@ static void load_one_image(GltfFile *file, const GltfValue *image, ImageUse use,
     bool is_used = use.is_shown;
     if (!image_bytes(file, image, &bytes, &name, &declared, is_used)) return;
     check_type(file, image, declared, bytes, use.is_webp);
-    if (image_read_memory(bytes.data, bytes.size, name, file->load->arena, out, &err)) return;
-    *out = (Image){0};
+    if (image_read_memory(bytes.data, bytes.size, name, file->load->arena, &out->image, &err)) {
+        out->words = words_of(bytes, &out->image, &file->load->scratch);
+        return;
+    }
+    out->image = (Image){0};
     if (is_used)
         file_error(file, image, "cannot be decoded: %s", err.text);
     else
@@ -142,18 +155,20 @@ static TextureWrap wrap_from_gl(int code)
     return code == 33071 ? WRAP_CLAMP : code == 33648 ? WRAP_MIRROR : WRAP_REPEAT;
 }
 
-int texture_add(Loader *load, Texture texture)
+int texture_add(Loader *load, Texture texture, const char *words)
 {
     *(Texture *)list_add(&load->textures, &load->scratch) = texture;
+    *(const char **)list_add(&load->texture_words, &load->scratch) = words;
     return load->textures.count - 1;
 }
 
 void images_load(GltfFile *file)
 {
+    static const DecodedImage none = {.words = ""};
     const GltfValue *images = tree_member(file->root, "images");
     const GltfValue *textures = tree_member(file->root, "textures");
     int image_count = images ? images->count : 0;
-    Image *decoded = ARENA_NEW(&file->load->scratch, Image, image_count);
+    DecodedImage *decoded = ARENA_NEW(&file->load->scratch, DecodedImage, image_count);
     const ImageUse *uses = image_uses(file, textures, image_count);
     load_progress_begin(file->load, "decode", "pictures", image_count);
     for (int i = 0; i < image_count; i++) {
@@ -166,20 +181,23 @@ void images_load(GltfFile *file)
         const GltfValue *texture = &textures->items[i];
         const GltfValue *sampler = tree_referred(tree_member(texture, "sampler"), "samplers");
         int source = texture_source(texture);
+        const DecodedImage *from = source >= 0 && source < image_count ? &decoded[source] : &none;
         texture_add(file->load, (Texture){
-            .image = source >= 0 && source < image_count ? decoded[source] : (Image){0},
+            .image = from->image,
             .wrap_u = wrap_from_gl(tree_int(sampler, "wrapS", 10497)),
             .wrap_v = wrap_from_gl(tree_int(sampler, "wrapT", 10497)),
-            .nearest = tree_int(sampler, "magFilter", 9729) == 9728});
+            .nearest = tree_int(sampler, "magFilter", 9729) == 9728}, from->words);
     }
 }
 
-bool load_image(Loader *load, const char *path, Image *out, Error *err)
+bool load_image(Loader *load, const char *path, DecodedImage *out, Error *err)
 {
     FileBytes bytes;
     if (!load_read(load, path, &load->scratch, &bytes, err)) return false;
-    if (image_read_memory(bytes.data, bytes.size, path, load->arena, out, err)) return true;
-    return error_in_file(err, path);
+    if (!image_read_memory(bytes.data, bytes.size, path, load->arena, &out->image, err))
+        return error_in_file(err, path);
+    out->words = words_of(bytes, &out->image, &load->scratch);
+    return true;
 }
 
 bool load_light_picture(Loader *load, const char *path, LightPicture *out, Error *err)

@@ -11,11 +11,17 @@ void images_load(GltfFile *file);
  * for readers without the extension; NO_ID: none that is read. */
 int texture_source(const GltfValue *texture);
 
-/* The texture's id. */
-int texture_add(Loader *load, Texture texture);
+typedef struct DecodedImage {
+    Image       image;
+    const char *words; /* what its file states of its codes that is not applied, "" or NULL:
+                          nothing (image/picture_tags.h) */
+} DecodedImage;
+
+/* The texture's id. words: of its image. */
+int texture_add(Loader *load, Texture texture, const char *words);
 
 /* Reads an image file, decoded into the scene's memory. */
-bool load_image(Loader *load, const char *path, Image *out, Error *err);
+bool load_image(Loader *load, const char *path, DecodedImage *out, Error *err);
 
 /* The same of a picture of surroundings: cd/m2. */
 bool load_light_picture(Loader *load, const char *path, LightPicture *out, Error *err);

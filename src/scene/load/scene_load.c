@@ -306,6 +306,7 @@ static Loader loader_start(const SceneOptions *options, Arena *arena, Problems *
                     .materials = list_of(sizeof(Material)),
                     .material_uv_sets = list_of(sizeof(int[SCENE_UV_SETS])),
                     .textures = list_of(sizeof(Texture)),
+                    .texture_words = list_of(sizeof(const char *)),
                     .displays = list_of(sizeof(Display)),
                     .lights = list_of(sizeof(PunctualLight)),
                     .cameras = list_of(sizeof(SceneCamera)),
