@@ -68,6 +68,7 @@ start 'scenes moved and turned' moved python3 tests/image/moved.py $program
 start 'faults and their outcomes' faults python3 tests/hostile/faults.py $program
 start 'closed forms in frames' image python3 tests/image/run.py $program
 start 'comparisons' compare python3 tests/hostile/compare.py $program
+start 'one light in every command' one-light python3 tests/image/one_light.py $program
 start 'same bits, any threads' bits python3 tests/image/bits.py $program
 start 'golden frames' golden python3 tests/image/golden.py $program
 start 'another renderer' library-renderer \

@@ -9,7 +9,7 @@
 #include "cli/options/cli.h"
 #include "cli/options/look_options.h"
 #include "image/develop.h"
-#include "image/light_file.h"
+#include "image/light/light_file.h"
 #include "image/exposure.h"
 #include "text/json_text.h"
 
@@ -96,8 +96,8 @@ static bool develop(DevelopWords *typed, Arena *arena, Error *err)
     Problems   problems = problems_start(arena);
     if (!light_file_read(typed->frame, arena, &problems, &file, err)) return false;
     cli_print_warnings(&problems);
-    const LookRequest request = {&file.frame, &typed->options, typed->output, typed->cli.threads,
-                                 &typed->eye};
+    const LookRequest request = {&file.frame, &typed->options, typed->output,
+                                 typed->cli.threads, &typed->eye};
     if (!look_options_develop(&request, *arena, &look, err)) return false;
     if (look.develop.is_developed && look.develop.nonfinite_pixels > 0)
         print_to(stderr,

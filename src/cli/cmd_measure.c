@@ -10,7 +10,7 @@
 #include "cli/luxmeter.h"
 #include "cli/measure_glare.h"
 #include "cli/options/answer.h"
-#include "image/light_file.h"
+#include "image/light/light_file.h"
 #include "measure/light_shares.h"
 #include "text/interval_text.h"
 #include "text/json_text.h"

@@ -4,8 +4,8 @@
  * NaN and infinity in light are a fault on whichever side, even on both. In layers of the first
  * surface (display.*, depth, position, normal, albedo, uv) they mean "nothing there" and must
  * stand at the same places; frames whose paths differ (another seed, other instructions) may
- * disagree at the rim of a surface, where one pixel was hit by a few samples only. In layers of the noise itself (variance,
- * halves, display.halves) they mean "too few samples".
+ * disagree at the rim of a surface, where one pixel was hit by a few samples only. In layers of
+ * the noise itself (variance, halves, display.halves) they mean "too few samples".
  *
  * Memory   from the arena. Threads: pure.
  */

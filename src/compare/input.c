@@ -62,8 +62,7 @@ static bool take_light(const LightFile *file, Arena *arena, CompareInput *input,
 static bool read_frame(FileBytes bytes, Arena *arena, CompareInput *input, Error *err)
 {
     LightFile file;
-    return light_file_read_memory(bytes.data, bytes.size, input->name, arena, &input->problems,
-                                  &file, err) &&
+    return light_file_read_memory(bytes, input->name, arena, &input->problems, &file, err) &&
            take_light(&file, arena, input, err) && read_parts(bytes, arena, input, err);
 }
 

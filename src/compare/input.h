@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* input.h -- one side of a comparison: a frame of light or a finished picture.
  *
- * A frame is a file of light (image/light_file.h). Everything else is a picture of codes, the
- * right way up, and as sRGB codes of the light that its file says they mean
- * (image/picture_tags.h); of other primaries these reach out of 0 .. 1.
+ * A frame is a file of light (image/light/light_file.h). Everything else is a picture of codes,
+ * the right way up, and as sRGB codes of the light that its file says they mean
+ * (image/light/picture_tags.h); of other primaries these reach out of 0 .. 1.
  *
  * Layout   the display window, row 0 at the top.
  * Memory   pixels come from the arena that is passed in.
@@ -12,8 +12,8 @@
  */
 #pragma once
 #include "compare/metrics/planes.h"
-#include "image/light_file.h"
-#include "image/picture_tags.h"
+#include "image/light/light_file.h"
+#include "image/light/picture_tags.h"
 
 typedef enum InputKind { INPUT_FRAME, INPUT_PICTURE } InputKind;
 

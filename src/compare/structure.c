@@ -338,8 +338,8 @@ static void compare_tags(const CompareInput *reference, const CompareInput *test
             lines_add(notes, "the %s states %s", side ? "test" : "reference", texts[side]);
     if (a->is_known && b->is_known) return;
     if (a->digest == b->digest)
-        lines_add(notes, "both state the same of their codes, which is not read: they are taken "
-                  "for sRGB");
+        lines_add(notes, "both state the same of their codes, which is not read: they are "
+                  "taken for sRGB");
     else
         lines_add(reasons, "what the %s states of its codes is not read (%s): wanted sRGB, a "
                   "profile of a matrix and curves, gAMA and cHRM",

@@ -15,8 +15,9 @@
  * Fails    for a header or pixels that are wrong: file, line or row, what was found.
  */
 #pragma once
+#include "base/arena.h"
+#include "base/error.h"
 #include "image/colour.h"
-#include "image/image.h"
 
 #define RADIANCE_LM_W 179.0 /* Radiance's white efficacy, lm/W */
 
@@ -26,7 +27,7 @@ typedef struct RadianceFile {
     bool         has_matrix;     /* these are not Rec.709's */
     ColourMatrix rec709;
     double       unit_cd_m2;     /* luminance of a white whose stored values are 1 */
-    const char  *view;           /* behind the last VIEW=, as Radiance's tools take it; or NULL */
+    const char  *view;           /* behind the last VIEW=, as Radiance's tools take it; NULL */
     const unsigned char *pixels; /* behind the header */
     size_t       size;
     int          count, length;  /* scan lines, and the pixels of each */

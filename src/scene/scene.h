@@ -245,7 +245,7 @@ typedef struct Environment {
     float luminance_cd_m2;       /* constant */
     float color[3];              /* constant: linear Rec.709, its luminance scaled to 1 */
     const char *hdri_path;       /* hdri: resolved path */
-    Image hdri;                  /* RGBA32F; cd/m2 after scale (image/light_picture.h) */
+    Image hdri;                  /* RGBA32F; cd/m2 after scale (image/light/light_picture.h) */
     float hdri_rotation;
     double hdri_unit_cd_m2;      /* luminance of a white whose stored values are 1 */
     float hdri_scale;

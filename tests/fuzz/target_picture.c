@@ -23,7 +23,8 @@ void fuzz_image(const uint8_t *data, size_t size, Arena *arena)
 {
     Error err = {0};
     Image image;
-    Arena small = small_arena(arena, IMAGE_BYTES);
+    Arena small = small_arena(arena, IMAGE_BYTES), tags = *arena;
+    picture_tags_read(data, size, &tags);
     if (!image_read_memory(data, size, size % 2 ? "picture.tga" : "picture", &small, &image,
                            &err)) {
         fuzz_claim_refusal(&err);

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """one_light.py PARHELION -- one light in every command: for each attribute that changes light,
-`sky`, a scene, `render`, `measure`, `develop` and `compare` take the same from the same file, or
-refuse it with the same words. And "same" is earned: no pixel differs where no figure does.
+`sky`, a scene, `render`, `measure`, `develop` and `compare` take the same from the same file,
+or refuse it with the same words. And "same" is earned: no pixel differs where no figure does.
 """
 import json
 import math
@@ -175,7 +175,8 @@ def claim_light(report, commands, name, rgb):
         report.claim(ok, f"{name}: {who} takes {value:.6g} cd/m2 instead of {wanted:.6g}")
     commands.exr("right.exr", exr_channels(rgb))
     right = commands.json("compare", "right.exr", name, "--max",
-                          f"max_difference={2e-6 * max(rgb)}", "--ignore", "A", "--metric", "mse")
+                          f"max_difference={2e-6 * max(rgb)}", "--ignore", "A",
+                          "--metric", "mse")
     report.claim(right.get("same"), f"{name}: compare takes another light: {right}")
 
 
@@ -244,7 +245,6 @@ def check_refused(report, commands):
     for name, attributes, words in REFUSED:
         commands.exr(f"{name}.exr", exr_channels(BASE), attributes)
         claim_refused(report, commands, f"{name}.exr", words)
-    commands.put("plain.png", b"")
     write_png(commands.path("plain.png"), WIDTH, HEIGHT, [90] * 3 * COUNT)
     for who, line in commands.all("plain.png").items():
         if who != "compare":
@@ -347,7 +347,8 @@ def check_parts(report, commands):
     commands.exr("single.exr", {c: [5.0] * COUNT for c in "RGB"})
     claim_warned(report, commands, "aa_parts.exr", "has 2 parts: the first one alone is read")
     for other, status, words in (("aa", 0, "equal in every pixel"), ("same", 0, "equal"),
-                                 ("ab", 1, "part two differs"), ("white", 1, "part two differs"),
+                                 ("ab", 1, "part two differs"),
+                                 ("white", 1, "part two differs"),
                                  ("named", 1, "part two is missing in the test")):
         done = commands.run("compare", "aa_parts.exr", f"{other}_parts.exr", "--max", "mse=1")
         report.claim(done.returncode == status and words in done.stdout,
@@ -386,7 +387,8 @@ def check_cube(report, commands):
 # ---- pictures of codes -----------------------------------------------------------------------
 
 def part(kind, body):
-    return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+    checksum = struct.pack(">I", zlib.crc32(kind + body))
+    return struct.pack(">I", len(body)) + kind + body + checksum
 
 
 def png(codes, *parts, width=WIDTH, height=HEIGHT):
@@ -417,7 +419,8 @@ def profile(gamma, space=b"RGB "):
     for name, body in tags.items():
         table += name + struct.pack(">II", 132 + 12 * len(tags) + len(data), len(body))
         data += body
-    head = struct.pack(">I", 128 + len(table) + len(data)) + bytes(12) + space + b"XYZ "
+    head = struct.pack(">I4xI", 128 + len(table) + len(data), 0x02400000) + b"mntr" + space
+    head += b"XYZ " + bytes(12) + b"acsp" + bytes(28) + struct.pack(">3i", 63190, 65536, 54061)
     return head + bytes(128 - len(head)) + table + data
 
 
@@ -456,6 +459,8 @@ PICTURES = (
     ("iCCP cut", (part(b"iCCP", b"x\0\0abc"),), None, "an ICC profile (damaged)"),
 )
 
+TOLD = ("sRGB", "gAMA 1", "gAMA, cHRM", "iCCP", "cICP of P3")  # as contents
+
 
 def claim_content(report, commands, name, words):
     """Codes are shown as they are, and what the file says of them is told of."""
@@ -484,7 +489,8 @@ def check_pictures(report, commands):
     for name, parts, shown, words in PICTURES:
         commands.put("a.png", png(grey, *parts))
         commands.put("red.png", png(red, *parts))
-        claim_content(report, commands, "a.png", words)
+        if name in TOLD:
+            claim_content(report, commands, "a.png", words)
         if shown is None:
             done = commands.json("compare", "a.png", "a.png")
             report.claim(done.get("same"), f"{name}: is not the same as itself: {done}")

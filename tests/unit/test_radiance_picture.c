@@ -2,8 +2,8 @@
 #include "frame_fixture.h"
 
 #include "image/frame_view.h"
-#include "image/light_file.h"
-#include "image/radiance/radiance_picture.h"
+#include "image/light/light_file.h"
+#include "image/light/radiance_picture.h"
 
 /* What Radiance's tools make of a pixel's bytes: the middles of the codes' steps, weighed for
  * its default primaries, times 179 lm/W. */
@@ -108,7 +108,7 @@ MEMORY_TEST(what_is_written_is_read_with_its_view)
 /* Lines of the pictures that this one was made from are indented. */
 MEMORY_TEST(the_last_view_of_the_header_counts)
 {
-    static const char HEAD[] = "#?RADIANCE\n\tVIEW= -vta -vh 90 -vv 90\n"
+    static const unsigned char HEAD[] = "#?RADIANCE\n\tVIEW= -vta -vh 90 -vv 90\n"
                                "VIEW= -vtv -vh 40 -vv 40\n"
                                "VIEW= -vta -vh 180 -vv 180\n\tVIEW= -vtl\n"
                                "FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x80";
@@ -116,8 +116,8 @@ MEMORY_TEST(the_last_view_of_the_header_counts)
     FrameView view;
     Problems  problems = problems_start(arena);
     Error     err;
-    assert_true(light_file_read_memory(HEAD, sizeof HEAD - 1, "x.hdr", arena, &problems, &file,
-                                       &err));
+    assert_true(light_file_read_memory((FileBytes){HEAD, sizeof HEAD - 1}, "x.hdr", arena,
+                                       &problems, &file, &err));
     assert_true(frame_view_find(&file.frame, &view, &err));
     assert_int_equal(view.fisheye, FISHEYE_EQUIDISTANT);
     assert_close(plane(&file.frame, 1)[0], 179 * 128.5 / 256, 1e-6);

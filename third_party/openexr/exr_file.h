@@ -64,7 +64,7 @@ typedef struct ExrPicture {
     ExrAttribute *attributes; /* files keep them sorted by name */
     int           channel_room, attribute_room; /* what the lists hold; not looked at here */
     const ExrWords *words;       /* a second part that is written; NULL: none, and when read */
-    int          more_parts;     /* of a file that is read: those behind the first, less words */
+    int          more_parts; /* of a file that is read: those behind the first, less words */
 } ExrPicture;
 
 /* Whole-file limits, refused before memory is taken for pixels. */

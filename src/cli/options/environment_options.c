@@ -8,7 +8,7 @@
 
 #include "base/file.h"
 #include "base/units.h"
-#include "image/light_picture.h"
+#include "image/light/light_picture.h"
 #include "sky/weather_light.h"
 #include "text/json_text.h"
 
@@ -62,8 +62,7 @@ static bool set_hdri(Change *change, const char *path, Error *err)
     FileBytes    bytes;
     LightPicture picture;
     if (!file_read(path, HDRI_BYTES_MAX, change->arena, &bytes, err) ||
-        !light_picture_read(bytes.data, bytes.size, path, change->arena, change->problems,
-                            &picture, err))
+        !light_picture_read(bytes, path, change->arena, change->problems, &picture, err))
         return false;
     if (environment->kind != ENVIRONMENT_HDRI) environment->hdri_scale = 1;
     environment->kind = ENVIRONMENT_HDRI;

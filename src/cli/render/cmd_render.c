@@ -19,7 +19,7 @@
 #include "cli/render/render_resume.h"
 #include "cli/render/render_setup.h"
 #include "film/film_frame.h"
-#include "image/radiance/radiance_picture.h"
+#include "image/light/radiance_picture.h"
 #include "render/identity.h"
 #include "render/signals.h"
 #include "scene/load/scene_load.h"

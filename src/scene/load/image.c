@@ -5,7 +5,7 @@
 #include <strings.h>
 
 #include "scene/gltf/document.h"
-#include "image/picture_tags.h"
+#include "image/light/picture_tags.h"
 #include "scene/gltf/variant.h"
 #include "text/uri.h"
 
@@ -181,7 +181,8 @@ void images_load(GltfFile *file)
         const GltfValue *texture = &textures->items[i];
         const GltfValue *sampler = tree_referred(tree_member(texture, "sampler"), "samplers");
         int source = texture_source(texture);
-        const DecodedImage *from = source >= 0 && source < image_count ? &decoded[source] : &none;
+        bool is_there = source >= 0 && source < image_count;
+        const DecodedImage *from = is_there ? &decoded[source] : &none;
         texture_add(file->load, (Texture){
             .image = from->image,
             .wrap_u = wrap_from_gl(tree_int(sampler, "wrapS", 10497)),
@@ -204,6 +205,5 @@ bool load_light_picture(Loader *load, const char *path, LightPicture *out, Error
 {
     FileBytes bytes;
     return load_read(load, path, &load->scratch, &bytes, err) &&
-           light_picture_read(bytes.data, bytes.size, path, load->arena, load->problems, out,
-                              err);
+           light_picture_read(bytes, path, load->arena, load->problems, out, err);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* image.h -- a file's images and textures. */
 #pragma once
-#include "image/light_picture.h"
+#include "image/light/light_picture.h"
 #include "scene/gltf/loader.h"
 
 /* The textures of the file, in its order; an image that no material shows may be broken. */
@@ -14,7 +14,7 @@ int texture_source(const GltfValue *texture);
 typedef struct DecodedImage {
     Image       image;
     const char *words; /* what its file states of its codes that is not applied, "" or NULL:
-                          nothing (image/picture_tags.h) */
+                          nothing (image/light/picture_tags.h) */
 } DecodedImage;
 
 /* The texture's id. words: of its image. */

@@ -2,7 +2,8 @@
 /* icc_read.h -- the light that codes mean, by an ICC profile of a matrix and curves, or by
  * primaries and one curve.
  *
- * Source   ICC.1:2022. The profile's light is that of D50, which Bradford's matrix takes to D65.
+ * Source   ICC.1:2022. The profile's light is that of D50, which Bradford's matrix takes to
+ *          D65.
  * Memory   curves point into the profile's bytes. Threads: pure functions.
  */
 #pragma once

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "image/light_file.h"
+#include "image/light/light_file.h"
 
 #include <string.h>
 
 #include "base/count.h"
-#include "base/file.h"
 #include "image/radiance_file.h"
 
 #define MAX_FILE_BYTES ((size_t)4 << 30)
@@ -38,10 +37,11 @@ static void warn_of_colour_space(const FrameImage *frame, const char *name, Prob
     }
 }
 
-static bool read_exr(const void *bytes, size_t size, const char *name, Arena *arena,
-                     Problems *problems, LightFile *out, Error *err)
+static bool read_exr(FileBytes bytes, const char *name, Arena *arena, Problems *problems,
+                     LightFile *out, Error *err)
 {
-    if (!frame_read_memory(bytes, size, name, arena, &out->frame, err)) return false;
+    if (!frame_read_memory(bytes.data, bytes.size, name, arena, &out->frame, err))
+        return false;
     const ExrAttribute *white = frame_attribute(&out->frame, "parhelion:whiteLuminance");
     out->unit_cd_m2 = white ? white->values[0] : 1;
     if (out->frame.more_parts)
@@ -61,8 +61,8 @@ static bool has_alpha(const Image *image)
     return i < count;
 }
 
-/* scale and rec709 (may be NULL) take what is stored to cd/m2 of Rec.709. A is there where it is
- * not 1 everywhere. */
+/* scale and rec709 (may be NULL) take what is stored to cd/m2 of Rec.709. A is there where it
+ * is not 1 everywhere. */
 static FrameImage frame_of(const Image *image, const double scale[3],
                            const ColourMatrix *rec709, Arena *arena)
 {
@@ -83,13 +83,13 @@ static FrameImage frame_of(const Image *image, const double scale[3],
 }
 
 /* The decoded picture stays where it is: the frame's planes follow it. */
-static bool read_radiance(const void *bytes, size_t size, const char *name, Arena *arena,
-                          LightFile *out, Error *err)
+static bool read_radiance(FileBytes bytes, const char *name, Arena *arena, LightFile *out,
+                          Error *err)
 {
     RadianceFile file;
     Image        image;
-    if (!radiance_open(bytes, size, name, arena, &file, err) ||
-        !image_read_memory(bytes, size, name, arena, &image, err))
+    if (!radiance_open(bytes.data, bytes.size, name, arena, &file, err) ||
+        !image_read_memory(bytes.data, bytes.size, name, arena, &image, err))
         return false;
     out->format = LIGHT_FILE_RADIANCE;
     out->frame = frame_of(&image, file.scale, file.has_matrix ? &file.rec709 : NULL, arena);
@@ -111,13 +111,13 @@ static bool is_no_light(const char *name, size_t size, Error *err)
                     size ? "is neither by its first bytes" : "is empty");
 }
 
-static bool read_floats(const void *bytes, size_t size, const char *name, Arena *arena,
-                        LightFile *out, Error *err)
+static bool read_floats(FileBytes bytes, const char *name, Arena *arena, LightFile *out,
+                        Error *err)
 {
     Image image;
     Error why;
-    if (!image_read_memory(bytes, size, name, arena, &image, &why))
-        return is_no_light(name, size, err);
+    if (!image_read_memory(bytes.data, bytes.size, name, arena, &image, &why))
+        return is_no_light(name, bytes.size, err);
     if (image.format != IMAGE_RGBA32F)
         return error_at(err, ERROR_INPUT, name, "",
                         "holds display codes, wanted linear light — an OpenEXR or Radiance HDR "
@@ -128,17 +128,17 @@ static bool read_floats(const void *bytes, size_t size, const char *name, Arena 
 
 /* ---- any --------------------------------------------------------------------------------- */
 
-bool light_file_read_memory(const void *bytes, size_t size, const char *name, Arena *arena,
-                            Problems *problems, LightFile *out, Error *err)
+bool light_file_read_memory(FileBytes bytes, const char *name, Arena *arena, Problems *problems,
+                            LightFile *out, Error *err)
 {
     LightFile made = {LIGHT_FILE_OPENEXR, {.channel_count = 0}, 1};
     bool      ok;
-    if (is_openexr(bytes, size))
-        ok = read_exr(bytes, size, name, arena, problems, &made, err);
-    else if (radiance_recognise(bytes, size))
-        ok = read_radiance(bytes, size, name, arena, &made, err);
+    if (is_openexr(bytes.data, bytes.size))
+        ok = read_exr(bytes, name, arena, problems, &made, err);
+    else if (radiance_recognise(bytes.data, bytes.size))
+        ok = read_radiance(bytes, name, arena, &made, err);
     else
-        ok = read_floats(bytes, size, name, arena, &made, err);
+        ok = read_floats(bytes, name, arena, &made, err);
     if (ok) *out = made;
     return ok;
 }
@@ -149,7 +149,7 @@ bool light_file_read(const char *path, Arena *arena, Problems *problems, LightFi
     Arena     file = arena_reserve(MAX_FILE_BYTES + 4096);
     FileBytes bytes;
     bool      ok = file_read(path, MAX_FILE_BYTES, &file, &bytes, err) &&
-              light_file_read_memory(bytes.data, bytes.size, path, arena, problems, out, err);
+              light_file_read_memory(bytes, path, arena, problems, out, err);
     arena_release(&file);
     return ok;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "image/picture_tags.h"
+#include "image/light/picture_tags.h"
 
 #include <math.h>
 #include <string.h>
@@ -49,7 +49,8 @@ static void read_packed_profile(const unsigned char *data, size_t size, Statemen
         Arena          kept = *out->arena;
         unsigned char *profile = ARENA_NEW(&kept, unsigned char, room);
         uLongf         length = room;
-        int done = uncompress(profile, &length, end + 2, (uLong)(size - (size_t)(end - data) - 2));
+        size_t         head = (size_t)(end - data) + 2;
+        int            done = uncompress(profile, &length, data + head, (uLong)(size - head));
         if (done == Z_BUF_ERROR && length == room) continue;
         if (done != Z_OK) return;
         *out->arena = kept;
@@ -152,7 +153,8 @@ static Statements find_statements(const unsigned char *bytes, size_t size, Arena
     if (!memcmp(bytes, "\x89PNG\r\n\x1a\n", 8)) read_png(bytes, size, &out);
     if (!memcmp(bytes, "\xff\xd8\xff", 3)) read_jpeg(bytes, size, &out);
     if (!memcmp(bytes, "II", 2) || !memcmp(bytes, "MM", 2)) read_tiff(bytes, size, &out);
-    if (!memcmp(bytes, "RIFF", 4) && !memcmp(bytes + 8, "WEBP", 4)) read_webp(bytes, size, &out);
+    bool is_webp = !memcmp(bytes, "RIFF", 4) && !memcmp(bytes + 8, "WEBP", 4);
+    if (is_webp) read_webp(bytes, size, &out);
     return out;
 }
 
@@ -176,8 +178,8 @@ static const struct CicpPrimaries {
     {22, {0.630, 0.340, 0.295, 0.605, 0.155, 0.077, 0.3127, 0.3290}},
 };
 
-/* Table 3, as a display shows it: television's curves by BT.1886 with a black of 0. NaN: a curve
- * that is not read; 0: sRGB's. */
+/* Table 3, as a display shows it: television's curves by BT.1886 with a black of 0. NaN: a
+ * curve that is not read; 0: sRGB's. */
 static double cicp_gamma(int code)
 {
     switch (code) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "image/light_picture.h"
+#include "image/light/light_picture.h"
 
 #include <math.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "base/mathd.h"
 #include "base/units.h"
 #include "image/layer_view.h"
-#include "image/light_file.h"
+#include "image/light/light_file.h"
 #include "openexr/exr_cube.h"
 
 /* ---- cube maps --------------------------------------------------------------------------- */
@@ -36,8 +36,8 @@ static bool unfold_cube(const char *name, Arena *arena, Image *image, Error *err
     Image out = {4 * image->width, 2 * image->width, IMAGE_RGBA32F, NULL};
     if (image->height != 6 * image->width || image->width > 8192)
         return error_at(err, ERROR_INPUT, name, "envmap",
-                        "is a cube map of %dx%d pixels, wanted six square faces of at most 8192 "
-                        "below each other", image->width, image->height);
+                        "is a cube map of %dx%d pixels, wanted six square faces of at most "
+                        "8192 below each other", image->width, image->height);
     float *rgba = ARENA_NEW(arena, float, 4 * (size_t)out.width * (size_t)out.height);
     for (int y = 0; y < out.height; y++)
         for (int x = 0; x < out.width; x++)
@@ -93,12 +93,12 @@ static void clean_pixels(const char *name, const Image *image, Problems *problem
                      "%zu values that are not finite count as 0", broken);
 }
 
-bool light_picture_read(const void *bytes, size_t size, const char *name, Arena *arena,
-                        Problems *problems, LightPicture *out, Error *err)
+bool light_picture_read(FileBytes bytes, const char *name, Arena *arena, Problems *problems,
+                        LightPicture *out, Error *err)
 {
     LightFile file;
     Image     image;
-    if (!light_file_read_memory(bytes, size, name, arena, problems, &file, err) ||
+    if (!light_file_read_memory(bytes, name, arena, problems, &file, err) ||
         !take_pixels(&file.frame, name, arena, &image, err))
         return false;
     clean_pixels(name, &image, problems);

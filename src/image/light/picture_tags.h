@@ -12,7 +12,7 @@
  */
 #pragma once
 #include "image/colour.h"
-#include "image/icc_read.h"
+#include "image/light/icc_read.h"
 #include "image/image.h"
 
 typedef struct PictureTags {

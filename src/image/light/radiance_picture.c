@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "image/radiance/radiance_picture.h"
+#include "image/light/radiance_picture.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "image/icc_read.h"
+#include "image/light/icc_read.h"
 
 #include <math.h>
 #include <string.h>

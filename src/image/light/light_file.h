@@ -11,11 +11,16 @@
  *          parts, the name of a colour space) there are warnings.
  */
 #pragma once
+#include "base/file.h"
 #include "base/problems.h"
 #include "image/frame.h"
 #include "image/image.h"
 
-typedef enum LightFormat { LIGHT_FILE_OPENEXR, LIGHT_FILE_RADIANCE, LIGHT_FILE_FLOATS } LightFormat;
+typedef enum LightFormat {
+    LIGHT_FILE_OPENEXR,
+    LIGHT_FILE_RADIANCE,
+    LIGHT_FILE_FLOATS
+} LightFormat;
 
 typedef struct LightFile {
     LightFormat format;
@@ -25,8 +30,8 @@ typedef struct LightFile {
 
 bool light_file_read(const char *path, Arena *arena, Problems *problems, LightFile *out,
                      Error *err);
-bool light_file_read_memory(const void *bytes, size_t size, const char *name, Arena *arena,
-                            Problems *problems, LightFile *out, Error *err);
+bool light_file_read_memory(FileBytes bytes, const char *name, Arena *arena, Problems *problems,
+                            LightFile *out, Error *err);
 
 /* OpenEXR and Radiance, by the first bytes: what is never a picture of codes. */
 bool light_file_recognise(const void *bytes, size_t size);
