@@ -188,7 +188,8 @@ static FrameImage copy_description(const ExrPicture *from, Arena *arena)
 static bool check_memory(const ExrPicture *picture, const Arena *arena, Error *err)
 {
     size_t left = (size_t)(arena->end - arena->next), margin = 1u << 20;
-    size_t bytes = frame_pixel_count(picture) * (size_t)picture->channel_count * sizeof(float);
+    size_t planes = (size_t)picture->channel_count + 2; /* a grey one may become three */
+    size_t bytes = frame_pixel_count(picture) * planes * sizeof(float);
     if (bytes + margin <= left) return true;
     return error_set(err, ERROR_MEMORY,
                      "%d channels of %zu pixels need %zu MB, %zu MB are left",

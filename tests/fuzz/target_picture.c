@@ -5,6 +5,7 @@
 #include "harness.h"
 #include "image/frame.h"
 #include "image/image.h"
+#include "image/light/picture_tags.h"
 #include "measure/measure.h"
 
 /* A small file may announce a large picture: this much memory and no more. */
