@@ -204,8 +204,9 @@ bool import_complete(ImportSet *set, Error *err)
         return error_set(err, ERROR_INPUT, "the files hold no table of a panel");
     if (!import_apply_references(set, err)) return false;
     import_find_anisotropy(set);
-    if (!import_join_parts(set, err) || !keep_usable(set, err)) return false;
-    import_merge_directions(set);
+    if (!import_join_parts(set, err) || !keep_usable(set, err) ||
+        !import_merge_directions(set, err))
+        return false;
     if (!import_mirror(set, err) || !import_complete_lights(set, err) ||
         !check_sources(set, err) || !import_check_lights(set, err))
         return false;

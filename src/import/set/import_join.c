@@ -406,21 +406,65 @@ static void take_means(ImportTable *table, const int *leader, int rows, Arena *a
     import_rows_give_measured(&means, table);
 }
 
-void import_merge_directions(ImportSet *set)
+#define REPEATS_APART 1.25 /* a factor: beyond it they are not one measurement, */
+#define REPEATS_SURE  3    /* where the sum of differences is so many times what noise makes */
+
+/* What stands again beside what stood first at the same directions. */
+typedef struct Repeats {
+    double ratio; /* of all values that stand again to those that stood first */
+    double sure;  /* the sum of the differences over the root of the sum of their squares */
+} Repeats;
+
+static Repeats compare_repeats(const ImportTable *table, const int *leader)
 {
-    int total = 0, tables = 0;
+    double first = 0, again = 0, squares = 0;
+    size_t size = (size_t)table->channels;
+    for (int i = 0; i < table->rows; i++) {
+        double apart = 0;
+        for (size_t c = 0; c < size && leader[i] != i; c++) {
+            double old = table->value[(size_t)leader[i] * size + c];
+            first += old;
+            again += table->value[(size_t)i * size + c];
+            apart += table->value[(size_t)i * size + c] - old;
+        }
+        squares += apart * apart;
+    }
+    bool is_light = first > 0 && again > 0 && squares > 0;
+    return (Repeats){is_light ? again / first : 1,
+                     is_light ? fabs(again - first) / sqrt(squares) : 0};
+}
+
+/* Noise goes out of the sums; another scale of a second run does not. */
+static bool check_repeats(const ImportTable *table, int repeats, Repeats found, Error *err)
+{
+    bool is_apart = found.ratio > REPEATS_APART || found.ratio < 1 / REPEATS_APART;
+    return !is_apart || found.sure < REPEATS_SURE ||
+           error_at(err, ERROR_INPUT, table->file, "",
+                    "%d directions stand more than once, with %.3g times the light when they "
+                    "stand again: required within %g times — leave one run out", repeats,
+                    found.ratio, REPEATS_APART);
+}
+
+bool import_merge_directions(ImportSet *set, Error *err)
+{
+    int    total = 0, tables = 0;
+    double most = 1;
     for (int i = 0; i < set->count; i++) {
         ImportTable *table = &set->table[i];
         Arena before = *set->arena;
         int  *leader = ARENA_NEW(set->arena, int, table->rows);
         int   repeats = find_repeats(table, *set->arena, leader);
+        Repeats found = compare_repeats(table, leader);
+        if (!check_repeats(table, repeats, found, err)) return false;
         if (repeats) take_means(table, leader, table->rows - repeats, set->arena);
         else *set->arena = before;
+        if (fabs(found.ratio - 1) > fabs(most - 1)) most = found.ratio;
         total += repeats;
         tables += repeats > 0;
     }
     if (total)
         import_note(set,
-                    "%d directions of %d tables stood more than once: their mean was taken",
-                    total, tables);
+                    "%d directions of %d tables stood more than once, with up to %.3g times the "
+                    "light: their mean was taken", total, tables, most);
+    return true;
 }

@@ -24,5 +24,6 @@ void import_remove_source(ImportSet *set, ImportSource source);
 bool import_join_parts(ImportSet *set, Error *err);
 
 /* A direction that stands more than once in a table becomes the mean of its values; theta 0
- * is left alone. */
-void import_merge_directions(ImportSet *set);
+ * is left alone. Fails where what stands again is all in all another light than what stood
+ * first: noise goes out of that sum, two runs of different scale do not. */
+bool import_merge_directions(ImportSet *set, Error *err);
