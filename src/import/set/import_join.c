@@ -464,7 +464,7 @@ bool import_merge_directions(ImportSet *set, Error *err)
     }
     if (total)
         import_note(set,
-                    "%d directions of %d tables stood more than once, with up to %.3g times the "
-                    "light: their mean was taken", total, tables, most);
+                    "%d directions of %d tables stood more than once, with up to %.3g times "
+                    "the light: their mean was taken", total, tables, most);
     return true;
 }
