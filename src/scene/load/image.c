@@ -129,6 +129,7 @@ static void load_one_image(GltfFile *file, const GltfValue *image, ImageUse use,
     check_type(file, image, declared, bytes, use.is_webp);
     if (image_read_memory(bytes.data, bytes.size, name, file->load->arena, out, &err)) return;
     *out = (Image){0};
+    load_note(file->load, &file->load->undecoded, name);
     if (is_used)
         file_error(file, image, "cannot be decoded: %s", err.text);
     else
