@@ -20,8 +20,9 @@ typedef struct JobWords {
 JobWords job_words(const SharedJob *job, const Cli *cli, const char *const *own, int own_count,
                    Arena *arena);
 
-/* Enters the folder from which the job's names are seen. Fails: ERROR_INPUT. */
-bool job_enter(const SharedJob *job, Error *err);
+/* Enters the folder from which the job's names are seen. Fails: ERROR_INPUT, also where the
+ * manifest has words that `--slurm` does not let through: who wrote it is not known. */
+bool job_enter(const SharedJob *job, Arena scratch, Error *err);
 
 typedef struct JobReviewPart {
     int              index;
