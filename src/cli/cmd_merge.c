@@ -109,7 +109,7 @@ static bool is_review(const MergeRun *work)
 }
 
 /* Who wrote a manifest is not known: where it alone names the output, only the job's own frame
- * is written over. */
+ * is written over, or what stood there when the job was planned. */
 static bool check_own_frame(const MergeRun *work, Error *err)
 {
     ExrReader *there;
@@ -120,9 +120,10 @@ static bool check_own_frame(const MergeRun *work, Error *err)
     if (opens) found = frame_string(exr_reader_picture(there), "parhelion:identity");
     bool is_own = found && !strncmp(found, wanted, strlen(wanted));
     if (opens) exr_reader_destroy(there);
-    return is_own || error_at(err, ERROR_OUTPUT, work->output, "",
-                              "is there already and no frame of this job: it is written over "
-                              "only by -o FRAME.exr");
+    return is_own || job_may_replace(&work->job, *work->arena) ||
+           error_at(err, ERROR_OUTPUT, work->output, "",
+                    "is there already and no frame of this job: it is written over only by "
+                    "-o FRAME.exr");
 }
 
 static bool parse(int argc, char **argv, MergeRun *work, Error *err)

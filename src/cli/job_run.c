@@ -51,7 +51,7 @@ static bool is_elsewhere(const SharedJob *job, const char *word)
 }
 
 /* What `--slurm` would keep of them is all of them. */
-static bool check_words(const SharedJob *job, Arena scratch, Error *err)
+bool job_check_words(const SharedJob *job, Arena scratch, Error *err)
 {
     int    count = 1, kept_count, i = 0;
     char **argv = ARENA_NEW(&scratch, char *, job->word_count + 1);
@@ -70,7 +70,7 @@ static bool check_words(const SharedJob *job, Arena scratch, Error *err)
 
 bool job_enter(const SharedJob *job, Arena scratch, Error *err)
 {
-    if (!check_words(job, scratch, err)) return false;
+    if (!job_check_words(job, scratch, err)) return false;
     return chdir(job->folder) == 0 ||
            error_at(err, ERROR_INPUT, job->folder, "",
                     "cannot be entered: %s — the job was planned there", strerror(errno));

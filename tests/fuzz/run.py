@@ -42,10 +42,11 @@ def targets_of(program):
     return [(line.split()[0], int(line.split()[1])) for line in listed.splitlines()]
 
 
-def foreign_seeds(name, most, folder):
-    """Copies of the shared data's small files for a target, in a folder of their own."""
+def more_seeds(program, name, most, folder):
+    """What the target makes itself, and copies of the shared data's small files for it."""
     seeds = os.path.join(folder, "seeds", name)
     os.makedirs(seeds)
+    subprocess.run([program, f"--target={name}", f"--make={seeds}"], check=True)
     for pattern in FOREIGN.get(name, ()):
         for path in glob.glob(os.path.join(SHARED, pattern), recursive=True):
             if os.path.isfile(path) and os.path.getsize(path) <= most:
@@ -113,7 +114,7 @@ class Fuzzing:
                 "-print_final_stats=1", "-reload=0", f"-artifact_prefix={found}",
                 *([f"-dict={words}"] if os.path.exists(words) else []), corpus,
                 *[path for path in own if os.path.isdir(path)],
-                foreign_seeds(name, most, folder)]
+                more_seeds(self.program, name, most, folder)]
 
     def take_one_processor(self):
         """Libraries that code with as many threads as there are processors use none then."""

@@ -77,11 +77,9 @@ static bool write_merge(const SharedJob *job, Arena scratch, Error *err)
     add_job_name(&text, job, "-merge");
     text_add(&text, "#SBATCH --open-mode=append\n");
     add_log(&text, job, "merge.log");
-    text_add(&text, "# After all tasks, well or not (afterany): what is missing is listed.\n");
-    text_format(&text, "exec %s --quiet", job_merge_command(job, &scratch));
-    if (job->kind == JOB_FRAME) /* typed when it was planned: an older frame is written over */
-        text_format(&text, " -o %s", escape_shell(job_output_file(job, &scratch), &scratch));
-    text_add(&text, "\n");
+    text_format(&text, "# After all tasks, well or not (afterany): what is missing is listed.\n"
+                       "exec %s --quiet\n",
+                job_merge_command(job, &scratch));
     return text_write(&text, job_file(job, JOB_MERGE, &scratch), err);
 }
 

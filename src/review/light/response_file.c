@@ -13,7 +13,7 @@
 #define MAGIC "PRHLRESP"
 #define BYTE_ORDER_MARK 0x01020304u
 #define FILE_BYTES_MOST ((size_t)1 << 28)
-#define LEVEL_MOST 9
+#define LEVEL_MOST RESPONSE_LEVEL
 #define CELL_BYTES (RESPONSE_BANDS * sizeof(float))
 #define GROUP_BYTES (2 * RESPONSE_GROUPS * sizeof(float))
 
