@@ -262,7 +262,7 @@ static bool compare_folders(CompareRun *run, Error *err)
     if (!folders_match(r->reference, r->test, run->arena, &pairs, err)) return false;
     for (int i = 0; i < pairs.count; i++) {
         const char *const files[] = {pairs.list[i].reference, pairs.list[i].test};
-        if (!outputs_spare(&r->cli, files, COUNT_OF(files), err)) return false;
+        if (!outputs_spare(&r->cli.outputs, files, COUNT_OF(files), err)) return false;
     }
     Progress progress = progress_start(r->cli.progress, "compare", "pairs", pairs.count);
     for (int i = 0; i < pairs.count; i++) {

@@ -149,8 +149,8 @@ static bool parse(int argc, char **argv, MergeRun *work, Error *err)
     if (strcmp(path_ending(work->output), ".exr") != 0)
         return error_set(err, ERROR_USAGE, "-o %s: wanted a name that ends in .exr",
                          work->output);
-    if (work->by_manifest) outputs_note(&work->cli, "-o", work->output);
-    return outputs_spare(&work->cli, work->files, work->count, err) &&
+    if (work->by_manifest) outputs_note(&work->cli.outputs, "-o", work->output);
+    return outputs_spare(&work->cli.outputs, work->files, work->count, err) &&
            check_own_frame(work, err) && file_check_writable(work->output, err);
 }
 

@@ -91,7 +91,8 @@ static bool run_one(PartRun *work, Error *err)
     const SharedJob   *job = &work->job;
     Lines          folder;
     const JobReviewPart part = {work->index, work->name, &folder};
-    return job_enter(job, *work->arena, err) && job_folder_list(job, work->arena, &folder, err) &&
+    return job_enter(job, *work->arena, err) &&
+           job_folder_list(job, work->arena, &folder, err) &&
            (job->kind == JOB_REVIEW
                 ? job_review_part(job, &work->cli, &part, work->arena, err)
                 : render(work, &folder, err));
@@ -103,8 +104,8 @@ static bool run_whole(PartRun *work, Error *err)
     Error why;
     if (!run_one(work, err)) return false;
     if (job_part_is_done(&work->job, work->index, false, *work->arena, &why)) return true;
-    return error_at(err, ERROR_INPUT, work->name, "", "is not done: the command of the job ended "
-                    "well and made no such part");
+    return error_at(err, ERROR_INPUT, work->name, "", "is not done: the command of the job "
+                    "ended well and made no such part");
 }
 
 /* Notes why a task failed. One that was stopped did not fail; nor did one that lost the race

@@ -417,7 +417,8 @@ static bool build(SkyRun *work, Error *err)
     if (!reference_check_root(work->root, err)) return false;
     if (files.path_count &&
         (!scene_load(&files, work->arena, &work->problems, &work->scene, err) ||
-         !outputs_spare(&work->cli, work->scene->inputs, work->scene->input_count, err)))
+         !outputs_spare(&work->cli.outputs, work->scene->inputs, work->scene->input_count,
+                        err)))
         return false;
     if (!environment_change(&work->change, work->scene, work->arena, &work->problems, err))
         return false;

@@ -16,7 +16,8 @@ static bool refuse(const char *path, const char *found, const char *required, Er
 static bool check_xml(const char *path, const FileBytes *bytes, Error *err)
 {
     const char *text = (const char *)bytes->data;
-    if (memchr(text, 0, bytes->size)) return refuse(path, "has zero bytes", "XML in UTF-8", err);
+    if (memchr(text, 0, bytes->size))
+        return refuse(path, "has zero bytes", "XML in UTF-8", err);
     if (strcasestr(text, "<!DOCTYPE"))
         return refuse(path, "has a document type (<!DOCTYPE)", "XML without one", err);
     return !strcasestr(text, "<Reference") ||

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """run.py [--seconds N | --runs N] [--targets A,B] [--jobs N] BUILD_DIR -- fuzzes every target.
-run.py --record BUILD_DIR -- adds what was counted there to tests/fuzz/runs.csv.
+run.py --record BUILD_DIR -- adds what was counted there to runs.csv, beside this file.
 
 BUILD_DIR is that of the preset "fuzz". The time (five minutes) is shared among the targets, two
 at a time; --runs: so many executions of each instead. What is learned stays in

@@ -353,8 +353,9 @@ size_t fuzz_make_job(uint8_t *data, size_t max_size, unsigned number, Arena *are
     JobPart   parts[2] = {{{0, 0, 52, 36}, 0, 4}, {{0, 0, 52, 36}, 4, 8}};
     SharedJob job = {.kind = number ? JOB_REVIEW : JOB_FRAME, .dir = "/job",
                      .program = "/bin/p", .folder = "/", .line = "parhelion render",
-                     .output = "frame.exr", .identity = identity, .isa = "sse2", .part_count = 2, .width = 52,
-                     .height = 36, .parts = parts, .word_count = COUNT_OF(words)};
+                     .output = "frame.exr", .identity = identity, .isa = "sse2",
+                     .part_count = 2, .width = 52, .height = 36, .parts = parts,
+                     .word_count = COUNT_OF(words)};
     if (number > 1) return 0;
     job.words = ARENA_NEW(arena, const char *, COUNT_OF(words));
     for (int i = 0; i < COUNT_OF(words); i++) job.words[i] = words[i];

@@ -76,7 +76,7 @@ static bool make_page(EquipWords *words, Arena *arena, Error *err)
         words->output ? words->output : arena_format(arena, "%.*s.equip.html", stem, name);
     Problems problems = problems_start(arena);
     Scene   *scene;
-    if (!words->output) outputs_note(&words->cli, "-o", page);
+    if (!words->output) outputs_note(&words->cli.outputs, "-o", page);
     if (!file_check_writable(page, err) ||
         !scene_load_shown(&options, words->cli.progress, arena, &problems, &scene, err))
         return false;
@@ -85,7 +85,7 @@ static bool make_page(EquipWords *words, Arena *arena, Error *err)
                                                   escape_shell(words->root, arena)) : "";
     const char *command = arena_format(arena, "parhelion equip %s%s",
                                        escape_shell(model, arena), root);
-    bool ok = outputs_spare(&words->cli, scene->inputs, scene->input_count, err) &&
+    bool ok = outputs_spare(&words->cli.outputs, scene->inputs, scene->input_count, err) &&
               equip_page_write(scene, model, command, page, arena, err) &&
               print_page(words, page, scene, err);
     scene_close(scene);

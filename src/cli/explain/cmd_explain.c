@@ -47,7 +47,7 @@ typedef struct SceneQuestion {
     ProgressMode      progress; /* of loading */
     bool              with_outlook;
     Problems         *problems;
-    const Cli        *cli;
+    const Outputs    *outputs;
 } SceneQuestion;
 
 #define BOUNCES 64
@@ -118,7 +118,7 @@ static bool explain_scene(const SceneQuestion *question, Arena *arena, Explained
     Bvh         *bvh = NULL;
     Lights      *lights;
     const SceneAsked asked = {&question->scene, &question->environment, question->progress,
-                              question->cli};
+                              question->outputs};
     if (!kernel_choose(question->isa, &tools.kernel, err) ||
         !scene_options_load(&asked, arena, question->problems, &scene, err))
         return false;
@@ -490,7 +490,7 @@ static bool parse(int argc, char **argv, Arena *arena, ExplainWords *out, Error 
     if (out->cli.help_shown) return true;
     scene->threads = out->cli.threads;
     scene->progress = out->cli.progress;
-    scene->cli = &out->cli;
+    scene->outputs = &out->cli.outputs;
     scene->with_outlook = out->outlook != NULL;
     if (!(is_review(out) ? check_review(out, err) : read_scene(out, arena, err))) return false;
     return check_outputs(out, err);
@@ -517,20 +517,21 @@ static bool review_question(const ExplainWords *words, Arena *arena, Explained *
 {
     const SceneQuestion *scene = &words->scene;
     const char     *root = scene->scene.root, *sun = scene->environment.sun;
-    Cli             cli = words->cli;
+    Outputs         outputs = words->cli.outputs;
     ReviewRequest   request;
     ExplainOptions  options = {.condition = words->condition, .eye = words->eye,
                                .symbol = words->symbol, .has_sun = sun != NULL,
                                .means = {.root = root, .state = scene->scene.state,
                                          .isa = scene->isa, .threads = scene->threads},
                                .paths = scene->paths, .with_outlook = scene->with_outlook,
-                               .problems = scene->problems, .read = spare_scene, .user = &cli};
+                               .problems = scene->problems, .read = spare_scene,
+                               .user = &outputs};
     if (sun && !read_sun(sun, options.sun_deg, err)) return false;
     if (!review_request_read(words->cli.arguments[0], root, arena, scene->problems, &request,
                              err))
         return false;
     const Lines files = review_request_files(&request, arena);
-    return outputs_spare(&cli, files.list, files.count, err) &&
+    return outputs_spare(&outputs, files.list, files.count, err) &&
            (profile_load(request.profile, arena, &options.profile, err) ||
             error_in_file(err, request.file)) &&
            explain_review(&request, &options, arena, out, err);

@@ -448,7 +448,7 @@ static bool run(int argc, char **argv, Arena *arena, Error *err)
     if (!parse(argc, argv, arena, &words, err)) return false;
     if (words.cli.help_shown) return true;
     const SceneAsked asked = {&words.scene, &words.environment, words.cli.progress,
-                              &words.cli};
+                              &words.cli.outputs};
     bool ok = scene_options_load(&asked, arena, &problems, &scene, err) &&
               probe(&words, scene, &problems, arena, err);
     scene_close(scene);

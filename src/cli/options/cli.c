@@ -387,13 +387,14 @@ static bool check_outputs(const Parser *in, const CliTexts *arguments, Cli *cli)
         const CliTexts *list = option->out;
         bool is_list = option->kind == OPTION_TEXTS;
         if (!in->first[i] || (option->kind != OPTION_TEXT && !is_list)) continue;
-        if (option->file) outputs_note(cli, option->name, *(const char **)option->out);
+        if (option->file)
+            outputs_note(&cli->outputs, option->name, *(const char **)option->out);
         for (int k = 0; is_list && k < list->count; k++)
             append_text(&words, list->list[k], in->arena);
         if (!is_list && option->file != OPTION_OUTPUT)
             append_text(&words, *(const char **)option->out, in->arena);
     }
-    return outputs_spare_words(cli, &words, in->err);
+    return outputs_spare_words(&cli->outputs, &words, in->err);
 }
 
 static bool is_help_alone(const Parser *in)

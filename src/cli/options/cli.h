@@ -27,12 +27,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "cli/options/command.h"
-
-#define CLI_OUTPUTS_MAX 12
-
-typedef struct CliOutput {
-    const char *option, *path;
-} CliOutput;
+#include "cli/options/outputs.h"
 
 /* Results of cli_parse besides the values. */
 typedef struct Cli {
@@ -43,8 +38,7 @@ typedef struct Cli {
     bool         threads_given;
     const char **arguments;  /* words that are no options */
     int          argument_count;
-    CliOutput    outputs[CLI_OUTPUTS_MAX]; /* files that will be written */
-    int          output_count;
+    Outputs      outputs;
 } Cli;
 
 /* argv[0] is the command's own name and skipped. Lists come from the arena; texts stay argv's.

@@ -88,7 +88,7 @@ bool scene_options_load(const SceneAsked *asked, Arena *arena, Problems *problem
     Scene *scene;
     if (!scene_load_shown(asked->options, asked->progress, arena, problems, &scene, err))
         return false;
-    if (!outputs_spare(asked->cli, scene->inputs, scene->input_count, err) ||
+    if (!outputs_spare(asked->outputs, scene->inputs, scene->input_count, err) ||
         !environment_change(asked->change, scene, arena, problems, err)) {
         scene_close(scene);
         return false;

@@ -141,7 +141,7 @@ static bool run_fit(int argc, char **argv, Arena *arena, Error *err)
     json_t      *report = NULL;
     bool ok = reference_check_root(words.root, err) &&
               measurement_read_below(words.cli.arguments[0], words.root, arena, set, err) &&
-              outputs_spare(&words.cli, set->inputs.list, set->inputs.count, err) &&
+              outputs_spare(&words.cli.outputs, set->inputs.list, set->inputs.count, err) &&
               (!words.levels || measurement_read_levels(set, words.levels, arena, err)) &&
               panel_fit(set, &fit, words.output, arena, &report, err);
     if (!ok && (!report || !words.cli.json)) {

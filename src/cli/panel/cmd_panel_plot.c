@@ -70,7 +70,7 @@ static bool open_and_draw(PlotRequest *request, const Cli *cli, Arena *arena, js
     Measurement *measured = request->measured ? ARENA_NEW(arena, Measurement, 1) : NULL;
     if (measured &&
         (!measurement_read_below(request->measured, request->root, arena, measured, err) ||
-         !outputs_spare(cli, measured->inputs.list, measured->inputs.count, err)))
+         !outputs_spare(&cli->outputs, measured->inputs.list, measured->inputs.count, err)))
         return false;
     request->level.parts = PANEL_COARSE_ALL;
     if (!panel_level_open(request->panel, &request->level, arena, &panel, err)) return false;

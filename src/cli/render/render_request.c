@@ -305,7 +305,7 @@ static void set_checkpoint(const RenderWords *typed, Arena *arena, RenderRequest
         !request->replays && (request->checkpoint || typed->has_interval || request->resumes);
     if (request->checkpoint || !request->output) return;
     request->checkpoint = arena_format(arena, "%s.checkpoint", request->output);
-    outputs_note(&request->cli, "-o", request->checkpoint);
+    outputs_note(&request->cli.outputs, "-o", request->checkpoint);
 }
 
 /* --resume stands behind the command's name, so that it stands before any `--`. */
@@ -321,6 +321,13 @@ static const char *resume_line(int argc, char **argv, bool resumes, Arena *arena
 }
 
 /* ---- rows of the option table that belong together --------------------------------------- */
+
+#define OUTPUT_OPTIONS(request)                                                                \
+    {"-o", OPTION_TEXT, "FRAME.exr|.hdr",                                                      \
+     "the frame; .hdr: R, G, B as a Radiance picture with its view", &(request)->output,       \
+     .file = OPTION_OUTPUT},                                                                   \
+    {"--png", OPTION_TEXT, "FILE", "develop the frame as well (PNG, JPEG, TIFF by ending)",    \
+     &(request)->png, .file = OPTION_OUTPUT}
 
 #define CHECKPOINT_OPTIONS(request, typed)                                                     \
     {"--checkpoint", OPTION_TEXT, "FILE",                                                      \
@@ -357,11 +364,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
 {
     EnvironmentChange *outside = &request->environment;
     const Option options[] = {
-        {"-o", OPTION_TEXT, "FRAME.exr|.hdr",
-         "the frame; .hdr: R, G, B as a Radiance picture with its view", &request->output,
-         .file = OPTION_OUTPUT},
-        {"--png", OPTION_TEXT, "FILE", "develop the frame as well (PNG, JPEG, TIFF by ending)",
-         &request->png, .file = OPTION_OUTPUT},
+        OUTPUT_OPTIONS(request),
         LOOK_OPTIONS(&request->look),
         {"--false-colour", OPTION_CHOICE, "luminance", "show luminance on a scale of colours",
          &typed->false_colour, .given = &request->look.false_colour},

@@ -177,7 +177,7 @@ static bool start(const ReviewWords *words, Arena *arena, Error *err)
     Scene       *scene;
     if (!scene_load(&options, arena, &problems, &scene, err)) return false;
     cli_print_warnings(&problems);
-    bool ok = outputs_spare(&words->cli, scene->inputs, scene->input_count, err) &&
+    bool ok = outputs_spare(&words->cli.outputs, scene->inputs, scene->input_count, err) &&
               review_request_start(&asked, scene, arena, err);
     scene_close(scene);
     return ok;

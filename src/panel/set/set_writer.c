@@ -36,8 +36,8 @@ static bool check_replaced(const Lines *inputs, const char *path, Error *err)
     for (int i = 0; i < inputs->count; i++)
         if (file_is_same(inputs->list[i], path))
             return error_at(err, ERROR_OUTPUT, path, "",
-                            "is one of the files that the set is made from and would be written "
-                            "over — choose another folder for the manifest");
+                            "is one of the files that the set is made from and would be "
+                            "written over — choose another folder for the manifest");
     return file_check_writable(path, err);
 }
 
