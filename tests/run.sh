@@ -51,6 +51,7 @@ start 'a matte finish tried out' finish python3 tests/image/finish.py $program
 start 'the README as written, its review met' guides guides_and_meeting
 start 'the command line' cli python3 tests/hostile/cli.py $program
 start 'options given twice' options python3 tests/hostile/options.py $program
+start 'an output never replaces an input' outputs python3 tests/hostile/outputs.py $program
 start 'what is not known is no pass' unjudged python3 tests/hostile/unjudged.py $program
 start 'one judged quantity a row' judged python3 tests/hostile/judged.py $program
 start 'settings that cannot be meant' settings python3 tests/hostile/settings.py $program

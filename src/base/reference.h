@@ -3,8 +3,10 @@
  *
  * The sender of a scene or a measurement set must not be able to make the program read what
  * they cannot see themselves. So a file may name only what lies, symbolic links followed, in
- * the parent of its own folder or below; the user may add one more folder (--root DIR). What
- * the user names on the command line is not limited.
+ * the parent of its own folder or below; where that file is somebody else's, or its parent is
+ * the root of all, the home folder or above that, in its own folder or below; where its own
+ * folder is such a one, files beside it that are not hidden. The user may add one more folder
+ * (--root DIR). What the user names on the command line is not limited.
  *
  * Memory   paths lie in the arena.
  * Threads  no shared state.
@@ -15,10 +17,14 @@
 #include "base/arena.h"
 #include "base/error.h"
 
-/* `relative`, decoded, as it stands in the file `from`. root: a folder whose files may be named
- * as well; NULL: none. */
-bool reference_resolve(const char *from, const char *relative, const char *root, Arena *arena,
-                       const char **out, Error *err);
+typedef struct ReferenceReach {
+    const char *root;       /* a folder whose files may be named as well; NULL: none */
+    bool        own_folder; /* of the file: its parent is out of reach */
+} ReferenceReach;
+
+/* `relative`, decoded, as it stands in the file `from`. */
+bool reference_resolve(const char *from, const char *relative, ReferenceReach reach,
+                       Arena *arena, const char **out, Error *err);
 
 /* That the folder of --root is there. NULL is fine. */
 bool reference_check_root(const char *root, Error *err);

@@ -3,11 +3,13 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/count.h"
 #include "base/file_write.h"
 #include "print/print.h"
 #include "cli/commands.h"
 #include "cli/compare_request.h"
 #include "cli/options/answer.h"
+#include "cli/options/outputs.h"
 #include "compare/folders.h"
 #include "compare/metrics.h"
 #include "compare/report/comparison_json.h"
@@ -258,6 +260,10 @@ static bool compare_folders(CompareRun *run, Error *err)
     const CompareRequest *r = run->request;
     FolderPairs           pairs;
     if (!folders_match(r->reference, r->test, run->arena, &pairs, err)) return false;
+    for (int i = 0; i < pairs.count; i++) {
+        const char *const files[] = {pairs.list[i].reference, pairs.list[i].test};
+        if (!outputs_spare(&r->cli.outputs, files, COUNT_OF(files), err)) return false;
+    }
     Progress progress = progress_start(r->cli.progress, "compare", "pairs", pairs.count);
     for (int i = 0; i < pairs.count; i++) {
         progress_clear(&progress);

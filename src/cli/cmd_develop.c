@@ -26,7 +26,8 @@ static bool parse(int argc, char **argv, Arena *arena, DevelopWords *out, Error 
     int  kind = -1;
     long bits = 8;
     const Option options[] = {
-        {"-o", OPTION_TEXT, "FILE", "the picture: .png, .jpg or .tif", .out = &out->output},
+        {"-o", OPTION_TEXT, "FILE", "the picture: .png, .jpg or .tif", .out = &out->output,
+         .file = OPTION_OUTPUT},
         LOOK_OPTIONS(o),
         EYE_OPTIONS(&out->eye),
         {"--false-colour", OPTION_CHOICE, "luminance", "luminance as colours, with the scale",

@@ -16,6 +16,7 @@
 #include "cli/job_run.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
+#include "cli/options/outputs.h"
 #include "cli/render/command_line.h"
 #include "cli/render/render_answer.h"
 #include "render/identity.h"
@@ -30,7 +31,8 @@ typedef struct MergeRun {
     const char *output;
     bool        keeps_sums;   /* --part */
     Arena      *arena;
-    bool        is_job;       /* the argument was a job's folder */
+    bool        is_job;       /* the argument was a job's folder, */
+    bool        by_manifest;  /* and that alone says where the frame goes */
     SharedJob   job;
     const char **files;       /* the parts' */
     int         count;
@@ -81,6 +83,7 @@ static bool take_job(MergeRun *work, Error *err)
     if (count) return report_missing(work, missing, count, err);
     if (job->kind == JOB_REVIEW)
         return !work->keeps_sums || error_set(err, ERROR_USAGE, "--part: a review has no sums");
+    work->by_manifest = !work->output;
     if (!work->output) work->output = job_output_file(job, work->arena);
     work->keeps_sums = work->keeps_sums || job->keeps_sums;
     return true;
@@ -105,12 +108,30 @@ static bool is_review(const MergeRun *work)
     return work->is_job && work->job.kind == JOB_REVIEW;
 }
 
+/* Who wrote a manifest is not known: where it alone names the output, only the job's own frame
+ * is written over, or what stood there when the job was planned. */
+static bool check_own_frame(const MergeRun *work, Error *err)
+{
+    ExrReader *there;
+    Error      why;
+    if (!work->by_manifest || !file_exists(work->output)) return true;
+    const char *wanted = work->job.identity, *found = NULL;
+    bool        opens = exr_reader_open(work->output, &there, &why);
+    if (opens) found = frame_string(exr_reader_picture(there), "parhelion:identity");
+    bool is_own = found && !strncmp(found, wanted, strlen(wanted));
+    if (opens) exr_reader_destroy(there);
+    return is_own || job_may_replace(&work->job, *work->arena) ||
+           error_at(err, ERROR_OUTPUT, work->output, "",
+                    "is there already and no frame of this job: it is written over only by "
+                    "-o FRAME.exr");
+}
+
 static bool parse(int argc, char **argv, MergeRun *work, Error *err)
 {
     const Option options[] = {
         {"-o", OPTION_TEXT, "FRAME.exr",
          "what is written (default, of a job: the frame or review that it was planned for)",
-         &work->output},
+         &work->output, .file = OPTION_OUTPUT},
         {"--part", OPTION_FLAG, NULL,
          "keep the exact sums, so that the frame can be merged again", &work->keeps_sums},
     };
@@ -128,7 +149,9 @@ static bool parse(int argc, char **argv, MergeRun *work, Error *err)
     if (strcmp(path_ending(work->output), ".exr") != 0)
         return error_set(err, ERROR_USAGE, "-o %s: wanted a name that ends in .exr",
                          work->output);
-    return file_check_writable(work->output, err);
+    if (work->by_manifest) outputs_note(&work->cli.outputs, "-o", work->output);
+    return outputs_spare(&work->cli.outputs, work->files, work->count, err) &&
+           check_own_frame(work, err) && file_check_writable(work->output, err);
 }
 
 /* ---- the parts' attributes --------------------------------------------------------------- */

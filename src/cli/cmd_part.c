@@ -91,10 +91,21 @@ static bool run_one(PartRun *work, Error *err)
     const SharedJob   *job = &work->job;
     Lines          folder;
     const JobReviewPart part = {work->index, work->name, &folder};
-    return job_enter(job, err) && job_folder_list(job, work->arena, &folder, err) &&
+    return job_enter(job, *work->arena, err) &&
+           job_folder_list(job, work->arena, &folder, err) &&
            (job->kind == JOB_REVIEW
                 ? job_review_part(job, &work->cli, &part, work->arena, err)
                 : render(work, &folder, err));
+}
+
+/* Whatever the words of the manifest did instead: nothing is done without the part. */
+static bool run_whole(PartRun *work, Error *err)
+{
+    Error why;
+    if (!run_one(work, err)) return false;
+    if (job_part_is_done(&work->job, work->index, false, *work->arena, &why)) return true;
+    return error_at(err, ERROR_INPUT, work->name, "", "is not done: the command of the job "
+                    "ended well and made no such part");
 }
 
 /* Notes why a task failed. One that was stopped did not fail; nor did one that lost the race
@@ -136,7 +147,7 @@ static bool do_part(PartRun *work, Error *err)
     work->was_there = is_done(work);
     if (!work->was_there) {
         job_part_forget_failure(&work->job, work->index, *work->arena);
-        if (!run_one(work, err) && !end_badly(work, err)) return false;
+        if (!run_whole(work, err) && !end_badly(work, err)) return false;
     }
     job_part_clean(&work->job, work->index, *work->arena);
     return print_answer(work, err);

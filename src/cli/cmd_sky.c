@@ -14,6 +14,7 @@
 #include "cli/commands.h"
 #include "cli/options/answer.h"
 #include "cli/options/environment_options.h"
+#include "cli/options/outputs.h"
 #include "cli/options/scene_warnings.h"
 #include "image/frame.h"
 #include "light/sky.h"
@@ -415,7 +416,9 @@ static bool build(SkyRun *work, Error *err)
     work->scene = none;
     if (!reference_check_root(work->root, err)) return false;
     if (files.path_count &&
-        !scene_load(&files, work->arena, &work->problems, &work->scene, err))
+        (!scene_load(&files, work->arena, &work->problems, &work->scene, err) ||
+         !outputs_spare(&work->cli.outputs, work->scene->inputs, work->scene->input_count,
+                        err)))
         return false;
     if (!environment_change(&work->change, work->scene, work->arena, &work->problems, err))
         return false;
@@ -456,7 +459,8 @@ static bool run_sky(int argc, char **argv, Arena *arena, Error *err)
     int   projection = 0;
     const Option options[] = {
         {"-o", OPTION_TEXT, "SKY.exr|.png|.svg",
-         "linear light in cd/m2, or a chart in false colours with the sun's way", &work.output},
+         "linear light in cd/m2, or a chart in false colours with the sun's way", &work.output,
+         .file = OPTION_OUTPUT},
         ENVIRONMENT_OPTIONS(&work.change),
         {"--projection", OPTION_CHOICE, "equirectangular|fisheye",
          "of an EXR (charts show both)", &projection},

@@ -127,8 +127,10 @@ bool compare_parse(int argc, char **argv, Arena *arena, CompareRequest *out, Err
          "share of false alarms of the statistical test (default 0.01), which then judges "
          "besides the limits", .out = &o->level, .low = 1e-12, .high = 0.5,
          .given = &words.has_level},
-        {"--report", OPTION_TEXT, "OUT.html", "one page to look at it", .out = &out->report},
-        {"--junit", OPTION_TEXT, "FILE.xml", "the answer for a CI service", .out = &out->junit},
+        {"--report", OPTION_TEXT, "OUT.html", "one page to look at it", .out = &out->report,
+         .file = OPTION_OUTPUT},
+        {"--junit", OPTION_TEXT, "FILE.xml", "the answer for a CI service", .out = &out->junit,
+         .file = OPTION_OUTPUT},
         {"--mask", OPTION_TEXT, "FILE.png", "a picture of the same size: black is left out",
          .out = &o->selection.mask},
         {"--region", OPTION_NUMBERS, "X0,Y0,X1,Y1",

@@ -8,8 +8,11 @@
 #include <unistd.h>
 
 #include "base/count.h"
+#include "cli/job/job_manifest.h"
 #include "cli/job/job_scripts.h"
+#include "cli/render/command_line.h"
 #include "cli/review/cmd_review.h"
+#include "cli/review/review_job.h"
 
 static const char *progress_word(const Cli *cli, Arena *arena)
 {
@@ -35,8 +38,39 @@ JobWords job_words(const SharedJob *job, const Cli *cli, const char *const *own,
     return words;
 }
 
-bool job_enter(const SharedJob *job, Error *err)
+/* Options that do something else than the job: those that control a run do not come so far. */
+static bool is_elsewhere(const SharedJob *job, const char *word)
 {
+    static const char *const names[JOB_KINDS][3] = {[JOB_FRAME] = {"--replay"},
+                                                    [JOB_REVIEW] = {"--init", "--dry-run",
+                                                                    "--watch"}};
+    bool found = cli_help_form(word) != HELP_NONE || cli_is_version(word);
+    for (int i = 0; i < 3 && names[job->kind][i]; i++)
+        found = found || cli_is_option(word, names[job->kind][i]);
+    return found;
+}
+
+/* What `--slurm` would keep of them is all of them. */
+bool job_check_words(const SharedJob *job, Arena scratch, Error *err)
+{
+    int    count = 1, kept_count, i = 0;
+    char **argv = ARENA_NEW(&scratch, char *, job->word_count + 1);
+    for (int k = 0; k < job->word_count; k++)
+        argv[count++] = arena_string(&scratch, job->words[k], strlen(job->words[k]));
+    const char **kept = (job->kind == JOB_REVIEW ? review_part_words : command_line_part_words)(
+        count, argv, &scratch, &kept_count);
+    while (i < kept_count && kept[i] == argv[i + 1] &&
+           (!strcmp(kept[i], "--") || !is_elsewhere(job, kept[i])))
+        i = strcmp(kept[i], "--") ? i + 1 : job->word_count;
+    if (i >= job->word_count) return true;
+    return error_at(err, ERROR_INPUT, job_file(job, JOB_MANIFEST, &scratch),
+                    arena_format(&scratch, "/words/%d", i),
+                    "is '%.200s', required words that `--slurm` lets through", job->words[i]);
+}
+
+bool job_enter(const SharedJob *job, Arena scratch, Error *err)
+{
+    if (!job_check_words(job, scratch, err)) return false;
     return chdir(job->folder) == 0 ||
            error_at(err, ERROR_INPUT, job->folder, "",
                     "cannot be entered: %s — the job was planned there", strerror(errno));
@@ -93,6 +127,6 @@ bool job_review_merge(const SharedJob *job, const Cli *cli, const char *output, 
                         .resume_line = job_merge_command(job, arena)};
     for (int i = 0; i < job->part_count; i++)
         task.found[i] = job_part_file(job, i, job_part_ending(job), arena);
-    return job_enter(job, err) &&
+    return job_enter(job, *arena, err) &&
            cmd_review_run(words.count, words.list, &task, arena, err);
 }

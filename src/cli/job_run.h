@@ -20,8 +20,13 @@ typedef struct JobWords {
 JobWords job_words(const SharedJob *job, const Cli *cli, const char *const *own, int own_count,
                    Arena *arena);
 
-/* Enters the folder from which the job's names are seen. Fails: ERROR_INPUT. */
-bool job_enter(const SharedJob *job, Error *err);
+/* Whether a manifest's words are such as `--slurm` leaves there: none that names an output,
+ * controls the run or makes something else. Fails: ERROR_INPUT with the first that is not. */
+bool job_check_words(const SharedJob *job, Arena scratch, Error *err);
+
+/* Enters the folder from which the job's names are seen. Fails: ERROR_INPUT, also where the
+ * manifest has such words: who wrote it is not known. */
+bool job_enter(const SharedJob *job, Arena scratch, Error *err);
 
 typedef struct JobReviewPart {
     int              index;

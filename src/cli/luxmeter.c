@@ -153,7 +153,8 @@ bool luxmeter_run(const Cli *cli, const LuxmeterRequest *request, Arena *arena, 
     if (request->wants_csv && cli->json)
         return error_set(err, ERROR_USAGE, "--csv and --json exclude each other");
     if (!read_places(&request->places, arena, &places, err)) return false;
-    const SceneAsked asked = {&request->scene, &request->environment, cli->progress};
+    const SceneAsked asked = {&request->scene, &request->environment, cli->progress,
+                              &cli->outputs};
     if (!scene_options_load(&asked, arena, &problems, &scene, err)) return false;
     cli_print_warnings(&problems);
     const IlluminanceOptions options = {

@@ -11,6 +11,7 @@
 #include "image/exposure.h"
 #include "image/icc_profile.h"
 #include "image/layer_view.h"
+#include "image/ocio_file.h"
 #include "image/srgb.h"
 #include "opencolorio/view_transform.h"
 
@@ -75,7 +76,7 @@ static bool apply_view(Picture *picture, const DevelopOptions *options, DevelopR
     ViewTransform    *transform;
     const char       *config = chosen_config(options);
     const ViewRequest request = {config, OWN_OCIO_CONFIG, options->display,
-                                 chosen_view(options, config)};
+                                 chosen_view(options, config), ocio_file_check};
     if (!view_transform_create(&request, &transform, err)) return false;
     snprintf(report->config, sizeof report->config, "%s", view_transform_config(transform));
     snprintf(report->display, sizeof report->display, "%s", view_transform_display(transform));

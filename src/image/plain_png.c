@@ -3,6 +3,8 @@
 
 #include <png.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define SIDE_MAX 65536
@@ -86,4 +88,50 @@ bool plain_png_read(const PlainPng *png, unsigned char *rgba)
 {
     PlainPng file = *png;
     return read(&file, rgba);
+}
+
+/* ---- files of any kind ------------------------------------------------------------------- */
+
+static void keep_words(png_structp png, png_const_charp words)
+{
+    char *why = png_get_error_ptr(png);
+    snprintf(why, PNG_WHY_BYTES, "%s", words);
+    png_longjmp(png, 1);
+}
+
+static void ignore(png_structp png, png_const_charp words)
+{
+    (void)png;
+    (void)words;
+}
+
+/* Every row into the same one, freed by the caller: a fault jumps out of here. */
+static bool decode_all(png_structp png, png_infop info, Source *source, double most_pixels,
+                       unsigned char **row)
+{
+    if (setjmp(png_jmpbuf(png))) return false;
+    png_set_read_fn(png, source, take);
+    png_read_info(png, info);
+    uint32_t width = png_get_image_width(png, info), height = png_get_image_height(png, info);
+    if ((double)width * height > most_pixels) return true;
+    int passes = png_set_interlace_handling(png);
+    png_read_update_info(png, info);
+    *row = malloc(png_get_rowbytes(png, info));
+    for (int pass = 0; *row && pass < passes; pass++)
+        for (uint32_t y = 0; y < height; y++) png_read_row(png, *row, NULL);
+    if (*row) png_read_end(png, info);
+    return true;
+}
+
+bool png_is_sound(const unsigned char *bytes, size_t size, double most_pixels,
+                  char why[static PNG_WHY_BYTES])
+{
+    Source         source = {bytes, size};
+    unsigned char *row = NULL;
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, why, keep_words, ignore);
+    png_infop   info = png ? png_create_info_struct(png) : NULL;
+    bool        ok = !info || decode_all(png, info, &source, most_pixels, &row);
+    png_destroy_read_struct(&png, &info, NULL);
+    free(row);
+    return ok;
 }

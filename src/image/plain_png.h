@@ -6,12 +6,17 @@
  * library for all pictures (openimageio/image_file.h), which takes a fifth of a second to load,
  * and its reasons.
  *
+ * A file of another kind that is damaged is known here too, since that library prints a line of
+ * its own about it.
+ *
  * By libpng.
  * Threads  no state. Memory: the caller's, and libpng's own while it reads: some rows.
  */
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>
+
+#define PNG_WHY_BYTES 128
 
 typedef struct PlainPng {
     const unsigned char *bytes; /* the file: whole, with the right checksums */
@@ -22,6 +27,11 @@ typedef struct PlainPng {
 
 /* False: not plain. */
 bool plain_png_open(const unsigned char *bytes, size_t size, PlainPng *out);
+
+/* Whether a file of any kind decodes to its end; one of more than `most_pixels` is not decoded
+ * beyond its head. False: `why` has libpng's words. */
+bool png_is_sound(const unsigned char *bytes, size_t size, double most_pixels,
+                  char why[static PNG_WHY_BYTES]);
 
 /* rgba: 4 * width * height bytes, from the top; grey counts as all three colours, without alpha
  * it is 255. False: not plain after all. */

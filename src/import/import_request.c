@@ -239,6 +239,10 @@ bool import_run(const char *const *file, int count, const ImportRequest *request
     set->black_is_zero = request->black_is_zero;
     if (request->text.white_reflectance > 0)
         set->white_reflectance = request->text.white_reflectance;
+    const char *const beside[] = {request->primaries, request->levels, request->specular.file};
+    for (int i = 0; i < COUNT_OF(beside); i++)
+        if (beside[i]) lines_put(&set->inputs, beside[i]);
+    for (int i = 0; i < count; i++) lines_put(&set->inputs, file[i]);
     if (request->primaries && !primaries_read(request->primaries, &request->text, set, err))
         return false;
     return read_files(file, count, request, set, err) && import_complete(set, err) &&

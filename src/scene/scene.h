@@ -289,6 +289,8 @@ typedef struct Scene {
     const char **inputs; /* every file that was read, for hashes in the frame */
     uint64_t  *input_hashes; /* XXH3 64 of each */
     int       input_count;
+    const char **undecoded; /* those that are no picture, although named as one */
+    int       undecoded_count;
     const char **extensions; /* every extensionsUsed, sorted, once each */
     int       extension_count;
     const char **variants; /* names of KHR_materials_variants, of all files, in their order */
@@ -353,6 +355,7 @@ typedef struct SceneOptions {
     int path_count;
     const char *root; /* --root: a folder whose files they may name besides those of their own
                          folder's parent; NULL: none */
+    bool own_folder; /* somebody else's: not the parent, the folder alone */
     const SceneOverride *contents; /* --content MATERIAL=IMAGE */
     int content_count;
     const SceneOverride *panels; /* --panel MATERIAL=FILE.panel */

@@ -47,7 +47,7 @@ bool json_view_open(const char *file, Arena *arena, JsonView *out, Error *err)
         json_decref(root);
         return fails;
     }
-    *out = (JsonView){root, arena_string(arena, file, strlen(file)), "", arena, NULL,
+    *out = (JsonView){root, arena_string(arena, file, strlen(file)), "", arena, NULL, NULL,
                       XXH3_64bits(bytes.data, bytes.size)};
     return true;
 }
@@ -102,8 +102,11 @@ bool json_view_file(const JsonView *view, const char *key, const char *text, con
                     Error *err)
 {
     Error why;
-    return reference_resolve(view->file, text, view->root, view->arena, out, &why) ||
-           error_at(err, why.code, view->file, json_view_path(view, key), "%s", why.text);
+    if (!reference_resolve(view->file, text, (ReferenceReach){view->root, false}, view->arena,
+                           out, &why))
+        return error_at(err, why.code, view->file, json_view_path(view, key), "%s", why.text);
+    if (view->named) lines_put(view->named, *out);
+    return true;
 }
 
 static bool in_range(const JsonView *view, const char *key, double value,

@@ -14,6 +14,7 @@
 
 #include "base/arena.h"
 #include "base/error.h"
+#include "base/lines.h"
 
 typedef struct JsonView {
     json_t     *object; /* NULL: the key was absent and everything keeps its default */
@@ -21,6 +22,7 @@ typedef struct JsonView {
     const char *path;   /* JSON path of the object, "" for the root */
     Arena      *arena;
     const char *root;   /* a folder whose files it may name besides its own; NULL: none */
+    Lines      *named;  /* gets the files that it names; NULL: nobody asks */
     uint64_t    hash;   /* XXH3 64 of the bytes that were read of the file; of no file 0 */
 } JsonView;
 

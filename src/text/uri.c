@@ -127,3 +127,12 @@ const char *uri_between(const char *folder, const char *file, Arena *arena)
     add_escaped(&text, file + shared);
     return text.data ? text.data : "";
 }
+
+bool uri_may_be_named(const char *from, const char *uri, ReferenceReach reach, Arena scratch)
+{
+    Error       none;
+    char       *relative;
+    const char *path;
+    return uri_decode(uri, &scratch, &relative, &none) &&
+           reference_resolve(from, relative, reach, &scratch, &path, &none);
+}

@@ -9,6 +9,7 @@
 #include "base/arena.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/reference.h"
 
 /* The length of the scheme before its colon, 0 when there is none ("C:/x" counts as one). */
 size_t uri_scheme_length(const char *uri);
@@ -21,6 +22,9 @@ bool uri_decode(const char *uri, Arena *arena, char **out, Error *err);
 /* The way from a folder, "/a/b/", to a file, "/a/c d": "../c%20d". Both are absolute, without
  * links, and need not be there. */
 const char *uri_between(const char *folder, const char *file, Arena *arena);
+
+/* Whether the file `from` may name another by this URI (base/reference.h). */
+bool uri_may_be_named(const char *from, const char *uri, ReferenceReach reach, Arena scratch);
 
 /* The bytes of a data: URI; *media_type (may be NULL) is its type, "" if it has none. */
 bool data_uri_decode(const char *uri, Arena *arena, FileBytes *out, const char **media_type,

@@ -109,14 +109,25 @@ static void arena_is_full(size_t bytes_wanted, size_t bytes_left)
     fuzz_claim(false, "a small input needs little memory");
 }
 
-void fuzz_run(const FuzzTarget *target, const uint8_t *data, size_t size)
+static Arena start_run(void)
 {
     if (!whole.begin) {
         whole = arena_reserve(FUZZ_ARENA_BYTES);
         whole.on_full = arena_is_full;
     }
     if (files_made > FILES_KEPT) empty_folder();
-    Arena arena = whole;
+    return whole;
+}
+
+size_t fuzz_make(const FuzzTarget *target, uint8_t *data, unsigned number)
+{
+    Arena arena = start_run();
+    return target->make ? target->make(data, target->max_size, number, &arena) : 0;
+}
+
+void fuzz_run(const FuzzTarget *target, const uint8_t *data, size_t size)
+{
+    Arena arena = start_run();
     running = target;
     target->run(data, size, &arena);
     if ((size_t)(arena.next - whole.next) > ARENA_KEPT_BYTES)

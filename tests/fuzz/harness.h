@@ -26,12 +26,16 @@ typedef void FuzzRun(const uint8_t *data, size_t size, Arena *arena);
 /* Changes data in place; the new size is at most max_size. */
 typedef size_t FuzzMutate(uint8_t *data, size_t size, size_t max_size, unsigned seed);
 
+/* Writes valid input `number`; 0: there are no more. */
+typedef size_t FuzzMake(uint8_t *data, size_t max_size, unsigned number, Arena *arena);
+
 typedef struct FuzzTarget {
     const char *name;    /* of its folders in corpus/ and found/, and of its dictionary */
     FuzzRun    *run;
     FuzzMutate *mutate;  /* NULL: libFuzzer's own */
     size_t      max_size;
     const char *more;    /* for the run function: which importer */
+    FuzzMake   *make;    /* NULL: corpus/ has all there are */
 } FuzzTarget;
 
 /* All of them; the last one's name is NULL. */
@@ -41,6 +45,9 @@ const FuzzTarget *fuzz_target_named(const char *name); /* NULL: there is none */
 
 /* One run of a target. */
 void fuzz_run(const FuzzTarget *target, const uint8_t *data, size_t size);
+
+/* The same of a target's `make`. */
+size_t fuzz_make(const FuzzTarget *target, uint8_t *data, unsigned number);
 
 /* The `more` of the target that runs. */
 const char *fuzz_more(void);
@@ -72,11 +79,15 @@ void fuzz_mutate_places(uint8_t *data, size_t size, unsigned seed);
 uint32_t fuzz_random(uint64_t *state);
 
 FuzzMutate fuzz_mutate_json, fuzz_mutate_glb, fuzz_mutate_png, fuzz_mutate_panel,
-    fuzz_mutate_checkpoint;
+    fuzz_mutate_checkpoint, fuzz_mutate_field, fuzz_mutate_response, fuzz_mutate_journal;
+
+FuzzMake fuzz_make_field, fuzz_make_response, fuzz_make_journal, fuzz_make_answers,
+    fuzz_make_job;
 
 /* ---- targets ----------------------------------------------------------------------------- */
 
 FuzzRun fuzz_scene, fuzz_panel, fuzz_import, fuzz_import_any, fuzz_import_text,
     fuzz_declaration, fuzz_image, fuzz_frame, fuzz_manifest, fuzz_recipe, fuzz_table,
     fuzz_weather, fuzz_curve, fuzz_primaries, fuzz_environment, fuzz_cli, fuzz_uri,
-    fuzz_part, fuzz_checkpoint, fuzz_review, fuzz_route;
+    fuzz_part, fuzz_checkpoint, fuzz_review, fuzz_route, fuzz_field, fuzz_response,
+    fuzz_journal, fuzz_answers, fuzz_job;

@@ -13,7 +13,7 @@
 #include "base/file.h"
 #include "harness.h"
 
-enum { MUTATIONS = 2, ROOM = 2 };
+enum { MUTATIONS = 2, ROOM = 2, MADE_MUTATIONS = 200 };
 
 /* What a mutator asks for beyond its own changes: here nothing. */
 size_t fuzz_mutate_bytes(uint8_t *data, size_t size, size_t max_size)
@@ -62,12 +62,31 @@ static int replay_folder(const FuzzTarget *target, const char *folder, Arena are
     return count;
 }
 
+/* What the target makes itself, and many mutations of it: no corpus holds them. */
+static int replay_made(const FuzzTarget *target, Arena arena)
+{
+    int      count = 0;
+    size_t   size;
+    uint8_t *made = ARENA_NEW(&arena, uint8_t, target->max_size);
+    uint8_t *changed = ARENA_NEW(&arena, uint8_t, target->max_size);
+    for (; (size = fuzz_make(target, made, (unsigned)count)) > 0; count++) {
+        fprintf(stderr, "%s: made %d\n", target->name, count);
+        run_exact(target, made, size);
+        for (unsigned i = 0; target->mutate && i < MADE_MUTATIONS; i++) {
+            memcpy(changed, made, size);
+            run_exact(target, changed, target->mutate(changed, size, target->max_size, i));
+        }
+    }
+    return count;
+}
+
 int main(int argc, char **argv)
 {
     int   count = 0, empty = 0;
     Arena arena = arena_reserve(FUZZ_ARENA_BYTES);
     for (const FuzzTarget *target = fuzz_targets; target->name; target++) {
         int before = count;
+        count += replay_made(target, arena);
         for (int i = 1; i < argc; i++) count += replay_folder(target, argv[i], arena);
         empty += count == before;
         if (count == before) fprintf(stderr, "%s: no input\n", target->name);

@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """run.py [--seconds N | --runs N] [--targets A,B] [--jobs N] BUILD_DIR -- fuzzes every target.
+run.py --record BUILD_DIR -- adds what was counted there to runs.csv, beside this file.
 
 BUILD_DIR is that of the preset "fuzz". The time (five minutes) is shared among the targets, two
 at a time; --runs: so many executions of each instead. What is learned stays in
 BUILD_DIR/fuzzing/corpus, an input that breaks something in BUILD_DIR/fuzzing/found/TARGET: it
 belongs into tests/fuzz/found/TARGET, with what was wrong put right.
+
+The count goes on from call to call (BUILD_DIR/fuzzing/runs.csv) towards GOAL runs in all; the
+targets with the fewest of them come first and get twice the time.
 """
 import argparse
 import concurrent.futures
+import csv
 import glob
 import os
 import re
@@ -15,7 +20,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import threading
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
@@ -23,6 +27,7 @@ SHARED = os.path.join(os.path.dirname(ROOT), "shared", "data")
 sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
 from report import Report  # noqa: E402
 
+RECORD, GOAL = os.path.join(HERE, "runs.csv"), 10**8
 # Of a process, of one allocation, of one input (others may use the machine too).
 MEMORY_MB, BLOCK_MB, INPUT_S = 2560, 256, 20
 # Other people's files that are seeds of a target, where they are small enough.
@@ -42,15 +47,48 @@ def targets_of(program):
     return [(line.split()[0], int(line.split()[1])) for line in listed.splitlines()]
 
 
-def foreign_seeds(name, most, folder):
-    """Copies of the shared data's small files for a target, in a folder of their own."""
+def more_seeds(program, name, most, folder):
+    """What the target makes itself, and copies of the shared data's small files for it."""
     seeds = os.path.join(folder, "seeds", name)
     os.makedirs(seeds)
+    subprocess.run([program, f"--target={name}", f"--make={seeds}"], check=True)
     for pattern in FOREIGN.get(name, ()):
         for path in glob.glob(os.path.join(SHARED, pattern), recursive=True):
             if os.path.isfile(path) and os.path.getsize(path) <= most:
                 shutil.copy(path, os.path.join(seeds, f"{len(os.listdir(seeds))}"))
     return seeds
+
+
+def counts_of(path):
+    """{target: [runs, processor seconds]}, empty without the file."""
+    if not os.path.exists(path):
+        return {}
+    with open(path, newline="", encoding="utf-8") as file:
+        return {row["target"]: [int(row["runs"]), float(row["processor_s"])]
+                for row in csv.DictReader(file)}
+
+
+def add_counts(to, more):
+    for name, (runs, seconds) in more.items():
+        before = to.get(name, [0, 0.0])
+        to[name] = [before[0] + runs, before[1] + seconds]
+    return to
+
+
+def write_counts(path, counts):
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        rows = csv.writer(file, lineterminator="\n")
+        rows.writerow(("target", "runs", "processor_s"))
+        rows.writerows((name, runs, round(seconds)) for name, (runs, seconds)
+                       in sorted(counts.items()))
+
+
+def record(build):
+    """The committed table gets what this build has counted."""
+    own = os.path.join(build, "fuzzing", "runs.csv")
+    write_counts(RECORD, add_counts(counts_of(RECORD), counts_of(own)))
+    write_counts(own, {})
 
 
 def number(pattern, text, default=0):
@@ -91,12 +129,16 @@ class Fuzzing:
         wanted = options.targets.split(",") if options.targets else None
         self.targets = [(name, most) for name, most in targets_of(self.program)
                         if not wanted or name in wanted]
-        self.lock = threading.Lock()
+        self.counts = os.path.join(self.kept, "runs.csv")
+        known = add_counts(counts_of(RECORD), counts_of(self.counts))
+        self.targets.sort(key=lambda target: known.get(target[0], [0])[0])
+        self.rare = {name for name, _ in self.targets[:len(self.targets) // 2]}
 
-    def limits(self):
+    def limits(self, name):
         if self.options.runs:
             return [f"-runs={self.options.runs}"]
-        share = self.options.seconds * self.options.jobs / len(self.targets)
+        parts = len(self.targets) + len(self.rare)
+        share = self.options.seconds * self.options.jobs / parts * (1 + (name in self.rare))
         return [f"-max_total_time={max(2, round(share))}"]
 
     def command(self, name, most, folder):
@@ -106,14 +148,14 @@ class Fuzzing:
         os.makedirs(found, exist_ok=True)
         own = [os.path.join(HERE, kind, name) for kind in ("corpus", "found")]
         words = os.path.join(HERE, "words", f"{name}.dict")
-        return [self.program, f"--target={name}", *self.limits(), f"-max_len={most}",
+        return [self.program, f"--target={name}", *self.limits(name), f"-max_len={most}",
                 f"-timeout={INPUT_S}", f"-report_slow_units={INPUT_S}",
                 f"-rss_limit_mb={MEMORY_MB}", f"-malloc_limit_mb={BLOCK_MB}",
                 "-detect_leaks=0",  # is done once, at the end: a look after every run is slow
                 "-print_final_stats=1", "-reload=0", f"-artifact_prefix={found}",
                 *([f"-dict={words}"] if os.path.exists(words) else []), corpus,
                 *[path for path in own if os.path.isdir(path)],
-                foreign_seeds(name, most, folder)]
+                more_seeds(self.program, name, most, folder)]
 
     def take_one_processor(self):
         """Libraries that code with as many threads as there are processors use none then."""
@@ -137,7 +179,7 @@ class Fuzzing:
 
     def run_all(self, report):
         base = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
-        total, used = 0, 0.0
+        counts = {}
         with tempfile.TemporaryDirectory(dir=base) as folder, \
                 concurrent.futures.ThreadPoolExecutor(self.options.jobs) as pool:
             waiting = [pool.submit(self.run, name, most, folder) for name, most in self.targets]
@@ -146,9 +188,12 @@ class Fuzzing:
                 print(outcome.line(), flush=True)
                 report.claim(outcome.status == 0, f"{outcome.name}: {outcome.why()}; the input "
                              f"is in {os.path.join(self.kept, 'found', outcome.name)}")
-                total += outcome.runs
-                used += outcome.processor_s
-        print(f"{total} executions in {used:.0f} processor seconds")
+                counts[outcome.name] = [outcome.runs, outcome.processor_s]
+        write_counts(self.counts, add_counts(counts_of(self.counts), counts))
+        known = add_counts(counts_of(RECORD), counts_of(self.counts))
+        print(f"{sum(runs for runs, _ in counts.values())} executions in "
+              f"{sum(used for _, used in counts.values()):.0f} processor seconds; "
+              f"{sum(runs for runs, _ in known.values())} of {GOAL} in all")
 
 
 def parse():
@@ -157,14 +202,17 @@ def parse():
     options.add_argument("--runs", type=int, default=0)
     options.add_argument("--targets", default="")
     options.add_argument("--jobs", type=int, default=2)
+    options.add_argument("--record", action="store_true")
     options.add_argument("build")
     return options.parse_args()
 
 
 def main():
-    report = Report()
-    Fuzzing(parse()).run_all(report)
-    report.finish()
+    report, options = Report(), parse()
+    if options.record:
+        return record(options.build)
+    Fuzzing(options).run_all(report)
+    return report.finish()
 
 
 if __name__ == "__main__":

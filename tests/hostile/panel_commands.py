@@ -324,8 +324,8 @@ def check_places(report, commands, panel):
     report.claim(not os.path.exists(commands.file("no.panel")), "a refused set left a panel")
     write_json(manifest, good)
     before = open(manifest, "rb").read()
-    fails(report, commands.run("fit", manifest, "-o", manifest, "--quiet"), 2, manifest,
-          "wanted another name for the panel")
+    fails(report, commands.run("fit", manifest, "-o", manifest, "--quiet"), 4, manifest,
+          "is read, and -o would write over it")
     report.claim(open(manifest, "rb").read() == before, "a set's manifest was written over")
 
 

@@ -204,7 +204,7 @@ def check_harm(report, program):
         done = program.run(*words)
         with open(os.path.join(program.folder, "white.gltf"), "rb") as file:
             report.claim(file.read() == before, f"{words}: the scene is gone")
-        report.claim(done.returncode == 2 and len(done.stderr.splitlines()) == 1 and
+        report.claim(done.returncode == 4 and len(done.stderr.splitlines()) == 1 and
                      "white.gltf: is read" in done.stderr.replace("other", "white"),
                      f"{words}: {done.returncode} {done.stderr}")
     emitter(os.path.join(program.folder, "blinding.gltf"), 3e38)

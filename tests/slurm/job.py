@@ -266,6 +266,67 @@ def check_manifests(work):
         work.claim_line(work.run(*command), 2 if command[0] == "merge" else 3, "")
 
 
+FOREIGN_WORDS = (("--help",), ("-V",), ("--help=man",), ("--version",), ("-o", "elsewhere.exr"),
+                 ("-o=elsewhere.exr",), ("--png", "a.png"), ("--live=a.exr",), ("--tev", "h"),
+                 ("--replay", "1,1,1"), ("--slurm", "2"), ("--job", "a"), ("--submit",),
+                 ("--checkpoint", "c"), ("--resume",), ("--samples", "0:1"), ("--spp", "4"),
+                 ("--crop", "0,0,4,4"), ("--noise", "0.1"), ("--threads=2",), ("--json",),
+                 ("--quiet",), ("--progress", "none"), ("--false-colour", "luminance"))
+
+
+def check_foreign_words(work):
+    """A manifest that somebody else wrote: words that `--slurm` does not leave there are
+    refused by their place, wherever they stand, and nothing is made."""
+    job, report = work.share(2, *SMALL, job="foreign"), work.report
+    path = work.path(job, "manifest.json")
+    sound = json.loads(contents(path))
+    for words in FOREIGN_WORDS:
+        for place in (0, len(sound["words"])):
+            document = copy.deepcopy(sound)
+            document["words"][place:place] = words
+            with open(path, "w", encoding="utf-8") as file:
+                json.dump(document, file)
+            before = sorted(os.listdir(work.folder))
+            done = work.run("part", job, "0")
+            work.claim_line(done, 3, "manifest.json", f"/words/{place}", "`--slurm` lets")
+            report.claim(not done.stdout and sorted(os.listdir(work.folder)) == before,
+                         f"{words} at {place}: {done.stdout} {os.listdir(work.folder)}")
+    document = copy.deepcopy(sound)
+    document["words"] += ["--", "--help"]  # a scene of that name
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(document, file)
+    work.claim_line(work.run("part", job, "0"), 3, "--help", "cannot be opened")
+    shutil.rmtree(work.path(job))
+
+
+def check_foreign_output(work):
+    """`merge` alone writes over the job's own frame and nothing else; -o says otherwise."""
+    job, report = work.share(2, *SMALL, job="other"), work.report
+    do_all(work, job)
+    work.run("render", "small.gltf", "-o", "older.exr", *FRAME, "--seed", "2", "--spp", "1",
+             "--quiet")
+    with open(work.path("mine.exr"), "wb") as file:
+        file.write(b"no frame at all")
+    path = work.path(job, "manifest.json")
+    sound = json.loads(contents(path))
+    for name in ("mine.exr", "older.exr", os.path.join(job, "part-0001.exr")):
+        before = contents(work.path(name))
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump({**sound, "output": name}, file)
+        work.claim_line(work.run("merge", job), 4, name)
+        report.claim(contents(work.path(name)) == before, f"merge writes over {name}")
+    before = contents(work.path(job, "part-0000.exr"))
+    work.claim_line(work.run("merge", job, "-o", work.path(job, "part-0000.exr")), 4, "part-0")
+    report.claim(contents(work.path(job, "part-0000.exr")) == before, "merge -o of a part")
+    done = work.run("merge", job, "-o", "older.exr")
+    report.claim(done.returncode == 0, f"merge -o: {done.stderr}")
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump({**sound, "output": "older.exr"}, file)
+    again = work.run("merge", job)
+    report.claim(again.returncode == 0, f"the job's own frame: {again.stderr}")
+    shutil.rmtree(work.path(job))
+
+
 def check_schema(work):
     try:
         import jsonschema
@@ -408,7 +469,8 @@ def main():
     with tempfile.TemporaryDirectory(prefix="job-") as folder:
         work = Work(sys.argv[1], os.path.realpath(folder), report)
         for check in (check_plain, check_cuts, check_stopped, check_script, check_damage,
-                      check_failures, check_manifests, check_schema, check_lines, check_submit):
+                      check_failures, check_manifests, check_foreign_words,
+                      check_foreign_output, check_schema, check_lines, check_submit):
             check(work)
     report.finish()
 

@@ -9,6 +9,7 @@
 #include "image/exposure.h"
 #include "image/false_colour.h"
 #include "image/image.h"
+#include "image/ocio_file.h"
 #include "opencolorio/view_transform.h"
 
 enum { ARENA_BYTES = 1 << 28 };
@@ -34,7 +35,7 @@ static double srgb_encoded(double v)
 static void greys_through(const char *display, const char *view, float *grey, int count)
 {
     ViewTransform *transform;
-    ViewRequest    request = {NULL, OWN_OCIO_CONFIG, display, view};
+    ViewRequest    request = {NULL, OWN_OCIO_CONFIG, display, view, NULL};
     assert_done(view_transform_create(&request, &transform, &err));
     for (int i = 0; i < count; i++) {
         float rgb[3] = {grey[i], grey[i], grey[i]};
@@ -90,7 +91,7 @@ TEST(wrong_names_are_told_with_the_right_ones)
 {
     ViewTransform *transform = NULL;
     Error          err = {0};
-    ViewRequest    request = {NULL, OWN_OCIO_CONFIG, "CRT", NULL};
+    ViewRequest    request = {NULL, OWN_OCIO_CONFIG, "CRT", NULL, NULL};
     assert_false(view_transform_create(&request, &transform, &err));
     assert_error_has(&err, "sRGB, Display P3, Rec.1886");
     request.display = "sRGB";
@@ -98,7 +99,7 @@ TEST(wrong_names_are_told_with_the_right_ones)
     assert_false(view_transform_create(&request, &transform, &err));
     assert_error_has(&err, "photographic, ACES SDR, untonemapped, raw");
     assert_int_equal(err.code, ERROR_USAGE);
-    request = (ViewRequest){"no/such.ocio", OWN_OCIO_CONFIG, NULL, NULL};
+    request = (ViewRequest){"no/such.ocio", OWN_OCIO_CONFIG, NULL, NULL, ocio_file_check};
     assert_false(view_transform_create(&request, &transform, &err));
     assert_string_equal(err.file, "no/such.ocio");
     assert_null(transform);
@@ -118,7 +119,7 @@ TEST(a_configuration_without_interchange_is_refused)
     char           path[200];
     snprintf(path, sizeof path, "%s", in_folder("raw.ocio"));
     assert_true(file_write(path, TEXT, sizeof TEXT - 1, &err));
-    ViewRequest request = {path, OWN_OCIO_CONFIG, NULL, NULL};
+    ViewRequest request = {path, OWN_OCIO_CONFIG, NULL, NULL, ocio_file_check};
     assert_false(view_transform_create(&request, &transform, &err));
     assert_error_has(&err, "aces_interchange");
     assert_string_equal(err.file, path);
@@ -134,7 +135,7 @@ TEST(a_configuration_that_is_too_new_is_refused)
     snprintf(newer, sizeof newer, "ocio_profile_version: 2.9%s", version + 10);
     snprintf(path, sizeof path, "%s", in_folder("newer.ocio"));
     assert_true(file_write(path, newer, strlen(newer), &err));
-    ViewRequest request = {path, OWN_OCIO_CONFIG, NULL, NULL};
+    ViewRequest request = {path, OWN_OCIO_CONFIG, NULL, NULL, ocio_file_check};
     assert_false(view_transform_create(&request, &transform, &err));
     assert_error_has(&err, "2.9");
     assert_null(strchr(err.text, '\n'));

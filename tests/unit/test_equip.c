@@ -97,11 +97,13 @@ static const char *write_changed(const char *from, const char *to, Arena *arena)
     return path;
 }
 
+static const char *reach; /* --root of the next order */
+
 static bool apply(const char *model, const char *output, bool overwrites, Arena *arena,
                   EquipResult *result, Error *err)
 {
     Problems         problems = problems_start(arena);
-    const EquipOrder order = {model, in_folder("e.json"), output, NULL, overwrites};
+    const EquipOrder order = {model, in_folder("e.json"), output, reach, overwrites};
     return equip_apply(&order, arena, &problems, result, err);
 }
 
@@ -201,7 +203,7 @@ ARENA_TEST(what_is_applied_is_found_again)
     assert_error_has(&err, "is there already, wanted the name of a new file, or --overwrite");
     assert_true(apply(model, in_folder("new.gltf"), true, &arena, &result, &err));
     assert_false(apply(model, model, true, &arena, &result, &err));
-    assert_error_has(&err, "is the model itself");
+    assert_error_has(&err, "is read, wanted the name of a new file");
 }
 
 ARENA_TEST(files_of_the_model_come_along)
@@ -285,20 +287,50 @@ ARENA_TEST(a_folder_can_be_sent_to_somebody)
     assert_null(strstr(read_text(in_folder("sent/n.gltf"), &arena), "../"));
 }
 
-/* What the model itself names in a folder beside its own goes along, too. */
-ARENA_TEST(what_the_model_names_outside_its_folder_is_copied)
+/* What the model itself names in a folder beside its own goes along where --root says so. */
+ARENA_TEST(what_the_model_names_outside_its_folder_is_copied_if_that_is_allowed)
 {
     EquipResult result;
-    const char *model = in_folder("car/m.gltf");
+    Error       why = {0};
+    const char *model = arena_format(&arena, "%s", in_folder("car/m.gltf"));
     mkdir(in_folder("car"), 0777);
     mkdir(in_folder("parts"), 0777);
     write_text(model, arena_format(&arena, model_json, ", \"uri\": \"../parts/corners.bin\""));
     write_bytes(in_folder("parts/corners.bin"), corners, sizeof corners);
     write_changed("", "", &arena);
-    assert_done(apply(model, in_folder("car/n.gltf"), false, &arena, &result, &err));
+    assert_false(apply(model, in_folder("car/n.gltf"), false, &arena, &result, &why));
+    assert_error_has(&why, "\"../parts/corners.bin\" leaves the folder of the file that names");
+    reach = arena_format(&arena, "%s", in_folder("parts"));
+    bool is_applied = apply(model, in_folder("car/n.gltf"), false, &arena, &result, &why);
+    reach = NULL;
+    if (!is_applied) fail_msg("%s", why.text);
     assert_true(file_exists(in_folder("car/corners.bin")));
     assert_null(strstr(read_text(in_folder("car/n.gltf"), &arena), "../"));
     scene_close(load(in_folder("car/n.gltf"), &arena));
+}
+
+/* Texts that name a file, a picture that nothing shows and that is none, a buffer that nothing
+ * reads: the files of somebody who equips a model stay where they are. */
+ARENA_TEST(only_what_was_decoded_is_copied)
+{
+    EquipResult result;
+    const char *model = arena_format(&arena, "%s", in_folder("theirs/m.gltf"));
+    mkdir(in_folder("theirs"), 0777);
+    mkdir(in_folder("ours"), 0777);
+    write_text(model, arena_format(&arena, model_json,
+        ", \"uri\": \"c.bin\"}, {\"byteLength\": 4, \"uri\": \"unread\"}], "
+        "\"images\": [{\"uri\": \"key\"}], \"extensions\": {\"PARHELION_x\": {\"note\": "
+        "\"key\"}}, \"extras\": {\"PARHELION_y\": \"{\\\"n\\\": \\\"key\\\"}\"}, "
+        "\"x\": [{\"y\": 1"));
+    write_bytes(in_folder("theirs/c.bin"), corners, sizeof corners);
+    write_text(in_folder("theirs/key"), "-----BEGIN KEY-----");
+    write_text(in_folder("theirs/unread"), "also kept");
+    write_changed("", "", &arena);
+    assert_done(apply(model, in_folder("ours/n.gltf"), false, &arena, &result, &err));
+    assert_true(file_exists(in_folder("ours/c.bin")));
+    assert_false(file_exists(in_folder("ours/key")));
+    assert_false(file_exists(in_folder("ours/unread")));
+    assert_null(strstr(read_text(in_folder("ours/n.gltf"), &arena), "unread"));
 }
 
 /* An eighth of a cylinder of radius 0.4 m about the Y axis, seen from its axis: corners by sine
@@ -409,7 +441,7 @@ static const struct {
     {"[0.36, 0.8, 0.48]", "[1, 1, 0]", "/displays/0/up", "degrees to \"right\", wanted 90"},
     {"[0.36, 0.8, 0.48]", "[0, 0, 0]", "/displays/0/up", "is the zero vector"},
     {"ips_cluster", "ips_clustr", "/displays/0/panel", "did you mean ips_cluster?"},
-    {"ips_cluster", "../../../x.panel", "/displays/0/panel", "leaves the parent"},
+    {"ips_cluster", "../../../x.panel", "/displays/0/panel", "leaves the folder"},
     {"ips_cluster", "mine.panel", "/displays/0/panel", "cannot be found"},
     {"\"content\": \"cluster\"", "\"content\": \"clusters\"", "/displays/0/content",
      "'clusters' is no shipped content"},

@@ -213,4 +213,49 @@ ARENA_TEST(what_is_cut_off_is_taken_as_far_as_it_is_whole)
     assert_false(journal_file_has("nowhere", key_of(1), arena));
 }
 
+/* A folder that came from anywhere: what a link leads to is not written, nobody waits. */
+ARENA_TEST(a_journal_is_a_regular_file)
+{
+    Problems    problems = problems_start(&arena);
+    Journal    *journal;
+    const char *mine = arena_format(&arena, "%s", in_folder("mine"));
+    unlink(file);
+    write_text(mine, "mine");
+    assert_int_equal(symlink(mine, file), 0);
+    assert_false(journal_open(file, &arena, &problems, &journal, why()));
+    assert_int_equal(why()->code, ERROR_OUTPUT);
+    assert_string_equal(read_text(mine, &arena), "mine");
+    unlink(file);
+    assert_int_equal(mkfifo(file, 0600), 0);
+    assert_false(journal_open(file, &arena, &problems, &journal, why()));
+    assert_error_has(why(), "is not a regular file");
+    assert_int_equal(journal_file_count(file, arena), 0);
+    assert_int_equal(journal_file_count("/dev/zero", arena), 0);
+    unlink(file);
+}
+
+/* One that is larger than the memory for it would be. */
+ARENA_TEST(a_large_answer_goes_over_piece_by_piece)
+{
+    enum { LARGE = 1 << 20 };
+    int            warnings;
+    unsigned char *answer = ARENA_NEW(&arena, unsigned char, LARGE);
+    unsigned char *found = ARENA_NEW(&arena, unsigned char, LARGE);
+    for (int i = 0; i < LARGE; i++) answer[i] = (unsigned char)(i * 7 >> 3);
+    fill(&arena);
+    Journal *journal = open_journal(&arena, &warnings);
+    journal_add(journal, key_of(99), answer, LARGE);
+    journal_close(journal);
+    const char *other = arena_format(&arena, "%s", in_folder("other"));
+    assert_int_equal(rename(file, other), 0);
+    journal = open_journal(&arena, &warnings);
+    Arena small = arena;
+    small.end = small.next + LARGE / 2; /* an index, and no answer */
+    assert_true(journal_take_over(journal, other, small));
+    assert_int_equal(journal_count(journal), ANSWERS + 1);
+    assert_true(journal_find(journal, key_of(99), found, LARGE));
+    assert_memory_equal(found, answer, LARGE);
+    journal_close(journal);
+}
+
 TEST_PROGRAM(start, clear_folder)

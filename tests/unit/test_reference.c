@@ -6,6 +6,8 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include "base/count.h"
+#include "base/file.h"
 #include "base/reference.h"
 
 /* folder/a/scenes/s.gltf may name what is below folder/a, but nothing in folder/secret. */
@@ -26,6 +28,18 @@ static int make_tree(void **state)
 typedef struct Row {
     const char *relative, *root, *words; /* words NULL: it is taken */
 } Row;
+
+static void check_row(const char *from, const Row *row, bool own_folder, Arena arena)
+{
+    const char          *path = NULL;
+    const ReferenceReach reach = {row->root ? in_folder(row->root) : NULL, own_folder};
+    bool taken = reference_resolve(in_folder(from), row->relative, reach, &arena, &path, why());
+    if (taken != !row->words) fail_msg("%s, '%s': %s", from, row->relative, why()->text);
+    if (!taken && !strstr(why()->text, row->words))
+        fail_msg("%s, '%s' says: %s", from, row->relative, why()->text);
+    if (taken)
+        assert_string_equal(path, path_beside(in_folder(from), row->relative, &arena));
+}
 
 ARENA_TEST(a_file_leads_to_its_neighbours_only)
 {
@@ -48,18 +62,57 @@ ARENA_TEST(a_file_leads_to_its_neighbours_only)
         {"../../secret/x", "a/beside", "leaves the parent"},
         {"out", "secre", "by a symbolic link"}, /* no folder of that name */
     };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const char *path = NULL;
-        const char *root = rows[i].root ? in_folder(rows[i].root) : NULL;
-        bool taken = reference_resolve(in_folder("a/scenes/s.gltf"), rows[i].relative, root,
-                                       &arena, &path, why());
-        if (taken != !rows[i].words) fail_msg("'%s': %s", rows[i].relative, why()->text);
-        if (!taken && !strstr(why()->text, rows[i].words))
-            fail_msg("'%s' says: %s", rows[i].relative, why()->text);
-        if (taken)
-            assert_string_equal(path, arena_format(&arena, "%s/a/scenes/%s", test_folder(),
-                                                   rows[i].relative));
+    for (int i = 0; i < COUNT_OF(rows); i++)
+        check_row("a/scenes/s.gltf", &rows[i], false, arena);
+}
+
+ARENA_TEST(somebody_elses_file_leads_to_its_own_folder)
+{
+    static const Row rows[] = {
+        {"near", NULL, "leaves the folder of the file that names it by a symbolic link;"},
+        {"../beside/x", NULL, "leaves the folder of the file that names it;"},
+        {"../../secret/x", NULL, "leaves the folder of the file that names it;"},
+        {"../beside/x", "a/beside", NULL},
+        {"s.bin", NULL, NULL},
+        {"../scenes/s.bin", NULL, NULL},
+    };
+    for (int i = 0; i < COUNT_OF(rows); i++)
+        check_row("a/scenes/s.gltf", &rows[i], true, arena);
+}
+
+/* The home folder, what holds it, and "/" are in nobody's reach but their own files'. */
+ARENA_TEST(home_is_not_reached)
+{
+    static const struct {
+        const char *home, *from;
+        Row         row;
+    } rows[] = {
+        {"a", "a/scenes/s.gltf", {"../beside/x", NULL, "leaves the folder of the file that"}},
+        {"a/scenes", "a/scenes/s.gltf", {"../beside/x", NULL, "leaves the files beside the"}},
+        {"a/scenes/deep", "a/scenes/s.gltf", {"deep/x", NULL, "in the home folder or above"}},
+        {"a/scenes", "a/scenes/s.gltf", {".x", NULL, "leaves the files beside the one that"}},
+        {"a/scenes", "a/scenes/s.gltf", {"x", NULL, NULL}},
+        {"a/scenes", "a/scenes/s.gltf", {"../beside/x", "a", NULL}},
+        {"a/scenes", "a/scenes/deep/s.gltf", {"../x", NULL, "leaves the folder of the file"}},
+        {"a/scenes", "a/scenes/deep/s.gltf", {"x", NULL, NULL}},
+        {"secret", "a/scenes/s.gltf", {"../beside/x", NULL, NULL}},
+        {"nowhere", "a/scenes/s.gltf", {"../beside/x", NULL, NULL}},
+    };
+    const char *before = getenv("HOME");
+    mkdir(in_folder("a/scenes/deep"), 0755);
+    write_text(in_folder("a/scenes/deep/x"), "x");
+    write_text(in_folder("a/scenes/x"), "x");
+    write_text(in_folder("a/scenes/.x"), "x");
+    for (int i = 0; i < COUNT_OF(rows); i++) {
+        setenv("HOME", in_folder(rows[i].home), 1);
+        check_row(rows[i].from, &rows[i].row, false, arena);
     }
+    if (before) setenv("HOME", before, 1);
+    else unsetenv("HOME");
+    const char *path;
+    assert_false(reference_resolve("/etc/s.gltf", "../bin/sh", (ReferenceReach){0}, &arena,
+                                   &path, why()));
+    assert_error_has(why(), "leaves the folder of the file that names it");
 }
 
 /* A file that is named without a folder stands in the folder where the program was started. */
@@ -69,9 +122,9 @@ ARENA_TEST(the_folder_may_be_unnamed)
     const char *path;
     assert_non_null(getcwd(before, sizeof before));
     assert_int_equal(chdir(in_folder("a/scenes")), 0);
-    assert_done(reference_resolve("s.gltf", "near", NULL, &arena, &path, &err));
+    assert_done(reference_resolve("s.gltf", "near", (ReferenceReach){0}, &arena, &path, &err));
     assert_string_equal(path, "near");
-    assert_false(reference_resolve("s.gltf", "out", NULL, &arena, &path, why()));
+    assert_false(reference_resolve("s.gltf", "out", (ReferenceReach){0}, &arena, &path, why()));
     assert_int_equal(chdir(before), 0);
 }
 

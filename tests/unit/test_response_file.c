@@ -4,6 +4,8 @@
 #include "fixture.h"
 
 #include <sys/stat.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
 
 #include "review/light/response_file.h"
 
@@ -121,6 +123,39 @@ ARENA_TEST(another_question_is_told_by_what_differs)
     assert_refused("version\t1\neye\t0 1 3\nseed\t9\n", arena, why());
     assert_string_equal(why()->text,
                         "is the response of something else: eye: 0 1 2 there, 0 1 3 here");
+}
+
+static void assert_patch_refused(FileBytes bytes, size_t at, const void *value, size_t size,
+                                 Arena arena)
+{
+    unsigned char *wrong = ARENA_NEW(&arena, unsigned char, bytes.size);
+    memcpy(wrong, bytes.data, bytes.size);
+    memcpy(wrong + at, value, size);
+    uint64_t sum = XXH3_64bits(wrong, bytes.size - sizeof sum);
+    memcpy(wrong + bytes.size - sizeof sum, &sum, sizeof sum);
+    write_bytes(path, wrong, bytes.size);
+    assert_refused(identity, arena, why());
+    assert_error_has(why(), "is damaged: ");
+}
+
+/* With the right checksum: light that is not finite, a level that would take the memory. */
+ARENA_TEST(what_cannot_be_is_refused)
+{
+    enum { AT_LEVEL = 32, AT_KEPT = 44, AT_LAMPS = 56, AT_DISPLAYS = 64, HEAD = 72 };
+    FileBytes     bytes = write_one(&arena);
+    const int32_t level = RESPONSE_LEVEL + 1;
+    const double  bad[] = {NAN, INFINITY, -INFINITY};
+    int32_t       kept;
+    memcpy(&kept, bytes.data + AT_KEPT, sizeof kept);
+    assert_patch_refused(bytes, AT_LEVEL, &level, sizeof level, arena);
+    for (int i = 0; i < 3; i++) {
+        const float value = (float)bad[i];
+        size_t      at = HEAD + sizeof identity - 1 + (size_t)kept * sizeof kept;
+        assert_patch_refused(bytes, AT_LAMPS, &bad[i], sizeof bad[i], arena);
+        assert_patch_refused(bytes, AT_DISPLAYS, &bad[i], sizeof bad[i], arena);
+        for (; at + 8 < bytes.size; at += 11 * sizeof value)
+            assert_patch_refused(bytes, at, &value, sizeof value, arena);
+    }
 }
 
 TEST_PROGRAM(start, clear_folder)

@@ -53,10 +53,12 @@ static bool add_all(SetWriter *writer)
     return ok;
 }
 
+static Lines inputs; /* that the set is made from */
+
 static bool write_all(Error *err)
 {
     SetWriter writer;
-    return set_writer_open(in_folder("set/MANIFEST.json"), &writer, err) &&
+    return set_writer_open(in_folder("set/MANIFEST.json"), &inputs, &writer, err) &&
            set_writer_close(&writer, add_all(&writer));
 }
 
@@ -77,7 +79,7 @@ static void remove_all(void)
 TEST(a_whole_set_has_its_names_at_the_end)
 {
     SetWriter writer;
-    assert_true(set_writer_open(in_folder("set/MANIFEST.json"), &writer, why()));
+    assert_true(set_writer_open(in_folder("set/MANIFEST.json"), &inputs, &writer, why()));
     assert_true(add_all(&writer));
     assert_true(add(&writer, "brdf/i30.csv", "again")); /* the last word counts */
     assert_false(stands("set/brdf/i30.csv"));
@@ -95,7 +97,7 @@ TEST(a_whole_set_has_its_names_at_the_end)
 TEST(a_set_that_is_not_whole_goes_again)
 {
     SetWriter writer;
-    assert_true(set_writer_open(in_folder("set/MANIFEST.json"), &writer, why()));
+    assert_true(set_writer_open(in_folder("set/MANIFEST.json"), &inputs, &writer, why()));
     assert_true(add_all(&writer));
     assert_false(set_writer_close(&writer, false));
     assert_int_equal(entries_below(test_folder()), 0);
@@ -134,7 +136,7 @@ TEST(a_folder_where_a_file_is_wanted_is_named)
 TEST(names_that_were_given_are_taken_back)
 {
     SetWriter writer;
-    assert_true(set_writer_open(in_folder("set/MANIFEST.json"), &writer, why()));
+    assert_true(set_writer_open(in_folder("set/MANIFEST.json"), &inputs, &writer, why()));
     assert_true(add_all(&writer));
     assert_int_equal(mkdir(in_folder("set/brdf/i30.csv"), 0777), 0);
     assert_false(set_writer_close(&writer, true));

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -28,6 +29,64 @@ OCIO::ConstConfigRcPtr load(const ViewRequest *request)
     if (request->config_path) return OCIO::Config::CreateFromFile(request->config_path);
     std::istringstream text(request->own_config);
     return OCIO::Config::CreateFromStream(text);
+}
+
+using Files = std::set<std::string>;
+
+/* A file that is not there stays out: the library tells of it where it is needed. */
+void add_files(const OCIO::ConstContextRcPtr &context, const OCIO::ConstTransformRcPtr &from,
+               Files &files)
+{
+    if (auto group = OCIO::DynamicPtrCast<const OCIO::GroupTransform>(from))
+        for (int i = 0; i < group->getNumTransforms(); i++)
+            add_files(context, group->getTransform(i), files);
+    auto file = OCIO::DynamicPtrCast<const OCIO::FileTransform>(from);
+    if (!file) return;
+    try {
+        files.insert(context->resolveFileLocation(file->getSrc()));
+    } catch (const OCIO::Exception &) {
+    }
+}
+
+/* Of all transforms, whether this view takes them or not. */
+Files files_of(const OCIO::ConstConfigRcPtr &config)
+{
+    Files files;
+    auto  context = config->getCurrentContext();
+    auto  add = [&](const OCIO::ConstTransformRcPtr &transform) {
+        add_files(context, transform, files);
+    };
+    const auto all = OCIO::SEARCH_REFERENCE_SPACE_ALL;
+    for (int i = 0; i < config->getNumColorSpaces(all, OCIO::COLORSPACE_ALL); i++) {
+        auto space = config->getColorSpace(
+            config->getColorSpaceNameByIndex(all, OCIO::COLORSPACE_ALL, i));
+        add(space->getTransform(OCIO::COLORSPACE_DIR_TO_REFERENCE));
+        add(space->getTransform(OCIO::COLORSPACE_DIR_FROM_REFERENCE));
+    }
+    for (int i = 0; i < config->getNumLooks(); i++) {
+        auto look = config->getLook(config->getLookNameByIndex(i));
+        add(look->getTransform());
+        add(look->getInverseTransform());
+    }
+    for (int i = 0; i < config->getNumViewTransforms(); i++) {
+        auto view = config->getViewTransform(config->getViewTransformNameByIndex(i));
+        add(view->getTransform(OCIO::VIEWTRANSFORM_DIR_TO_REFERENCE));
+        add(view->getTransform(OCIO::VIEWTRANSFORM_DIR_FROM_REFERENCE));
+    }
+    for (int i = 0; i < config->getNumNamedTransforms(OCIO::NAMEDTRANSFORM_ALL); i++) {
+        auto named = config->getNamedTransform(
+            config->getNamedTransformNameByIndex(OCIO::NAMEDTRANSFORM_ALL, i));
+        add(named->getTransform(OCIO::TRANSFORM_DIR_FORWARD));
+        add(named->getTransform(OCIO::TRANSFORM_DIR_INVERSE));
+    }
+    return files;
+}
+
+bool may_open_all(const ViewRequest *request, const OCIO::ConstConfigRcPtr &config, Error *err)
+{
+    for (const std::string &path : files_of(config))
+        if (!request->may_open(path.c_str(), err)) return false;
+    return true;
 }
 
 } // namespace
@@ -132,8 +191,11 @@ bool view_transform_create(const ViewRequest *request, ViewTransform **out, Erro
     /* The library would print warnings to stderr by itself; they belong to no one there. */
     OCIO::SetLoggingLevel(OCIO::LOGGING_LEVEL_NONE);
     bool ok = guarded(err, ERROR_INPUT, "OpenColorIO configuration", [&] {
-        auto t = std::make_unique<ViewTransform>();
+        auto        t = std::make_unique<ViewTransform>();
+        const char *path = request->config_path;
+        if (path && !request->may_open(path, err)) return false;
         t->config = load(request);
+        if (path && !may_open_all(request, t->config, err)) return false;
         t->config->validate();
         t->description = describe(t->config, request->config_path);
         if (!choose_names(t.get(), request, err) || !connect(t.get(), request, err))

@@ -26,6 +26,9 @@ typedef struct ViewRequest {
     const char *own_config;
     const char *display; /* NULL: the configuration's default */
     const char *view;    /* NULL: the display's default */
+    /* Asked of the configuration's file and of each that it names (FileTransform), before the
+     * library opens one: whether it may. False: *err has the reason. */
+    bool (*may_open)(const char *path, Error *err);
 } ViewRequest;
 
 bool view_transform_create(const ViewRequest *request, ViewTransform **out, Error *err);

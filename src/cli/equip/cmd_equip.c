@@ -12,8 +12,10 @@
 #include "base/reference.h"
 #include "cli/equip/equip_apply.h"
 #include "cli/equip/equip_page.h"
+#include "cli/equip/equip_shipped.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
+#include "cli/options/outputs.h"
 #include "scene/load/scene_load.h"
 #include "text/text.h"
 #include "text/json_text.h"
@@ -22,6 +24,7 @@
 
 typedef struct EquipWords {
     const char *output, *with, *root;
+    const char *reach; /* the root, or where all lies that ships */
     bool        overwrites;
     Cli         cli;
 } EquipWords;
@@ -30,12 +33,14 @@ static bool parse(int argc, char **argv, Arena *arena, EquipWords *out, Error *e
 {
     const Option options[] = {
         {"-o", OPTION_TEXT, "FILE", "the page (default: MODEL.equip.html), or the scene",
-         &out->output},
+         &out->output, .file = OPTION_OUTPUT},
         {"--with", OPTION_TEXT, "EQUIP.json",
          "what the page saved: writes the scene, a .gltf, and a review of it", &out->with},
         {"--overwrite", OPTION_FLAG, NULL, "a scene and a review that are there already",
          &out->overwrites},
-        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &out->root},
+        {"--root", OPTION_TEXT, "DIR",
+         "a folder whose files may be named too (default: the model's own folder alone)",
+         &out->root},
     };
     const CliCommand command = {
         "equip", SUMMARY,
@@ -60,18 +65,18 @@ static bool print_page(const EquipWords *words, const char *page, const Scene *s
     return true;
 }
 
-static bool make_page(const EquipWords *words, Arena *arena, Error *err)
+static bool make_page(EquipWords *words, Arena *arena, Error *err)
 {
     const char        *model = words->cli.arguments[0];
-    const SceneOptions options = {.paths = &model, .path_count = 1, .root = words->root};
+    const SceneOptions options = {.paths = &model, .path_count = 1, .root = words->reach,
+                                  .own_folder = true};
     const char        *name = path_name(model);
     int                stem = (int)(strlen(name) - strlen(path_ending(name)));
     const char        *page =
         words->output ? words->output : arena_format(arena, "%.*s.equip.html", stem, name);
     Problems problems = problems_start(arena);
     Scene   *scene;
-    if (file_is_same(page, model))
-        return error_at(err, ERROR_OUTPUT, page, "", "is the model itself, wanted a new file");
+    if (!words->output) outputs_note(&words->cli.outputs, "-o", page);
     if (!file_check_writable(page, err) ||
         !scene_load_shown(&options, words->cli.progress, arena, &problems, &scene, err))
         return false;
@@ -80,7 +85,8 @@ static bool make_page(const EquipWords *words, Arena *arena, Error *err)
                                                   escape_shell(words->root, arena)) : "";
     const char *command = arena_format(arena, "parhelion equip %s%s",
                                        escape_shell(model, arena), root);
-    bool ok = equip_page_write(scene, model, command, page, arena, err) &&
+    bool ok = outputs_spare(&words->cli.outputs, scene->inputs, scene->input_count, err) &&
+              equip_page_write(scene, model, command, page, arena, err) &&
               print_page(words, page, scene, err);
     scene_close(scene);
     return ok;
@@ -124,7 +130,7 @@ static bool print_result(const EquipWords *words, const EquipResult *r, Arena *a
 
 static bool apply(const EquipWords *words, Arena *arena, Error *err)
 {
-    const EquipOrder order = {words->cli.arguments[0], words->with, words->output, words->root,
+    const EquipOrder order = {words->cli.arguments[0], words->with, words->output, words->reach,
                               words->overwrites};
     Problems    problems = problems_start(arena);
     EquipResult result;
@@ -144,6 +150,7 @@ static bool run_equip(int argc, char **argv, Arena *arena, Error *err)
     if (!parse(argc, argv, arena, &words, err)) return false;
     if (words.cli.help_shown) return true;
     if (!reference_check_root(words.root, err)) return false;
+    words.reach = words.root ? words.root : equip_shipped_assets(arena);
     return words.with ? apply(&words, arena, err) : make_page(&words, arena, err);
 }
 

@@ -22,6 +22,23 @@
 
 #define DIGITS 9 /* distinguish any two floats */
 
+typedef struct EquipModel {
+    const char *path;
+    json_t     *document;
+    FileBytes   bin; /* a .glb's BIN chunk; data NULL: none */
+} EquipModel;
+
+/* The state of one order. */
+typedef struct Applying {
+    const EquipOrder *order;
+    Equip             equip;
+    EquipFiles        files;
+    EquipModel        model;
+    EquipResult       result;
+    Problems         *problems;
+    Arena            *arena;
+} Applying;
+
 /* ---- before anything is written ---------------------------------------------------------- */
 
 /* Where a display's panel or content lies. */
@@ -29,7 +46,8 @@ static bool find_file(const EquipOrder *order, const ShippedKind *kind, const ch
                       Arena *arena, const char **path, Error *err)
 {
     if (equip_shipped_is_name(text)) return equip_shipped_find(kind, text, arena, path, err);
-    if (!reference_resolve(order->model, text, order->root, arena, path, err)) return false;
+    const ReferenceReach reach = {order->root, true};
+    if (!reference_resolve(order->model, text, reach, arena, path, err)) return false;
     return file_exists(*path) ||
            error_set(err, ERROR_INPUT, "%s cannot be found", *path);
 }
@@ -119,10 +137,16 @@ static void doubt_forward(const Equip *equip, Problems *problems)
     }
 }
 
-static bool check_output(const EquipOrder *order, const char *path, Error *err)
+/* The model, its files and what is put into it are read: none is written over. */
+static bool check_output(const Applying *at, const char *path, Error *err)
 {
-    if (file_is_same(path, order->model))
-        return error_at(err, ERROR_OUTPUT, path, "", "is the model itself, wanted a new file");
+    const EquipOrder *order = at->order;
+    const Scene      *scene = at->files.decoded;
+    bool              is_read = file_is_same(path, order->with);
+    for (int i = 0; i < scene->input_count; i++)
+        is_read |= file_is_same(path, scene->inputs[i]);
+    if (is_read)
+        return error_at(err, ERROR_OUTPUT, path, "", "is read, wanted the name of a new file");
     if (!order->overwrites && file_exists(path))
         return error_at(err, ERROR_OUTPUT, path, "",
                         "is there already, wanted the name of a new file, or --overwrite");
@@ -130,12 +154,6 @@ static bool check_output(const EquipOrder *order, const char *path, Error *err)
 }
 
 /* ---- the model's document, as it stands in its file -------------------------------------- */
-
-typedef struct EquipModel {
-    const char *path;
-    json_t     *document;
-    FileBytes   bin; /* a .glb's BIN chunk; data NULL: none */
-} EquipModel;
 
 #define FILE_BYTES_MAX ((size_t)4 << 30)
 
@@ -193,17 +211,6 @@ static void equip_model_close(EquipModel *model)
 
 /* ---- the document ------------------------------------------------------------------------ */
 
-/* The state of one order. */
-typedef struct Applying {
-    const EquipOrder *order;
-    Equip             equip;
-    EquipFiles        files;
-    EquipModel        model;
-    EquipResult       result;
-    Problems         *problems;
-    Arena            *arena;
-} Applying;
-
 /* A .glb's bytes get a file of their own, which the first buffer then names. */
 static bool name_bin(Applying *at, Error *err)
 {
@@ -212,7 +219,7 @@ static bool name_bin(Applying *at, Error *err)
     const char *path = equip_files_beside(&at->files, ".bin");
     const char *name = arena_format(at->arena, "/%s", path_name(path));
     json_object_set_new(buffer, "uri", json_text(uri_between("/", name, at->arena)));
-    if (!check_output(at->order, path, err) ||
+    if (!check_output(at, path, err) ||
         !file_write(path, at->model.bin.data, at->model.bin.size, err))
         return false;
     at->result.bin = path;
@@ -342,7 +349,7 @@ static bool write_occupant(Applying *at, Error *err)
 {
     const char *path = equip_files_beside(&at->files, ".occupant.gltf");
     if (at->equip.occupant.eye_id == NO_ID) return true;
-    if (!check_output(at->order, path, err) ||
+    if (!check_output(at, path, err) ||
         !equip_occupant_write(&at->equip, &at->files, path, err))
         return false;
     at->result.occupant = path;
@@ -373,15 +380,16 @@ static bool write_all(Applying *at, Error *err)
     return ok;
 }
 
-static bool check_model(const Applying *at, Error *err)
+static bool check_model(Applying *at, Error *err)
 {
     const SceneOptions options = {.paths = &at->order->model, .path_count = 1,
-                                  .root = at->order->root};
+                                  .root = at->order->root, .own_folder = true};
     Problems           problems = problems_start(at->arena);
     Scene             *scene;
     if (!scene_load(&options, at->arena, &problems, &scene, err)) return false;
     bool ok = check_names(&at->equip, scene, err);
     scene_close(scene);
+    at->files.decoded = scene; /* its lists stay */
     return ok;
 }
 
@@ -399,8 +407,8 @@ static bool prepare(Applying *at, Error *err)
     at->result.material_count = at->equip.material_count;
     at->result.forward_is_proposed = at->equip.forward_is_proposed;
     memcpy(at->result.forward, at->equip.forward, sizeof at->result.forward);
-    return check_output(order, at->result.scene, err) &&
-           check_output(order, at->result.review, err) && check_model(at, err);
+    return check_model(at, err) && check_output(at, at->result.scene, err) &&
+           check_output(at, at->result.review, err);
 }
 
 bool equip_apply(const EquipOrder *order, Arena *arena, Problems *problems, EquipResult *out,

@@ -15,7 +15,7 @@
 
 typedef struct EquipOrder {
     const char *model, *with, *output;
-    const char *root;       /* --root; NULL: none */
+    const char *root;       /* whose files it may name besides its own folder's; NULL: none */
     bool        overwrites; /* files with the outputs' names */
 } EquipOrder;
 

@@ -94,9 +94,10 @@ bool equip_files_take(EquipFiles *files, const char *path, const char **uri, Err
     char target[PATH_MAX];
     if (!realpath(path, target))
         return error_at(err, ERROR_INPUT, path, "", "cannot be found");
-    const char *name = NULL;
+    const char          *name = NULL;
+    const ReferenceReach beside = {NULL, true};
     *uri = uri_between(files->folder, target, files->arena);
-    if (!path_climb(*uri)) return true;
+    if (uri_may_be_named(files->output, *uri, beside, *files->arena)) return true;
     for (int i = 0; i < files->count && !name; i++)
         if (!strcmp(files->copies[i].source, target)) name = files->copies[i].name;
     if (!name &&
@@ -138,15 +139,29 @@ static bool is_regular(const char *path)
     return !stat(path, &info) && S_ISREG(info.st_mode);
 }
 
+static bool is_among(const char *path, const char *const *list, int count)
+{
+    bool found = false;
+    for (int i = 0; i < count && !found; i++) found = !strcmp(list[i], path);
+    return found;
+}
+
+static bool is_decoded(const Scene *scene, const char *path)
+{
+    return !scene || (is_among(path, scene->inputs, scene->input_count) &&
+                      !is_among(path, scene->undecoded, scene->undecoded_count));
+}
+
 /* The file that a URI of the model names; NULL when it names none, as most texts. */
 static const char *named_file(const EquipFiles *files, const char *uri)
 {
     Error       none;
     char       *relative;
     const char *path = NULL;
+    const ReferenceReach reach = {files->root, files->decoded != NULL};
     if (uri_scheme_length(uri) || !uri_decode(uri, files->arena, &relative, &none) ||
-        !reference_resolve(files->model, relative, files->root, files->arena, &path, &none) ||
-        !is_regular(path))
+        !reference_resolve(files->model, relative, reach, files->arena, &path, &none) ||
+        !is_regular(path) || !is_decoded(files->decoded, path))
         return NULL;
     return path;
 }
@@ -216,23 +231,58 @@ static bool refer_extensions(EquipFiles *files, json_t *object, Error *err)
     return true;
 }
 
-static bool refer_uri(EquipFiles *files, json_t *object, Error *err)
+/* Stands in for a file that nothing shows and that is no picture: one pixel. */
+static const char no_picture[] =
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR42mNgAAAAAgAB"
+    "5Sfe/AAAAABJRU5ErkJggg==";
+
+/* A file that was not decoded is named no more. */
+static bool refer_uri(EquipFiles *files, json_t *object, bool is_picture, Error *err)
 {
     json_t *uri = json_object_get(object, "uri"), *text;
     if (!json_is_string(uri)) return true;
     if (!renamed(files, uri, &text, err)) return false;
-    return !json_object_set_new(object, "uri", text);
+    bool is_named = text != uri || uri_scheme_length(json_string_value(uri));
+    json_object_set_new(object, "uri", text);
+    if (is_named) return true;
+    json_object_del(object, "uri");
+    if (is_picture) json_object_del(object, "mimeType");
+    if (is_picture) json_object_set_new(object, "uri", json_text(no_picture));
+    return true;
+}
+
+static bool names_buffer(const json_t *object, size_t index)
+{
+    const json_t *buffer = json_object_get(object, "buffer");
+    return json_is_number(buffer) && json_number_value(buffer) == (double)index;
+}
+
+static void drop_unread_buffers(json_t *document)
+{
+    json_t *buffer, *view;
+    size_t  i, k;
+    json_array_foreach(json_object_get(document, "buffers"), i, buffer) {
+        bool is_read = false;
+        json_array_foreach(json_object_get(document, "bufferViews"), k, view) {
+            const json_t *extensions = json_object_get(view, "extensions");
+            is_read |= names_buffer(view, i) ||
+                       names_buffer(json_object_get(extensions, "EXT_meshopt_compression"), i);
+        }
+        if (!is_read) json_object_del(buffer, "uri");
+    }
 }
 
 bool equip_files_refer(EquipFiles *files, json_t *document, Error *err)
 {
     const char *const lists[] = {"buffers", "images", "materials", "scenes", "nodes"};
+    drop_unread_buffers(document);
     if (!refer_extensions(files, document, err)) return false;
     for (int i = 0; i < 5; i++) {
         json_t *item;
         size_t  k;
         json_array_foreach(json_object_get(document, lists[i]), k, item)
-            if ((i < 2 && !refer_uri(files, item, err)) || !refer_extensions(files, item, err))
+            if ((i < 2 && !refer_uri(files, item, i == 1, err)) ||
+                !refer_extensions(files, item, err))
                 return false;
     }
     return true;

@@ -2,6 +2,10 @@
 /* equip_files.h -- files that a new .gltf names: by a URI where they lie in its folder or
  * below, else as a copy beside it, so that the folder can be sent to somebody.
  *
+ * The model is somebody else's, and the copies may go to a third: it reaches its own folder
+ * alone (base/reference.h), and of what it names only that is renamed or copied which was
+ * decoded as what it is named for.
+ *
  * A copy keeps its name unless another file has it already: then the new file's name stands
  * before it. Nothing that is there is written over.
  *
@@ -14,6 +18,7 @@
 
 #include "base/arena.h"
 #include "base/error.h"
+#include "scene/scene.h"
 
 typedef struct EquipCopy {
     const char *source, *name; /* absolute; beside the new file */
@@ -22,7 +27,9 @@ typedef struct EquipCopy {
 } EquipCopy;
 
 typedef struct EquipFiles {
-    const char *model, *output, *root; /* root: --root, or NULL */
+    const char *model, *output, *root; /* root: --root, or the shipped assets, or NULL */
+    const Scene *decoded;              /* the model as it was loaded; NULL: it ships, and is
+                                          trusted */
     const char *folder;                /* the new file's, absolute: "/a/b/" */
     EquipCopy  *copies;
     int         count, capacity;
@@ -40,7 +47,8 @@ const char *equip_files_beside(const EquipFiles *files, const char *ending);
 bool equip_files_take(EquipFiles *files, const char *path, const char **uri, Error *err);
 
 /* Every file that the model's document names is called as the new file has to: those of buffers
- * and pictures, and what our extensions and EXT_lights_ies name, in extras too. */
+ * and pictures, and what our extensions and EXT_lights_ies name, in extras too. A buffer that
+ * no view reads names none any more. */
 bool equip_files_refer(EquipFiles *files, json_t *document, Error *err);
 
 bool equip_files_write(EquipFiles *files, Error *err);

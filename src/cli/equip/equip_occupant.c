@@ -34,6 +34,7 @@ static EquipFiles files_of(const EquipFiles *from, const char *model)
     EquipFiles files = *from;
     files.model = model;
     files.root = NULL;
+    files.decoded = NULL;
     return files;
 }
 

@@ -32,6 +32,14 @@ static bool find_folder(const ShippedKind *kind, Arena *arena, const char **path
     return true;
 }
 
+const char *equip_shipped_assets(Arena *arena)
+{
+    const ShippedKind assets = {"asset", "assets", ""};
+    const char       *path;
+    Error             none;
+    return find_folder(&assets, arena, &path, &none) ? path : NULL;
+}
+
 static int by_name(const void *a, const void *b)
 {
     return strcmp(*(const char *const *)a, *(const char *const *)b);

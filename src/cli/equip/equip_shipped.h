@@ -23,5 +23,8 @@ bool equip_shipped_is_name(const char *text);
 bool equip_shipped_find(const ShippedKind *kind, const char *name, Arena *arena,
                         const char **path, Error *err);
 
+/* The folder of all that ships, which any model may name; NULL where it is missing. */
+const char *equip_shipped_assets(Arena *arena);
+
 /* All names, sorted; none where the folder is missing. */
 const char **equip_shipped_names(const ShippedKind *kind, int *count, Arena *arena);

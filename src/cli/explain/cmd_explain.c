@@ -15,6 +15,7 @@
 #include "cli/explain/ray_option.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
+#include "cli/options/outputs.h"
 #include "cli/options/scene_options.h"
 #include "cli/render/render_setup.h"
 #include "review/chain/outlook.h"
@@ -46,6 +47,7 @@ typedef struct SceneQuestion {
     ProgressMode      progress; /* of loading */
     bool              with_outlook;
     Problems         *problems;
+    const Outputs    *outputs;
 } SceneQuestion;
 
 #define BOUNCES 64
@@ -115,7 +117,8 @@ static bool explain_scene(const SceneQuestion *question, Arena *arena, Explained
     Scene       *scene;
     Bvh         *bvh = NULL;
     Lights      *lights;
-    const SceneAsked asked = {&question->scene, &question->environment, question->progress};
+    const SceneAsked asked = {&question->scene, &question->environment, question->progress,
+                              question->outputs};
     if (!kernel_choose(question->isa, &tools.kernel, err) ||
         !scene_options_load(&asked, arena, question->problems, &scene, err))
         return false;
@@ -434,7 +437,7 @@ static bool check_review(ExplainWords *words, Error *err)
 
 static bool check_outputs(const ExplainWords *words, Error *err)
 {
-    return ray_option_check(words->rays, &words->cli, err) &&
+    return ray_option_check(words->rays, err) &&
            (!words->outlook || (picture_check_name(words->outlook, 8, err) &&
                                 file_check_writable(words->outlook, err)));
 }
@@ -470,9 +473,9 @@ static bool parse(int argc, char **argv, Arena *arena, ExplainWords *out, Error 
         {"--paths", OPTION_INTEGER, "N", "more make the figures surer (default 65536)",
          &scene->paths, .low = 1024, .high = 1 << 24},
         {"-o", OPTION_TEXT, "FILE.gltf|.glb", "the rays, to be opened beside the scene",
-         &out->rays},
+         &out->rays, .file = OPTION_OUTPUT},
         {"--outlook", OPTION_TEXT, "FILE.png", "what the surface sees, as a fisheye",
-         &out->outlook},
+         &out->outlook, .file = OPTION_OUTPUT},
         {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
          &scene->isa},
         SCENE_OPTIONS(&out->scene_words, &scene->scene, &scene->environment),
@@ -487,6 +490,7 @@ static bool parse(int argc, char **argv, Arena *arena, ExplainWords *out, Error 
     if (out->cli.help_shown) return true;
     scene->threads = out->cli.threads;
     scene->progress = out->cli.progress;
+    scene->outputs = &out->cli.outputs;
     scene->with_outlook = out->outlook != NULL;
     if (!(is_review(out) ? check_review(out, err) : read_scene(out, arena, err))) return false;
     return check_outputs(out, err);
@@ -503,21 +507,31 @@ static bool read_sun(const char *text, double out_deg[2], Error *err)
                      "the vehicle: 0 ahead, 90 right; the elevation from -18 to 90", text);
 }
 
+static bool spare_scene(void *user, const Scene *scene, Error *err)
+{
+    return outputs_spare(user, scene->inputs, scene->input_count, err);
+}
+
 static bool review_question(const ExplainWords *words, Arena *arena, Explained *out,
                             Error *err)
 {
     const SceneQuestion *scene = &words->scene;
     const char     *root = scene->scene.root, *sun = scene->environment.sun;
+    Outputs         outputs = words->cli.outputs;
     ReviewRequest   request;
     ExplainOptions  options = {.condition = words->condition, .eye = words->eye,
                                .symbol = words->symbol, .has_sun = sun != NULL,
                                .means = {.root = root, .state = scene->scene.state,
                                          .isa = scene->isa, .threads = scene->threads},
                                .paths = scene->paths, .with_outlook = scene->with_outlook,
-                               .problems = scene->problems};
+                               .problems = scene->problems, .read = spare_scene,
+                               .user = &outputs};
     if (sun && !read_sun(sun, options.sun_deg, err)) return false;
-    return review_request_read(words->cli.arguments[0], root, arena, scene->problems, &request,
-                               err) &&
+    if (!review_request_read(words->cli.arguments[0], root, arena, scene->problems, &request,
+                             err))
+        return false;
+    const Lines files = review_request_files(&request, arena);
+    return outputs_spare(&outputs, files.list, files.count, err) &&
            (profile_load(request.profile, arena, &options.profile, err) ||
             error_in_file(err, request.file)) &&
            explain_review(&request, &options, arena, out, err);

@@ -347,7 +347,7 @@ static bool check(ProbeWords *words, Arena *arena, Error *err)
     render->threads = words->cli.threads;
     render->progress = words->cli.progress;
     return scene_options_read(&words->scene_words, &words->cli, arena, &words->scene, err) &&
-           ray_option_check(words->rays, &words->cli, err);
+           ray_option_check(words->rays, err);
 }
 
 static bool parse(int argc, char **argv, Arena *arena, ProbeWords *out, Error *err)
@@ -371,7 +371,7 @@ static bool parse(int argc, char **argv, Arena *arena, ProbeWords *out, Error *e
          &out->ways, .low = 1, .high = 1000},
         {"--gltf", OPTION_TEXT, "FILE.gltf|.glb",
          "the ways as lines in the colours of their lights, to be opened beside the scene",
-         &out->rays},
+         &out->rays, .file = OPTION_OUTPUT},
         {"--no-mirrors", OPTION_FLAG, NULL, "leave the sun's reflections to chance",
          &out->render.no_mirrors},
         GUIDING_OPTIONS(&out->render),
@@ -447,7 +447,8 @@ static bool run(int argc, char **argv, Arena *arena, Error *err)
                         .max_bounces = BOUNCES};
     if (!parse(argc, argv, arena, &words, err)) return false;
     if (words.cli.help_shown) return true;
-    const SceneAsked asked = {&words.scene, &words.environment, words.cli.progress};
+    const SceneAsked asked = {&words.scene, &words.environment, words.cli.progress,
+                              &words.cli.outputs};
     bool ok = scene_options_load(&asked, arena, &problems, &scene, err) &&
               probe(&words, scene, &problems, arena, err);
     scene_close(scene);

@@ -6,6 +6,8 @@
  *     array.sbatch              Slurm's array job, and the job that merges
  *     merge.sbatch
  *     commands.txt              the same parts as commands, one a line
+ *     replaces.txt              the hash of the file that had the output's name when it was
+ *                               planned: that one was meant to be written over
  *     logs/                     what Slurm's tasks print
  *     part-0003.exr             a part that is done; of a review part-0003.answers
  *     part-0003.HOST-PID.checkpoint   what a task has done of it so far

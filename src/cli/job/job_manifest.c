@@ -185,7 +185,8 @@ static bool read_parts(const JsonView *view, SharedJob *job, Error *err)
     for (int i = 0; i < job->part_count; i++) {
         json_t    *value = json_array_get(list, (size_t)i);
         const char *path = arena_format(view->arena, "/parts/%d", i);
-        JsonView    item = {value, view->file, path, view->arena, NULL, 0};
+        JsonView    item = {.object = value, .file = view->file, .path = path,
+                            .arena = view->arena};
         if (!json_is_object(value))
             return json_view_wrong_kind(view, "parts", value, "a list of objects", err);
         if (!check_all_there(&item, part_keys, key_count(job, COUNT_OF(part_keys)), err) ||

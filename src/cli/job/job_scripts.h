@@ -11,6 +11,7 @@
 #define JOB_ARRAY "array.sbatch"
 #define JOB_MERGE "merge.sbatch"
 #define JOB_COMMANDS "commands.txt"
+#define JOB_REPLACES "replaces.txt"
 #define JOB_LOGS "logs"
 #define JOB_RESPONSES "responses"
 

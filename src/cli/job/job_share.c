@@ -78,7 +78,8 @@ static bool find_places(const ShareRequest *share, SharedJob *job, Arena *arena,
  * at most. Everything else is somebody's. */
 static bool check_is_free(const SharedJob *job, Arena scratch, Error *err)
 {
-    static const char *const ours[] = {".", "..", JOB_LOGS, JOB_ARRAY, JOB_MERGE, JOB_COMMANDS};
+    static const char *const ours[] = {".", "..", JOB_LOGS, JOB_ARRAY, JOB_MERGE, JOB_COMMANDS,
+                                       JOB_REPLACES};
     Lines folder;
     if (!job_folder_list(job, &scratch, &folder, err)) return false;
     for (int i = 0; i < folder.count; i++) {
@@ -115,7 +116,8 @@ static bool write_folder(Share *work, Arena *arena, Error *err)
     if (work->was_there ? !check_is_same(job, arena, err) : !check_is_free(job, *arena, err))
         return false;
     if (!folder_make(job_file(job, JOB_LOGS, arena), err) ||
-        !job_scripts_write(job, work->request->threads, *arena, err))
+        !job_scripts_write(job, work->request->threads, *arena, err) ||
+        !job_note_replaced(job, *arena, err))
         return false;
     const char *text = job_manifest_text(job, arena);
     return work->was_there ||

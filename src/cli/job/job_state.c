@@ -7,10 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
 
 #include "base/file.h"
 #include "base/file_write.h"
 #include "base/machine.h"
+#include "cli/job/job_scripts.h"
 #include "film/film_part.h"
 #include "render/checkpoint.h"
 #include "text/text.h"
@@ -42,6 +45,42 @@ bool job_is_checkpoint(const char *name, int index)
     size_t size = strlen(name), end = strlen(CHECKPOINT);
     return !strncmp(name, begin, (size_t)length) && size >= (size_t)length - 1 + end &&
            !strcmp(name + size - end, CHECKPOINT);
+}
+
+/* ---- what the output replaces ------------------------------------------------------------ */
+
+#define OUTPUT_BYTES_MAX ((size_t)1 << 36)
+
+/* "": there is no such file. */
+static const char *hash_of_output(const SharedJob *job, Arena *arena)
+{
+    FileBytes   bytes;
+    Error       none;
+    const char *path = job_output_file(job, arena);
+    if (job->kind == JOB_REVIEW || !file_exists(path) ||
+        !file_read(path, OUTPUT_BYTES_MAX, arena, &bytes, &none))
+        return "";
+    return arena_format(arena, "%016llx\n",
+                        (unsigned long long)XXH3_64bits(bytes.data, bytes.size));
+}
+
+bool job_note_replaced(const SharedJob *job, Arena scratch, Error *err)
+{
+    const char *path = job_file(job, JOB_REPLACES, &scratch);
+    const char *hash = hash_of_output(job, &scratch);
+    if (hash[0]) return file_write(path, hash, strlen(hash), err);
+    file_remove(path);
+    return true;
+}
+
+bool job_may_replace(const SharedJob *job, Arena scratch)
+{
+    FileBytes   bytes;
+    Error       none;
+    const char *hash = hash_of_output(job, &scratch);
+    return hash[0] && file_read(job_file(job, JOB_REPLACES, &scratch), 64, &scratch, &bytes,
+                                &none) &&
+           !strcmp((const char *)bytes.data, hash);
 }
 
 /* ---- a part that is done ----------------------------------------------------------------- */

@@ -37,6 +37,12 @@ JobPartReport job_part_report(const SharedJob *job, const Lines *folder, int ind
 bool job_part_is_done(const SharedJob *job, int index, bool with_sums, Arena scratch,
                       Error *err);
 
+/* Notes what has the output's name as the job is planned. Fails: ERROR_OUTPUT. */
+bool job_note_replaced(const SharedJob *job, Arena scratch, Error *err);
+
+/* Whether that has the output's name now: a manifest from anywhere may name any file. */
+bool job_may_replace(const SharedJob *job, Arena scratch);
+
 /* The key of the entry that marks a review's part as done, behind all its answers. */
 JournalKey job_part_mark(const SharedJob *job, int index, Arena scratch);
 

@@ -16,6 +16,7 @@
 #include "cli/options/completion.h"
 #include "cli/options/guides.h"
 #include "cli/options/man_page.h"
+#include "cli/options/outputs.h"
 #include "render/render.h"
 #include "text/nearest_word.h"
 
@@ -374,6 +375,28 @@ static bool asks_for_help(const Parser *in)
     return form || wants_version;
 }
 
+/* Outputs are noted; every other text may name a file that is read. */
+static bool check_outputs(const Parser *in, const CliTexts *arguments, Cli *cli)
+{
+    CliTexts words = {0};
+    append_text(&words, getenv("OCIO"), in->arena);
+    for (int i = 0; i < arguments->count; i++)
+        append_text(&words, arguments->list[i], in->arena);
+    for (int i = 0; i < in->command->option_count; i++) {
+        const Option   *option = option_at(in, i);
+        const CliTexts *list = option->out;
+        bool is_list = option->kind == OPTION_TEXTS;
+        if (!in->first[i] || (option->kind != OPTION_TEXT && !is_list)) continue;
+        if (option->file)
+            outputs_note(&cli->outputs, option->name, *(const char **)option->out);
+        for (int k = 0; is_list && k < list->count; k++)
+            append_text(&words, list->list[k], in->arena);
+        if (!is_list && option->file != OPTION_OUTPUT)
+            append_text(&words, *(const char **)option->out, in->arena);
+    }
+    return outputs_spare_words(&cli->outputs, &words, in->err);
+}
+
 static bool is_help_alone(const Parser *in)
 {
     return in->argc == 2 && !strcmp(in->argv[1], "help") && !file_exists("help");
@@ -405,7 +428,9 @@ bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, C
         if (!read_line(&in, &arguments)) return false;
         cli.help_shown = is_help_alone(&in);
         if (cli.help_shown) print_help(&in, HELP_TEXT);
-        else if (!count_arguments(&in, arguments.count)) return false;
+        else if (!count_arguments(&in, arguments.count) ||
+                 !check_outputs(&in, &arguments, &cli))
+            return false;
     }
     cli.progress = cli.quiet ? PROGRESS_NONE : (ProgressMode)progress;
     cli.threads = (int)threads;

@@ -17,7 +17,8 @@
  *     if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
  *     if (cli.help_shown) return true;
  *
- * Fails    ERROR_USAGE with a text that holds the option, the value found and what is wanted.
+ * Fails    ERROR_USAGE with a text that holds the option, the value found and what is wanted;
+ *          ERROR_OUTPUT where an output is a file that another word names (outputs.h).
  */
 #pragma once
 #include <stdbool.h>
@@ -26,6 +27,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "cli/options/command.h"
+#include "cli/options/outputs.h"
 
 /* Results of cli_parse besides the values. */
 typedef struct Cli {
@@ -36,6 +38,7 @@ typedef struct Cli {
     bool         threads_given;
     const char **arguments;  /* words that are no options */
     int          argument_count;
+    Outputs      outputs;
 } Cli;
 
 /* argv[0] is the command's own name and skipped. Lists come from the arena; texts stay argv's.

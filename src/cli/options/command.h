@@ -46,6 +46,13 @@ typedef struct CliTexts {
     int          count, capacity;
 } CliTexts;
 
+/* What a command does with the file that an option names. */
+typedef enum OptionFile {
+    OPTION_NO_OUTPUT,
+    OPTION_OUTPUT, /* writes it: never one that is read (cli/options/outputs.h) */
+    OPTION_KEPT    /* the same, and reads it where it is there */
+} OptionFile;
+
 typedef struct Option {
     const char *name;  /* as typed: "--size", "-o" */
     OptionKind  kind;
@@ -55,6 +62,7 @@ typedef struct Option {
     double      low, high; /* limits of numbers; both 0: none */
     int         count; /* OPTION_NUMBERS: how many, at most 8 */
     bool       *given; /* set when the option was there; NULL: not asked */
+    OptionFile  file;  /* of OPTION_TEXT */
 } Option;
 
 /* What ends the help of an option that may be given many times; "" for all others. */

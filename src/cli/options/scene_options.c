@@ -6,6 +6,7 @@
 #include "base/count.h"
 #include "base/reference.h"
 #include "cli/options/scene_warnings.h"
+#include "cli/options/outputs.h"
 #include "scene/check/display_frame.h"
 #include "scene/load/scene_load.h"
 
@@ -87,7 +88,8 @@ bool scene_options_load(const SceneAsked *asked, Arena *arena, Problems *problem
     Scene *scene;
     if (!scene_load_shown(asked->options, asked->progress, arena, problems, &scene, err))
         return false;
-    if (!environment_change(asked->change, scene, arena, problems, err)) {
+    if (!outputs_spare(asked->outputs, scene->inputs, scene->input_count, err) ||
+        !environment_change(asked->change, scene, arena, problems, err)) {
         scene_close(scene);
         return false;
     }

@@ -62,6 +62,7 @@ typedef struct SceneAsked {
     const SceneOptions      *options;
     const EnvironmentChange *change;
     ProgressMode             progress; /* of its loading */
+    const Outputs           *outputs;  /* which spare the scene's files */
 } SceneAsked;
 
 /* The scene with the surroundings that are asked for. Warnings go to *problems. */

@@ -65,7 +65,7 @@ static bool run_export(int argc, char **argv, Arena *arena, Error *err)
     const Option options[] = {
         {"-o", OPTION_TEXT, "DIR|TABLE.csv",
          "a new or empty folder for MANIFEST.json and its tables, or one table's file",
-         &r.output},
+         &r.output, .file = OPTION_OUTPUT},
         {"--table", OPTION_TEXT, "NAME",
          "one table: black, white CODE, red CODE, ..., primaries, brdf DEG [at DEG]", &r.table},
         {"--theta-step", OPTION_NUMBER, "DEG",

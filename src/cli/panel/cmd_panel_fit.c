@@ -8,6 +8,7 @@
 #include "base/reference.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
+#include "cli/options/outputs.h"
 #include "cli/panel/panel_commands.h"
 #include "cli/panel/panel_facts.h"
 #include "panel/fit/fit.h"
@@ -37,7 +38,8 @@ typedef struct FitWords {
 static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err)
 {
     const Option options[] = {
-        {"-o", OPTION_TEXT, "X.panel", "the file to write", &out->output},
+        {"-o", OPTION_TEXT, "X.panel", "the file to write", &out->output,
+         .file = OPTION_OUTPUT},
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &out->root},
         {"--levels", OPTION_TEXT, "FILE.csv", "gamma table of a set of white alone: columns "
          "level and luminance (or red, green, blue), cd/m2 on the axis", &out->levels},
@@ -81,17 +83,6 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
     if (!out->output) return error_set(err, ERROR_USAGE, "panel fit wants -o X.panel");
     if (out->keep > 0 && out->max_error > 0)
         return error_set(err, ERROR_USAGE, "--keep and --max-error exclude each other");
-    return true;
-}
-
-/* A laboratory's own file is never written over. */
-static bool spares_inputs(const FitWords *words, Error *err)
-{
-    const char *input[] = {words->cli.arguments[0], words->levels};
-    for (int i = 0; i < COUNT_OF(input); i++)
-        if (input[i] && file_is_same(words->output, input[i]))
-            return error_set(err, ERROR_USAGE, "%s: is read, wanted another name for the panel",
-                             words->output);
     return true;
 }
 
@@ -148,8 +139,9 @@ static bool run_fit(int argc, char **argv, Arena *arena, Error *err)
     FitOptions   fit = options_of(&words);
     Measurement *set = ARENA_NEW(arena, Measurement, 1);
     json_t      *report = NULL;
-    bool ok = spares_inputs(&words, err) && reference_check_root(words.root, err) &&
+    bool ok = reference_check_root(words.root, err) &&
               measurement_read_below(words.cli.arguments[0], words.root, arena, set, err) &&
+              outputs_spare(&words.cli.outputs, set->inputs.list, set->inputs.count, err) &&
               (!words.levels || measurement_read_levels(set, words.levels, arena, err)) &&
               panel_fit(set, &fit, words.output, arena, &report, err);
     if (!ok && (!report || !words.cli.json)) {

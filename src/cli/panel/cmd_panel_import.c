@@ -111,7 +111,7 @@ static int list_options(Words *words, Option *option, Arena *arena)
 {
     const Option fixed[] = {
         {"-o", OPTION_TEXT, "MANIFEST.json", "the set to write, with its tables beside it",
-         &words->output},
+         &words->output, .file = OPTION_OUTPUT},
         {"--layout", OPTION_TEXT, "DECLARATION.json",
          "all of the following, written once (keys: src/import/README.md)", &words->layout},
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &words->root},
@@ -251,6 +251,7 @@ static bool run(const Cli *cli, const Words *words, Arena *arena, Error *err)
 {
     ImportRequest *request = ARENA_NEW(arena, ImportRequest, 1);
     ImportSet      set = import_set(arena);
+    if (words->layout) lines_put(&set.inputs, words->layout);
     if (!make_request(words, arena, request, err) || !read_files(cli, request, &set, err) ||
         !import_write(&set, words->output, err))
         return false;

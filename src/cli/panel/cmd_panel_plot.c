@@ -6,6 +6,7 @@
 #include "base/units.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
+#include "cli/options/outputs.h"
 #include "cli/panel/panel_commands.h"
 #include "cli/panel/panel_level.h"
 #include "panel/query/panel_open.h"
@@ -62,12 +63,14 @@ static bool draw(const PlotRequest *request, const PlotInput *input, Arena *aren
            add_numbers(request, input, arena, answer, err);
 }
 
-static bool open_and_draw(PlotRequest *request, Arena *arena, json_t *answer, Error *err)
+static bool open_and_draw(PlotRequest *request, const Cli *cli, Arena *arena, json_t *answer,
+                          Error *err)
 {
     Panel       *panel = NULL;
     Measurement *measured = request->measured ? ARENA_NEW(arena, Measurement, 1) : NULL;
-    if (measured && !measurement_read_below(request->measured, request->root, arena, measured,
-                                            err))
+    if (measured &&
+        (!measurement_read_below(request->measured, request->root, arena, measured, err) ||
+         !outputs_spare(&cli->outputs, measured->inputs.list, measured->inputs.count, err)))
         return false;
     request->level.parts = PANEL_COARSE_ALL;
     if (!panel_level_open(request->panel, &request->level, arena, &panel, err)) return false;
@@ -110,7 +113,7 @@ static bool check_request(const PlotRequest *request, Error *err)
 static bool run(PlotRequest *request, const Cli *cli, Arena *arena, Error *err)
 {
     json_t *answer = json_object();
-    if (!open_and_draw(request, arena, answer, err)) {
+    if (!open_and_draw(request, cli, arena, answer, err)) {
         json_decref(answer);
         return false;
     }
@@ -127,14 +130,15 @@ static bool run_plot(int argc, char **argv, Arena *arena, Error *err)
     int     kind = 0, size[2] = {0, 0};
     double  incidence_phi = 180;
     const Option options[] = {
-        {"-o", OPTION_TEXT, "X.svg|X.png", "the picture to write", &request.picture},
+        {"-o", OPTION_TEXT, "X.svg|X.png", "the picture to write", &request.picture,
+         .file = OPTION_OUTPUT},
         {"--kind", OPTION_CHOICE, PLOT_KINDS, "what to draw (default all: one sheet)", &kind},
         {"--measured", OPTION_TEXT, "MANIFEST.json",
          "the set that the panel was fitted from: its points over the curves, and the errors",
          &request.measured},
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &request.root},
         {"--report", OPTION_TEXT, "X.html", "one page with every figure and all numbers",
-         &request.report},
+         &request.report, .file = OPTION_OUTPUT},
         {"--contour", OPTION_TEXT, "V[,V...]",
          "lines of luminance (cd/m2) or contrast at these values, with % of that on the axis",
          &request.contours},

@@ -64,7 +64,8 @@ static bool run_simulate(int argc, char **argv, Arena *arena, Error *err)
     double      place[2] = {0.5, 0.5};
     bool        wants_truth = false, has_grid = false, has_place = false;
     const Option options[] = {
-        {"-o", OPTION_TEXT, "DIR", "folder for MANIFEST.json and its tables", &folder},
+        {"-o", OPTION_TEXT, "DIR", "folder for MANIFEST.json and its tables", &folder,
+         .file = OPTION_OUTPUT},
         {"--truth", OPTION_NUMBERS, "THETA,PHI,R,G,B",
          "print the recipe's exact value instead: degrees and codes", at, -360, 360, 5,
          &wants_truth},

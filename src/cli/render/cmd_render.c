@@ -154,7 +154,8 @@ static bool load(RenderRun *work, Error *err)
 {
     RenderRequest *request = &work->request;
     work->problems = problems_start(work->arena);
-    const SceneAsked asked = {&request->scene, &request->environment, request->render.progress};
+    const SceneAsked asked = {&request->scene, &request->environment, request->render.progress,
+                              &request->cli.outputs};
     bool loaded =
         scene_options_load(&asked, work->arena, &work->problems, &work->scene, err) &&
         render_choose_camera(work->scene, &request->camera, &work->problems, &work->camera,

@@ -36,6 +36,6 @@ bool polarised_options_read(const PolarisedWords *words, bool wants_all, unsigne
      &(render)->no_guiding},                                                                   \
     {"--field", OPTION_TEXT, "FILE",                                                           \
      "what is learnt: taken from this file if it is there, else kept there",                   \
-     &(render)->field}
+     &(render)->field, .file = OPTION_KEPT}
 
 bool guiding_options_check(const RenderOptions *render, Error *err);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "cli/options/look_options.h"
+#include "cli/options/outputs.h"
 #include "cli/render/command_line.h"
 #include "cli/render/path_options.h"
 #include "text/nearest_word.h"
@@ -302,8 +303,9 @@ static void set_checkpoint(const RenderWords *typed, Arena *arena, RenderRequest
 {
     request->keeps_checkpoints =
         !request->replays && (request->checkpoint || typed->has_interval || request->resumes);
-    if (!request->checkpoint && request->output)
-        request->checkpoint = arena_format(arena, "%s.checkpoint", request->output);
+    if (request->checkpoint || !request->output) return;
+    request->checkpoint = arena_format(arena, "%s.checkpoint", request->output);
+    outputs_note(&request->cli.outputs, "-o", request->checkpoint);
 }
 
 /* --resume stands behind the command's name, so that it stands before any `--`. */
@@ -320,10 +322,17 @@ static const char *resume_line(int argc, char **argv, bool resumes, Arena *arena
 
 /* ---- rows of the option table that belong together --------------------------------------- */
 
+#define OUTPUT_OPTIONS(request)                                                                \
+    {"-o", OPTION_TEXT, "FRAME.exr|.hdr",                                                      \
+     "the frame; .hdr: R, G, B as a Radiance picture with its view", &(request)->output,       \
+     .file = OPTION_OUTPUT},                                                                   \
+    {"--png", OPTION_TEXT, "FILE", "develop the frame as well (PNG, JPEG, TIFF by ending)",    \
+     &(request)->png, .file = OPTION_OUTPUT}
+
 #define CHECKPOINT_OPTIONS(request, typed)                                                     \
     {"--checkpoint", OPTION_TEXT, "FILE",                                                      \
      "keep what is done, here (default FRAME.exr.checkpoint); INT, TERM and HUP always do; "   \
-     "gone with the finished frame", &(request)->checkpoint},                                  \
+     "gone with the finished frame", &(request)->checkpoint, .file = OPTION_KEPT},             \
     {"--checkpoint-interval", OPTION_NUMBER, "SECONDS", "how often (default 60)",              \
      &(request)->render.checkpoint_interval_s, .low = 0, .high = 1e6,                          \
      .given = &(typed)->has_interval},                                                         \
@@ -337,7 +346,7 @@ static const char *resume_line(int argc, char **argv, bool resumes, Arena *arena
      &(request)->tev},                                                                         \
     {"--live", OPTION_TEXT, "FILE.exr",                                                        \
      "the frame so far, for any viewer: written anew about every ten seconds",                 \
-     &(request)->live}
+     &(request)->live, .file = OPTION_OUTPUT}
 
 #define SHARE_OPTIONS(request, typed)                                                          \
     {"--slurm", OPTION_INTEGER, "N",                                                           \
@@ -355,10 +364,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
 {
     EnvironmentChange *outside = &request->environment;
     const Option options[] = {
-        {"-o", OPTION_TEXT, "FRAME.exr|.hdr",
-         "the frame; .hdr: R, G, B as a Radiance picture with its view", &request->output},
-        {"--png", OPTION_TEXT, "FILE", "develop the frame as well (PNG, JPEG, TIFF by ending)",
-         &request->png},
+        OUTPUT_OPTIONS(request),
         LOOK_OPTIONS(&request->look),
         {"--false-colour", OPTION_CHOICE, "luminance", "show luminance on a scale of colours",
          &typed->false_colour, .given = &request->look.false_colour},

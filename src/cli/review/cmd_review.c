@@ -11,6 +11,7 @@
 #include "print/print.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
+#include "cli/options/outputs.h"
 #include "cli/options/scene_options.h"
 #include "cli/review/review_files.h"
 #include "cli/review/review_folder.h"
@@ -65,9 +66,10 @@ static bool check(ReviewWords *out, Error *err)
 static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *err)
 {
     const Option options[] = {
-        {"-o", OPTION_TEXT, "DIR", "where everything is written", &out->folder},
+        {"-o", OPTION_TEXT, "DIR", "where everything is written", &out->folder,
+         .file = OPTION_OUTPUT},
         {"--init", OPTION_TEXT, "REVIEW.json", "writes a request to start from, for the scene",
-         &out->init},
+         &out->init, .file = OPTION_OUTPUT},
         {"--dry-run", OPTION_FLAG, NULL, "checks all, says what would be traced, and stops",
          &out->dry_run},
         {"--profile", OPTION_TEXT, "NAME|FILE.json", "limits instead of the request's",
@@ -175,7 +177,8 @@ static bool start(const ReviewWords *words, Arena *arena, Error *err)
     Scene       *scene;
     if (!scene_load(&options, arena, &problems, &scene, err)) return false;
     cli_print_warnings(&problems);
-    bool ok = review_request_start(&asked, scene, arena, err);
+    bool ok = outputs_spare(&words->cli.outputs, scene->inputs, scene->input_count, err) &&
+              review_request_start(&asked, scene, arena, err);
     scene_close(scene);
     return ok;
 }
@@ -213,11 +216,14 @@ typedef struct SoFar {
     double              shown_s;
 } SoFar;
 
-static void note_files(void *user, const Scene *scene)
+static bool note_files(void *user, const Scene *scene, Error *err)
 {
-    SoFar *so_far = user;
-    for (int i = 0; i < scene->input_count && so_far->watch; i++)
-        review_watch_add(so_far->watch, scene->inputs[i]);
+    SoFar              *so_far = user;
+    const ReviewFolder *folder = so_far->folder;
+    const Lines         files = {.list = scene->inputs, .count = scene->input_count};
+    for (int i = 0; i < files.count && so_far->watch; i++)
+        review_watch_add(so_far->watch, files.list[i]);
+    return review_files_spare(folder->target, folder->request, &files, *so_far->arena, err);
 }
 
 static bool write_so_far(void *user, const ReviewOutcome *outcome, int done, Error *err)
@@ -375,16 +381,6 @@ static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
     return false;
 }
 
-static void watch_inputs(ReviewWatch *watch, const ReviewRequest *request)
-{
-    for (int i = 0; i < request->input_count; i++)
-        review_watch_add(watch, request->inputs[i].path);
-    for (int i = 0; i < request->symbol_count; i++)
-        if (request->symbols[i].mask) review_watch_add(watch, request->symbols[i].mask);
-    for (int i = 0; i < request->scene_count; i++)
-        review_watch_add(watch, request->scenes[i]);
-}
-
 static bool find_parameter(const ReviewRequest *request, const char *name, Arena scratch,
                            const ReviewParameter **out, Error *err)
 {
@@ -436,7 +432,9 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
                              .summary = words->summary, .is_alone = words->is_alone,
                              .is_self_contained = words->is_self_contained};
     if (!review_request_read(file, words->root, arena, &problems, &request, err)) return false;
-    if (words->watch) watch_inputs(words->watch, &request);
+    const Lines files = review_request_files(&request, arena);
+    for (int i = 0; i < files.count && words->watch; i++)
+        review_watch_add(words->watch, files.list[i]);
     if (!profile_load(words->profile ? words->profile : request.profile, arena, &profile, err))
         return words->profile ? false : error_in_file(err, request.file);
     request.decide_times = words->decide_times ? words->decide_times
@@ -451,7 +449,8 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
     }
     if (words->summary && !check_symbol(&request, words->summary, *arena, err)) return false;
     if (!review_check(&request, *arena, err) ||
-        (folder.target && !review_files_check(folder.target, &request, *arena, err)))
+        (folder.target && (!review_files_check(folder.target, &request, *arena, err) ||
+                           !review_files_spare(folder.target, &request, &files, *arena, err))))
         return false;
     WorkPlan all = work_of_review(&request, folder.mend);
     Work     work = work_start(words->cli.progress, &all);

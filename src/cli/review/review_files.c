@@ -241,6 +241,29 @@ bool review_files_check(const char *dir, const ReviewRequest *request, Arena scr
     return true;
 }
 
+static bool is_among_files(const Lines *files, const char *path)
+{
+    bool found = false;
+    for (int i = 0; i < files->count && !found; i++)
+        found = file_is_same(files->list[i], path);
+    return found;
+}
+
+bool review_files_spare(const char *dir, const ReviewRequest *request, const Lines *inputs,
+                        Arena scratch, Error *err)
+{
+    Lines there = {.arena = &scratch};
+    review_files_list(&there, dir, "");
+    for (int i = 0; i < there.count; i++) {
+        Arena       room = scratch;
+        const char *path = arena_format(&room, "%s/%s", dir, there.list[i]);
+        if (is_among_files(inputs, path) && may_be_written(there.list[i], request, room))
+            return error_at(err, ERROR_OUTPUT, path, "", "is read, and the review would write "
+                            "over it — give another folder");
+    }
+    return true;
+}
+
 bool review_files_refuse(const char *path, Error *err)
 {
     return error_at(err, ERROR_OUTPUT, path, "", "was not made by a review, and is not written "

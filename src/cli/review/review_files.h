@@ -41,5 +41,10 @@ void review_files_list(Lines *files, const char *folder, const char *prefix);
 bool review_files_check(const char *dir, const ReviewRequest *request, Arena scratch,
                         Error *err);
 
+/* Before the work: false where one of these files, which are read, has such a name in it, also
+ * where a review made it. */
+bool review_files_spare(const char *dir, const ReviewRequest *request, const Lines *inputs,
+                        Arena scratch, Error *err);
+
 /* That a file of somebody else's stands there. */
 bool review_files_refuse(const char *path, Error *err);

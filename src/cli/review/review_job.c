@@ -112,20 +112,27 @@ static int own_words(const char *word)
     return 0;
 }
 
-void review_share_set(ShareRequest *share, int argc, char **argv, const char *output,
-                      const Cli *cli, Arena *arena)
+const char **review_part_words(int argc, char **argv, Arena *arena, int *count)
 {
-    bool has_options = true;
-    if (!share->dir) share->dir = arena_format(arena, "%s.parts", output);
-    share->split_name = "questions";
-    share->threads = cli->threads_given ? cli->threads : 0;
-    share->words = ARENA_NEW(arena, const char *, argc);
+    const char **words = ARENA_NEW(arena, const char *, argc);
+    bool         has_options = true;
+    *count = 0;
     for (int i = 1; i < argc; i++) {
         int skipped = has_options ? own_words(argv[i]) : 0;
         if (!strcmp(argv[i], "--")) has_options = false;
         if (skipped) i += skipped - 1;
-        else share->words[share->word_count++] = argv[i];
+        else words[(*count)++] = argv[i];
     }
+    return words;
+}
+
+void review_share_set(ShareRequest *share, int argc, char **argv, const char *output,
+                      const Cli *cli, Arena *arena)
+{
+    if (!share->dir) share->dir = arena_format(arena, "%s.parts", output);
+    share->split_name = "questions";
+    share->threads = cli->threads_given ? cli->threads : 0;
+    share->words = review_part_words(argc, argv, arena, &share->word_count);
 }
 
 bool review_share(const ShareRequest *share, ReviewFolder *folder, ReviewRun *run, bool json,

@@ -53,6 +53,9 @@ bool review_take_responses(const char *folder, const ReviewTask *task, Arena scr
  * NULL. */
 bool review_share_check(const ShareRequest *share, const char *not_traced, Error *err);
 
+/* The words of a `review` that its parts have in common, without its name (argv[0]). */
+const char **review_part_words(int argc, char **argv, Arena *arena, int *count);
+
 /* The job's folder, and the words of argv that all parts have. */
 void review_share_set(ShareRequest *share, int argc, char **argv, const char *output,
                       const Cli *cli, Arena *arena);

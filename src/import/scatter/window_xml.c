@@ -13,6 +13,7 @@
 #include <strings.h>
 
 #include "base/file.h"
+#include "text/xml_tags.h"
 
 #define BASES_MAX 16
 
@@ -82,7 +83,8 @@ static bool parse(Document *in, Error *err)
 {
     FileBytes bytes;
     if (!file_read(in->file, IMPORT_FILE_BYTES_MAX, in->arena, &bytes, err) ||
-        !check_bytes(in->file, &bytes, err))
+        !check_bytes(in->file, &bytes, err) ||
+        !xml_tags_check((const char *)bytes.data, in->file, err))
         return false;
     int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | XML_PARSE_HUGE |
                   XML_PARSE_NOCDATA;

@@ -24,7 +24,7 @@ int import_word_find(const char *const *list, const char *word)
 
 ImportSet import_set(Arena *arena)
 {
-    return (ImportSet){.arena = arena, .white_reflectance = 1,
+    return (ImportSet){.arena = arena, .white_reflectance = 1, .inputs = {.arena = arena},
                        .table = ARENA_NEW(arena, ImportTable, IMPORT_TABLES_MAX)};
 }
 

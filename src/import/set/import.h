@@ -14,6 +14,7 @@
 #pragma once
 #include "base/arena.h"
 #include "base/error.h"
+#include "base/lines.h"
 
 #define IMPORT_TABLES_MAX 4096
 #define IMPORT_NOTES_MAX 64
@@ -86,6 +87,7 @@ typedef struct ImportSet {
     const struct Gloss *gloss;       /* in its place; NULL: none */
     const char   *note[IMPORT_NOTES_MAX]; /* one line each: assumed, converted, left out */
     int           note_count;
+    Lines         inputs;            /* files that it is made from */
 } ImportSet;
 
 /* The place of a word, in any case, in a list that ends with NULL; or -1. */

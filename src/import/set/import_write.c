@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <sys/stat.h>
 
 #include "base/file.h"
 #include "panel/set/level_table.h"
@@ -34,40 +33,6 @@ const char *import_table_file(const ImportSet *set, const ImportTable *table, Ar
 
 #define LEVELS_FILE "emission/levels.csv"
 #define SPECULAR_FILE "brdf/specular.csv"
-
-static bool is_file(const char *path, const struct stat *target)
-{
-    struct stat source;
-    return path && !stat(path, &source) && source.st_dev == target->st_dev &&
-           source.st_ino == target->st_ino;
-}
-
-static bool spares(const SetOutput *out, const char *name, Arena scratch)
-{
-    struct stat target;
-    const char *path = path_beside(out->writer.manifest, name, &scratch);
-    if (stat(path, &target)) return true;
-    bool is_source = out->set->levels && is_file(out->set->levels->file, &target);
-    is_source |= out->set->specular && is_file(out->set->specular->file, &target);
-    for (int k = 0; k < out->set->count; k++)
-        is_source |= is_file(out->set->table[k].file, &target);
-    return !is_source ||
-           error_at(out->writer.err, ERROR_OUTPUT, path, "",
-                    "is one of the files to import and would be written over — "
-                    "choose another folder for the manifest");
-}
-
-/* A laboratory's own file is never written over. */
-static bool spares_sources(const SetOutput *out)
-{
-    Arena arena = out->scratch;
-    for (int i = 0; i < out->set->count; i++)
-        if (!spares(out, import_table_file(out->set, &out->set->table[i], &arena),
-                    arena))
-            return false;
-    return (!out->set->levels || spares(out, LEVELS_FILE, arena)) &&
-           (!out->set->specular || spares(out, SPECULAR_FILE, arena));
-}
 
 /* ---- tables ------------------------------------------------------------------------------ */
 
@@ -277,10 +242,10 @@ static bool write_manifest(SetOutput *out)
 bool import_write(const ImportSet *set, const char *manifest, Error *err)
 {
     SetOutput out = {.set = set};
-    if (!set_writer_open(manifest, &out.writer, err)) return false;
+    if (!set_writer_open(manifest, &set->inputs, &out.writer, err)) return false;
     Arena arena = arena_reserve((size_t)16 << 30);
     out.scratch = arena;
-    bool ok = spares_sources(&out);
+    bool ok = true;
     for (int i = 0; i < set->count && ok; i++) ok = write_table(&out, &set->table[i]);
     ok = ok && write_spectra(&out) &&
          (!set->levels || write_text(&out, LEVELS_FILE,

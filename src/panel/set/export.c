@@ -446,8 +446,9 @@ bool panel_export(const Panel *panel, const char *name, const ExportOptions *opt
     Arena  arena = arena_reserve((size_t)16 << 30);
     size_t length = strlen(folder);
     while (length > 1 && folder[length - 1] == '/') length--;
+    const Lines none = {.count = 0}; /* the folder is empty */
     bool ok = set_writer_open(arena_format(&arena, "%.*s/MANIFEST.json", (int)length, folder),
-                              &writer, err);
+                              &none, &writer, err);
     if (ok) {
         Export export = {.panel = panel, .prefix = "", .options = options, .writer = &writer,
                          .scratch = arena, .err = err,

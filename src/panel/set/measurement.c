@@ -535,13 +535,15 @@ bool measurement_read_below(const char *path, const char *folder, Arena *arena,
     JsonView     root;
     Measurement *set = ARENA_NEW(arena, Measurement, 1);
     *set = (Measurement){.file = arena_string(arena, path, strlen(path)), .panel = "",
-                         .instrument = "", .note = ""};
+                         .instrument = "", .note = "", .inputs = {.arena = arena}};
     bool ok;
+    lines_put(&set->inputs, set->file);
     if (!strcmp(path_ending(path), ".csv")) {
         ok = read_lone_table(path, arena, set, err);
     } else {
         if (!json_view_open(path, arena, &root, err)) return false;
         root.root = folder;
+        root.named = &set->inputs;
         ok = read_members(&root, set, err);
         json_view_close(&root);
     }

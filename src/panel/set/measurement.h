@@ -23,6 +23,7 @@
 
 typedef struct Measurement {
     const char *file; /* the manifest */
+    Lines       inputs; /* that, and every file that it names */
     const char *panel, *instrument, *note;
     double      pixels[2], size_mm[2];
     double      instrument_fwhm_deg; /* width of its own response; 0: not declared */

@@ -30,10 +30,22 @@ static bool exists(const char *path)
     return stat(path, &status) == 0;
 }
 
-bool set_writer_open(const char *manifest, SetWriter *out, Error *err)
+/* A file that stands there already may be replaced, unless the set is made from it. */
+static bool check_replaced(const Lines *inputs, const char *path, Error *err)
 {
-    if (exists(manifest) && !file_check_writable(manifest, err)) return false;
-    *out = (SetWriter){.manifest = manifest, .arena = arena_reserve((size_t)1 << 30),
+    for (int i = 0; i < inputs->count; i++)
+        if (file_is_same(inputs->list[i], path))
+            return error_at(err, ERROR_OUTPUT, path, "",
+                            "is one of the files that the set is made from and would be "
+                            "written over — choose another folder for the manifest");
+    return file_check_writable(path, err);
+}
+
+bool set_writer_open(const char *manifest, const Lines *inputs, SetWriter *out, Error *err)
+{
+    if (exists(manifest) && !check_replaced(inputs, manifest, err)) return false;
+    *out = (SetWriter){.manifest = manifest, .inputs = inputs,
+                       .arena = arena_reserve((size_t)1 << 30),
                        .err = err};
     return true;
 }
@@ -71,7 +83,7 @@ static SetFile *find_file(SetWriter *writer, const char *path)
     for (SetFile *file = writer->first; file; file = file->next)
         if (!strcmp(file->path, path)) return file;
     bool is_new = !exists(path);
-    if (!is_new && !file_check_writable(path, writer->err)) return NULL;
+    if (!is_new && !check_replaced(writer->inputs, path, writer->err)) return NULL;
     SetFile *file = ARENA_NEW(&writer->arena, SetFile, 1);
     *file = (SetFile){.path = path, .temporary = file_temporary_name(path, &writer->arena),
                       .is_new = is_new};

@@ -15,19 +15,22 @@
 #include <jansson.h>
 
 #include "base/error.h"
+#include "base/lines.h"
 #include "text/text.h"
 
 typedef struct SetWriter {
     const char       *manifest;
+    const Lines      *inputs;
     struct SetFile   *first, *last;
     struct SetFolder *made; /* the latest first */
     Arena             arena;
     Error            *err;
 } SetWriter;
 
-/* Refuses when a manifest stands there that may not be replaced. `manifest` and `err` must
- * outlive the writer. After a failure there is nothing to close. */
-bool set_writer_open(const char *manifest, SetWriter *out, Error *err);
+/* Refuses when a manifest stands there that may not be replaced. inputs: files that the set is
+ * made from, of which none is ever replaced. All must outlive the writer. After a failure there
+ * is nothing to close. */
+bool set_writer_open(const char *manifest, const Lines *inputs, SetWriter *out, Error *err);
 
 /* name: as the manifest names it, "emission/black.csv". Its folders and the manifest's are made
  * when absent; a name that was added already is written again. */

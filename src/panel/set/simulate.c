@@ -404,8 +404,9 @@ bool simulate_measurement(const SyntheticPanel *panel, const char *folder, Progr
 {
     Instrument instrument = {.panel = panel, .prefix = ""};
     Arena      arena = arena_reserve((size_t)16 << 30);
-    bool       ok = set_writer_open(arena_format(&arena, "%s/MANIFEST.json", folder),
-                                    &instrument.writer, err);
+    const Lines inputs = {.list = (const char *[]){panel->file}, .count = panel->file != NULL};
+    bool ok = set_writer_open(arena_format(&arena, "%s/MANIFEST.json", folder), &inputs,
+                              &instrument.writer, err);
     if (ok) {
         instrument.progress = progress_start(mode, "simulate", "tables", count_tables(panel));
         instrument.scratch = arena;

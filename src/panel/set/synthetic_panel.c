@@ -2,6 +2,7 @@
 #include "panel/set/synthetic_panel.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/count.h"
 #include "base/mathd.h"
@@ -284,6 +285,7 @@ bool synthetic_panel_read(const char *file, Arena *arena, SyntheticPanel *out, E
     if (!json_view_open(file, arena, &root, err)) return false;
     bool ok = read_members(&root, &panel, err);
     json_view_close(&root);
+    panel.file = arena_string(arena, file, strlen(file));
     if (ok) *out = panel;
     return ok;
 }

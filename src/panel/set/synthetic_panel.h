@@ -95,6 +95,7 @@ typedef struct SyntheticPlaces {
 } SyntheticPlaces;
 
 typedef struct SyntheticPanel {
+    const char *file; /* that it was read from; NULL: none */
     const char *name, *note;
     double pixels[2], size_mm[2];
     double refractive_index;

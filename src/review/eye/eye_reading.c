@@ -478,7 +478,8 @@ EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch)
     Question   question = {.base = tools->base, .kind = "eye", .numbers = numbers,
                            .number_count = COUNT_OF(numbers)};
     JournalKey key = question_key(&question, &aim, scratch);
-    if (journal_find(tools->journal, key, &reading, sizeof reading)) return reading;
+    if (journal_find(tools->journal, key, &reading, sizeof reading) && isfinite(reading.veil))
+        return reading;
     reading = read_eye(setup, look, scratch);
     journal_add(tools->journal, key, &reading, sizeof reading);
     return reading;

@@ -297,6 +297,8 @@ FalseSunSight false_suns_at(const FalseSuns *suns, Vec3 towards)
 
 /* ---- searches that are kept -------------------------------------------------------------- */
 
+#define KEPT_MOST (1 << 24) /* rays: a search follows some 2 million */
+#define UNIT_SLACK 1e-3f
 #define BYTES ((size_t)1 << 34) /* address space: what is not touched costs nothing */
 
 struct SunSearch {
@@ -331,11 +333,30 @@ static JournalKey key_of(const Setup *setup, Vec3 eye, const char *what, Arena s
                                     (double)eye.y, (double)eye.z));
 }
 
+static bool ray_is_sound(const FalseSunRay *ray, int part_count)
+{
+    float  sun = vec3_length(ray->sun), seen = vec3_length(ray->seen);
+    bool   ok = fabsf(sun - 1) < UNIT_SLACK && fabsf(seen - 1) < UNIT_SLACK && ray->sr >= 0 &&
+              isfinite(ray->sr) && ray->part_id >= 0 && ray->part_id < part_count;
+    for (int k = 0; k < LIGHT_BANDS; k++)
+        ok = ok && ray->share[k] >= 0 && isfinite(ray->share[k]);
+    return ok;
+}
+
+bool false_suns_are_sound(const FalseSunRays *rays, int part_count)
+{
+    bool ok = rays->first[0] == 0 && rays->first[FALSE_SUN_CELLS] == rays->count;
+    for (int i = 0; ok && i < FALSE_SUN_CELLS; i++) ok = rays->first[i] <= rays->first[i + 1];
+    for (int i = 0; ok && i < rays->count; i++) ok = ray_is_sound(&rays->list[i], part_count);
+    return ok;
+}
+
 static bool find_kept(const Setup *setup, Vec3 eye, Arena *arena, FalseSunRays *out)
 {
     const Journal *journal = setup->tools.journal;
     int            count;
-    if (!journal_find(journal, key_of(setup, eye, "count", *arena), &count, sizeof count))
+    if (!journal_find(journal, key_of(setup, eye, "count", *arena), &count, sizeof count) ||
+        count < 0 || count > KEPT_MOST)
         return false;
     size_t bytes = (size_t)count * sizeof(FalseSunRay);
     JournalKey   rays = key_of(setup, eye, "rays", *arena);
@@ -344,7 +365,8 @@ static bool find_kept(const Setup *setup, Vec3 eye, Arena *arena, FalseSunRays *
     int         *first = ARENA_NEW(arena, int, FALSE_SUN_CELLS + 1);
     *out = (FalseSunRays){list, first, count};
     return (!count || journal_find(journal, rays, list, bytes)) &&
-           journal_find(journal, cells, first, (FALSE_SUN_CELLS + 1) * sizeof *first);
+           journal_find(journal, cells, first, (FALSE_SUN_CELLS + 1) * sizeof *first) &&
+           false_suns_are_sound(out, setup->scene->part_count);
 }
 
 /* The count comes last: the others are there when it is. */

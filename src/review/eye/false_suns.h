@@ -41,6 +41,9 @@ typedef struct FalseSunRays {
 /* The setup may be dark: no light of it counts. */
 void false_suns_search(const Setup *setup, Vec3 eye, Arena *arena, FalseSunRays *out);
 
+/* Rays as a file keeps them: what a search can have found in a scene of so many parts. */
+bool false_suns_are_sound(const FalseSunRays *rays, int part_count);
+
 /* A ray under suns of one spectrum. */
 typedef struct FalseSun {
     Vec3  sun, seen; /* the ray's */

@@ -2,6 +2,7 @@
 #include "review/eye/gaze_reading.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/count.h"
 #include "base/sampler.h"
@@ -158,6 +159,21 @@ static GazeReading read_gaze(const Setup *setup, const GazeGoal *goal, Arena scr
                          find_mirrored(&fresh)};
 }
 
+static bool is_part(int id, int part_count)
+{
+    return id == NO_ID || (id >= 0 && id < part_count);
+}
+
+bool gaze_reading_is_sound(const GazeReading *reading, int part_count)
+{
+    unsigned            source;
+    const GazeMirrored *most = &reading->most;
+    memcpy(&source, &most->source, sizeof source);
+    return isfinite(reading->through.mean) && isfinite(reading->mirrored.mean) &&
+           is_part(most->pane_id, part_count) && is_part(most->part_id, part_count) &&
+           source < LIGHT_SETS;
+}
+
 GazeReading gaze_read(const Setup *setup, const GazeGoal *goal, Arena scratch)
 {
     const ReadingTools *tools = &setup->tools;
@@ -169,7 +185,9 @@ GazeReading gaze_read(const Setup *setup, const GazeGoal *goal, Arena scratch)
     Question   question = {.base = tools->base, .kind = "gaze", .numbers = numbers,
                            .number_count = COUNT_OF(numbers)};
     JournalKey key = question_key(&question, &aim, scratch);
-    if (journal_find(tools->journal, key, &reading, sizeof reading)) return reading;
+    if (journal_find(tools->journal, key, &reading, sizeof reading) &&
+        gaze_reading_is_sound(&reading, setup->scene->part_count))
+        return reading;
     reading = read_gaze(setup, goal, scratch);
     if (!signals_stop_requested()) journal_add(tools->journal, key, &reading, sizeof reading);
     return reading;

@@ -222,14 +222,22 @@ static bool lock(const Journal *journal, Error *err)
                     "folder");
 }
 
+/* A folder that came from somewhere may have a link or a pipe in its place. */
+static bool is_regular(const Journal *journal, Error *err)
+{
+    struct stat info;
+    return (fstat(journal->file, &info) == 0 && S_ISREG(info.st_mode)) ||
+           error_at(err, ERROR_OUTPUT, journal->path, "", "is not a regular file");
+}
+
 bool journal_open(const char *path, Arena *arena, Problems *problems, Journal **out, Error *err)
 {
     Journal *journal = ARENA_NEW(arena, Journal, 1);
     *journal = (Journal){.path = path, .arena = arena};
     grow(journal);
-    journal->file = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    journal->file = open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
     if (journal->file < 0) return refuse(journal, "created", errno, err);
-    bool is_free = lock(journal, err);
+    bool is_free = is_regular(journal, err) && lock(journal, err);
     if (is_free && take_file(journal, problems, err)) {
         *out = journal;
         return true;
@@ -290,9 +298,10 @@ static bool open_other(const char *path, Arena *scratch, Journal *out, uint64_t 
     JournalHead head;
     struct stat info;
     *out = (Journal){.path = path, .arena = scratch, .end = sizeof head,
-                     .file = open(path, O_RDONLY | O_CLOEXEC)};
+                     .file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
     if (out->file < 0) return false;
-    if (fstat(out->file, &info) != 0 || (size_t)info.st_size < sizeof head ||
+    if (fstat(out->file, &info) != 0 || !S_ISREG(info.st_mode) ||
+        (size_t)info.st_size < sizeof head ||
         !read_at(out->file, &head, sizeof head, 0) || !is_ours(&head)) {
         close(out->file);
         return false;
@@ -303,19 +312,39 @@ static bool open_other(const char *path, Arena *scratch, Journal *out, uint64_t 
     return true;
 }
 
+/* An answer may be as large as a file: it goes over piece by piece, with its checksum. */
+static void copy_entry(Journal *journal, const Journal *from, const JournalPlace *place)
+{
+    unsigned char buffer[BUFFER_BYTES];
+    uint64_t      size = sizeof(JournalEntry) + place->size, done = 0;
+    uint64_t      start = place->offset - sizeof(JournalEntry);
+    if (journal->has_failed || place_of(journal->places, journal->room, place->key)->offset)
+        return;
+    while (done < size) {
+        size_t part = size - done < sizeof buffer ? (size_t)(size - done) : sizeof buffer;
+        if (!read_at(from->file, buffer, part, start + done)) break;
+        if (!write_at(journal->file, buffer, part, journal->end + done)) {
+            fail(journal, errno);
+            return;
+        }
+        done += part;
+    }
+    if (done < size) { /* it cannot be read: what was written of it goes */
+        if (ftruncate(journal->file, (off_t)journal->end) != 0) fail(journal, errno);
+        return;
+    }
+    remember(journal, &(JournalPlace){place->key, journal->end + sizeof(JournalEntry),
+                                      place->size});
+    journal->end += size;
+}
+
 bool journal_take_over(Journal *journal, const char *path, Arena scratch)
 {
     Journal  other;
     uint64_t bytes;
     if (!open_other(path, &scratch, &other, &bytes)) return false;
-    for (size_t i = 0; i < other.room; i++) {
-        const JournalPlace *place = &other.places[i];
-        Arena room = scratch;
-        if (!place->offset) continue;
-        void *answer = arena_alloc(&room, place->size, 16, 1);
-        if (read_at(other.file, answer, place->size, place->offset))
-            journal_add(journal, place->key, answer, place->size);
-    }
+    for (size_t i = 0; i < other.room; i++)
+        if (other.places[i].offset) copy_entry(journal, &other, &other.places[i]);
     close(other.file);
     return true;
 }

@@ -44,7 +44,7 @@ void journal_add(Journal *journal, JournalKey key, const void *answer, size_t si
 bool journal_ok(const Journal *journal, Error *err);
 
 /* Adds the answers of another journal's file, those that are whole: somebody may be at work
- * on it. False: it is none. The scratch holds an index, and one answer at a time. */
+ * on it. False: it is none. The scratch holds an index. */
 bool journal_take_over(Journal *journal, const char *path, Arena scratch);
 
 /* Whether the file is a journal that is whole to its end and has an answer under the key. */

@@ -428,7 +428,13 @@ static bool find_parts(const Journal *journal, JournalKey key, int displays,
     memcpy(&parts->seconds, from + sizeof paths, sizeof parts->seconds);
     parts->pilot_paths = paths[0];
     parts->paths = paths[1];
-    return true;
+    return paths[0] > 0 && paths[1] > 0;
+}
+
+static bool find_reading(const Journal *journal, JournalKey key, Reading *out)
+{
+    return journal_find(journal, key, out, sizeof *out) && isfinite(out->reflected) &&
+           out->paths > 0;
 }
 
 /* A reading that was kept before anybody shared it is taken again, with the same result. */
@@ -439,7 +445,7 @@ static Reading take_shared(const ProbeAim *aim, const ReadingGoal *goal,
     ReadingParts *parts = ARENA_NEW(&scratch, ReadingParts, 1);
     JournalKey key = key_of(aim, goal, tools, scratch);
     JournalKey shared = parts_key(aim, goal, tools, scratch);
-    if (journal_find(tools->journal, key, &reading, sizeof reading) &&
+    if (find_reading(tools->journal, key, &reading) &&
         find_parts(tools->journal, shared, displays_of(aim), parts, scratch))
         return reading;
     reading = take(aim, goal, tools, parts, scratch);
@@ -456,7 +462,7 @@ Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const Reading
     if (goal->is_shared && displays_of(aim) <= PROBE_DISPLAYS)
         return take_shared(aim, goal, tools, scratch);
     JournalKey key = key_of(aim, goal, tools, scratch);
-    if (journal_find(tools->journal, key, &reading, sizeof reading)) return reading;
+    if (find_reading(tools->journal, key, &reading)) return reading;
     reading = take(aim, goal, tools, NULL, scratch);
     keep(tools->journal, key, &reading, sizeof reading);
     return reading;

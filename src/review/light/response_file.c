@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/light/response_file.h"
 
+#include <math.h>
 #include <string.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -12,7 +13,7 @@
 #define MAGIC "PRHLRESP"
 #define BYTE_ORDER_MARK 0x01020304u
 #define FILE_BYTES_MOST ((size_t)1 << 28)
-#define LEVEL_MOST 9
+#define LEVEL_MOST RESPONSE_LEVEL
 #define CELL_BYTES (RESPONSE_BANDS * sizeof(float))
 #define GROUP_BYTES (2 * RESPONSE_GROUPS * sizeof(float))
 
@@ -136,7 +137,8 @@ static bool check_head(const ResponseFile *file, const ResponseHead *head, Error
                     head->cells == 2 * (int32_t)geodesic_count(head->level) &&
                     head->kept >= 0 && head->kept <= head->cells &&
                     head->identity_bytes < head->file_bytes &&
-                    bytes_of(head) == head->file_bytes;
+                    bytes_of(head) == head->file_bytes && isfinite(head->lamps) &&
+                    isfinite(head->displays);
     return is_sound || refuse(file, "is damaged: its head cannot be", err);
 }
 
@@ -163,7 +165,11 @@ static bool spread(const ResponseFile *file, const ResponseHead *head,
         memcpy(&cell, cells + (size_t)i * sizeof cell, sizeof cell);
         if (cell < 0 || cell >= head->cells)
             return refuse(file, "is damaged: it has triangles that are not there", err);
-        memcpy(part.to + (size_t)cell * (part.bytes / sizeof(float)), part.values, part.bytes);
+        float *to = part.to + (size_t)cell * (part.bytes / sizeof(float));
+        memcpy(to, part.values, part.bytes);
+        for (size_t k = 0; k < part.bytes / sizeof(float); k++)
+            if (!isfinite(to[k]))
+                return refuse(file, "is damaged: it has light that is not finite", err);
     }
     return true;
 }

@@ -119,6 +119,17 @@ double review_range_value(const ReviewRange *range, int i)
     return i == range->count - 1 ? range->last : range->first + i * range->step;
 }
 
+Lines review_request_files(const ReviewRequest *request, Arena *arena)
+{
+    Lines files = {.arena = arena};
+    for (int i = 0; i < request->input_count; i++)
+        lines_put(&files, request->inputs[i].path);
+    for (int i = 0; i < request->symbol_count; i++)
+        if (request->symbols[i].mask) lines_put(&files, request->symbols[i].mask);
+    for (int i = 0; i < request->scene_count; i++) lines_put(&files, request->scenes[i]);
+    return files;
+}
+
 uint32_t review_seed(const ReviewRequest *request, uint32_t base)
 {
     return request->seed ? hash_combine(hash_u32(base), request->seed) : base;

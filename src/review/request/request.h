@@ -14,6 +14,7 @@
 #pragma once
 #include <stdbool.h>
 
+#include "base/lines.h"
 #include "review/route/route.h"
 #include "scene/scene.h"
 #include "sky/epw.h"
@@ -334,6 +335,9 @@ typedef struct ReviewRequest {
     ReviewInput     *inputs;     /* the file itself, routes, weathers, skies' pictures */
     int              input_count;
 } ReviewRequest;
+
+/* Every file that it reads, or names as a scene or a mask. */
+Lines review_request_files(const ReviewRequest *request, Arena *arena);
 
 /* A probe's random seed: `base`, hashed with the request's seed unless that is 0. Other seeds
  * show how much of a result is chance. */

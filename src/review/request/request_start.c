@@ -19,19 +19,10 @@
 
 /* ---- the scene's files ------------------------------------------------------------------- */
 
-static bool lies_in(const char *root, const char *target)
-{
-    char folder[PATH_MAX];
-    if (!root || !realpath(root, folder)) return false;
-    size_t length = strlen(folder);
-    return !strncmp(target, folder, length) &&
-           (folder[length - 1] == '/' || target[length] == '/');
-}
-
-/* The URI of a scene's file in a document in the absolute folder `from` ("/a/b/"); NULL and an
- * error when it may not be named there. */
-static const char *uri_of(const char *from, const char *file, const char *root, Arena *arena,
-                          Error *err)
+/* The URI of a scene's file in the new document, whose absolute folder is `from` ("/a/b/");
+ * NULL and an error when it may not be named there. */
+static const char *uri_of(const char *from, const char *file, const ReviewStart *start,
+                          Arena *arena, Error *err)
 {
     char target[PATH_MAX];
     if (!realpath(file, target)) {
@@ -39,10 +30,12 @@ static const char *uri_of(const char *from, const char *file, const char *root, 
         return NULL;
     }
     const char *uri = uri_between(from, target, arena);
-    if (path_climb(uri) > 1 && !lies_in(root, target)) {
+    const ReferenceReach reach = {start->root, false};
+    if (!uri_may_be_named(start->output, uri, reach, *arena)) {
         error_at(err, ERROR_INPUT, file, "",
                  "lies outside the parent of the new file's folder, wanted the new file in the "
-                 "scene's folder or one beside it, or --root");
+                 "scene's folder or one beside it (beside it not in \"/\" and the home "
+                 "folder), or --root");
         return NULL;
     }
     return uri;
@@ -64,7 +57,7 @@ static bool add_scenes(json_t *document, const ReviewStart *start, Arena *arena,
     json_object_set_new(document, "scene", list);
     if (!find_folder(start->output, folder, *arena, err)) return false;
     for (int i = 0; i < start->scene_count; i++) {
-        const char *uri = uri_of(folder, start->scenes[i], start->root, arena, err);
+        const char *uri = uri_of(folder, start->scenes[i], start, arena, err);
         if (!uri) return false;
         json_array_append_new(list, json_text(uri));
     }

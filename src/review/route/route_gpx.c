@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "text/xml_tags.h"
+
 /* ---- elements ---------------------------------------------------------------------------- */
 
 static bool is_named(const xmlNode *node, const char *name)
@@ -114,7 +116,8 @@ static xmlDoc *parse(const char *text, const char *file, Error *err)
 
 bool route_gpx_read(const char *text, RoutePoints *points, Error *err)
 {
-    if (!check_type(text, points->file, err)) return false;
+    if (!check_type(text, points->file, err) || !xml_tags_check(text, points->file, err))
+        return false;
     xmlDoc *document = parse(text, points->file, err);
     if (!document) return false;
     GpxReader reader = {points, arena_reserve(ROUTE_BYTES_MAX)};

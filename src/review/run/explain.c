@@ -157,7 +157,8 @@ bool explain_review(const ReviewRequest *request, const ExplainOptions *options,
     Arena scratch = arena_reserve(SETUP_BYTES);
     bool  ok = setup_open(&setup_options, &scratch, options->problems, &setup, err);
     if (ok) {
-        ok = (review_request_check(request, setup.scene, options->problems) ||
+        ok = (!options->read || options->read(options->user, setup.scene, err)) &&
+             (review_request_check(request, setup.scene, options->problems) ||
               problems_verdict(options->problems, err)) &&
              explain_on(&setup, options, &scratch, arena, out, err);
         setup_close(&setup);

@@ -25,6 +25,8 @@ typedef struct ExplainOptions {
     bool        with_outlook;
     const Profile *profile;               /* limits */
     Problems      *problems;              /* warnings of the scene */
+    bool         (*read)(void *user, const Scene *scene, Error *err); /* before it is traced */
+    void          *user;
 } ExplainOptions;
 
 typedef struct Explained {

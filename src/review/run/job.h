@@ -19,11 +19,11 @@
 typedef struct ReviewOutcome ReviewOutcome;
 
 /* Callbacks of a running review; NULL: none. on_condition: after each condition, with how many
- * are done; it must change nothing, and its failure ends the review. read: gets each scene,
- * whose files are known then. */
+ * are done; it must change nothing. read: gets each scene, whose files are known then. The
+ * failure of either ends the review. */
 typedef struct ReviewNews {
     bool (*on_condition)(void *user, const ReviewOutcome *so_far, int done, Error *err);
-    void (*read)(void *user, const Scene *scene);
+    bool (*read)(void *user, const Scene *scene, Error *err);
     void  *user;
 } ReviewNews;
 

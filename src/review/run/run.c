@@ -217,11 +217,11 @@ static bool run_condition(const ReviewRun *run, const ReviewCondition *condition
     bool  ok = setup_open(&options, &scratch, run->problems, &setup, err);
     if (ok) {
         setup.is_shared = run->rider_count > 0;
-        if (run->news.read) run->news.read(run->news.user, setup.scene);
         report_without_data(setup.scene, &out->review, scratch, arena);
         rests_add_scene(run->request, setup.scene, &out->review, arena);
         rests_add_scene_files(setup.scene, &out->review, arena);
-        ok = (review_request_check(run->request, setup.scene, run->problems) ||
+        ok = (!run->news.read || run->news.read(run->news.user, setup.scene, err)) &&
+             (review_request_check(run->request, setup.scene, run->problems) ||
               problems_verdict(run->problems, err)) &&
              check_planned(run, &setup, scratch, err) &&
              (group ? run_sweeps(run, &setup, group, arena, out, err)

@@ -85,13 +85,22 @@ static JournalKey key_of(const Setup *setup, const ContentLight *light, Arena sc
     return journal_key(text.data);
 }
 
+static bool find_kept(const Journal *journal, JournalKey key, TextsFound *found)
+{
+    bool ok = journal_find(journal, key, found, sizeof *found) && found->count >= 0 &&
+              found->count <= SYMBOLS_FOUND_MOST;
+    for (int i = 0; ok && i < found->count; i++) ok = text_proposal_is_sound(&found->list[i]);
+    return ok;
+}
+
 /* Every condition and variant asks again, mostly of the same content. */
 static TextsFound find_texts(const Setup *setup, const ContentLight *light, Arena scratch)
 {
     TextsFound    found = {0};
     TextProposal *list;
     JournalKey    key = key_of(setup, light, scratch);
-    if (journal_find(setup->tools.journal, key, &found, sizeof found)) return found;
+    if (find_kept(setup->tools.journal, key, &found)) return found;
+    found = (TextsFound){0};
     found.count = text_find(light, SYMBOLS_FOUND_MOST, &scratch, &list);
     for (int i = 0; i < found.count; i++) found.list[i] = list[i];
     journal_add(setup->tools.journal, key, &found, sizeof found);

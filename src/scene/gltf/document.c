@@ -140,10 +140,11 @@ bool document_resolve(GltfFile *file, const GltfValue *uri, const char **path)
 {
     Error err;
     char *relative;
+    const SceneOptions  *options = file->load->options;
+    const ReferenceReach reach = {options->root, options->own_folder};
     if (document_is_elsewhere(file, uri, SEVERITY_ERROR)) return false;
     return (uri_decode(uri->text, &file->load->scratch, &relative, &err) &&
-            reference_resolve(file->path, relative, file->load->options->root,
-                              &file->load->scratch, path, &err)) ||
+            reference_resolve(file->path, relative, reach, &file->load->scratch, path, &err)) ||
            file_error(file, uri, "%s", err.text);
 }
 

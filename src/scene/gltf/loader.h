@@ -44,6 +44,7 @@ typedef struct Loader {
     ItemList display_places; /* DisplayPlace, one a display */
     ItemList inputs;         /* const char * */
     ItemList input_hashes;   /* uint64_t */
+    ItemList undecoded;      /* const char *, of the inputs */
     ItemList extensions;     /* const char * */
     ItemList node_names;     /* const char *, of nodes that are shown */
     ItemList variants;       /* const char *, of all files */

@@ -142,6 +142,7 @@ static void load_one_image(GltfFile *file, const GltfValue *image, ImageUse use,
         return;
     }
     out->image = (Image){0};
+    load_note(file->load, &file->load->undecoded, name);
     if (is_used)
         file_error(file, image, "cannot be decoded: %s", err.text);
     else
