@@ -28,8 +28,8 @@ static void exit_when_full(size_t bytes_wanted, size_t bytes_left)
  * file that asks for more than the machine has should exhaust the arena, not the system. */
 static size_t most_bytes(void)
 {
-    size_t machine = (size_t)sysconf(_SC_PHYS_PAGES) * (size_t)sysconf(_SC_PAGESIZE);
-    size_t space = machine_address_space_left() / 2, memory = machine / 4 * 3;
+    size_t space = machine_address_space_left() / 2;
+    size_t memory = machine_installed_bytes() / 4 * 3;
     return (space < memory ? space : memory) / PAGE * PAGE;
 }
 

@@ -6,9 +6,17 @@
 #pragma once
 #include <stddef.h>
 
-/* Bytes: the machine's memory, or half of the address space that a batch system grants (ulimit
- * -v; the libraries' share is the other half). */
+/* Bytes: the machine's memory, or what the process's control group (a container's, a batch
+ * system's) may have of it. */
+size_t machine_installed_bytes(void);
+
+/* The same, or half of the address space that a batch system grants (ulimit -v; the libraries'
+ * share is the other half). */
 size_t machine_memory_bytes(void);
+
+/* The least limit of the control groups that own_groups (/proc/self/cgroup) names and of those
+ * that hold them, mounted at root; version 1 and 2 (cgroups(7)). SIZE_MAX: none. */
+size_t machine_group_bytes(const char *own_groups, const char *root);
 
 /* The most bytes of memory that the process has held at once so far. */
 double machine_peak_bytes(void);

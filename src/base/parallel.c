@@ -78,6 +78,27 @@ bool parallel_try(int thread_count, int item_count, ParallelTry *work, void *con
     return true;
 }
 
+static void *wait_at(void *gate)
+{
+    pthread_mutex_lock(gate);
+    pthread_mutex_unlock(gate);
+    return NULL;
+}
+
+int parallel_grantable_threads(int wanted)
+{
+    pthread_t       threads[PARALLEL_THREADS_MAX];
+    pthread_mutex_t gate = PTHREAD_MUTEX_INITIALIZER;
+    int             started = 1; /* the caller's own */
+    if (wanted > PARALLEL_THREADS_MAX) wanted = PARALLEL_THREADS_MAX;
+    pthread_mutex_lock(&gate);
+    while (started < wanted && !pthread_create(&threads[started], NULL, wait_at, &gate))
+        started++;
+    pthread_mutex_unlock(&gate);
+    for (int i = 1; i < started; i++) pthread_join(threads[i], NULL);
+    return started;
+}
+
 int parallel_default_threads(void)
 {
     cpu_set_t allowed;

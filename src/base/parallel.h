@@ -11,6 +11,10 @@
 #include "base/arena.h"
 #include "base/error.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define PARALLEL_THREADS_MAX 1024
 
 /* item: 0 .. item_count - 1, each exactly once, begun in rising order. worker: 0 ..
@@ -29,3 +33,11 @@ bool parallel_try(int thread_count, int item_count, ParallelTry *work, void *con
 
 /* How many threads the scheduler lets this process have (its affinity), at least 1. */
 int parallel_default_threads(void);
+
+/* How many of wanted threads, the caller among them, the system grants now (RLIMIT_NPROC, a
+ * control group's pids.max): for libraries that end their work where they cannot have one. */
+int parallel_grantable_threads(int wanted);
+
+#ifdef __cplusplus
+}
+#endif

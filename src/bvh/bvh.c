@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/parallel.h"
+
 /* EMBREE_MAJOR comes from the build. */
 #if EMBREE_MAJOR >= 4
 #include <embree4/rtcore.h>
@@ -71,6 +73,7 @@ struct Bvh {
     uint32_t  first_triangle[GEOMETRY_COUNT];
     BvhRecorder *recorder;
     int       threads; /* that built it */
+    bool      is_short_of_threads;
 };
 
 /* A query's context, with what the filters need behind Embree's own part. */
@@ -276,11 +279,13 @@ bool bvh_build(const Scene *scene, int threads, const char *isa, ProgressMode pr
 {
     char config[96];
     Error first = {0};
-    snprintf(config, sizeof config, "threads=%d,set_affinity=0%s%s", threads,
+    int granted = parallel_grantable_threads(threads);
+    snprintf(config, sizeof config, "threads=%d,set_affinity=0%s%s", granted,
              isa ? ",isa=" : "", isa ? isa : "");
     Bvh *bvh = calloc(1, sizeof *bvh);
     if (!bvh) return error_set(err, ERROR_MEMORY, "out of memory for the ray tracer");
-    bvh->threads = threads;
+    bvh->threads = granted;
+    bvh->is_short_of_threads = granted < threads;
     bvh->device = rtcNewDevice(config);
     if (!bvh->device) {
         free(bvh);
@@ -309,7 +314,8 @@ void bvh_destroy(Bvh *bvh)
     if (!bvh) return;
     if (bvh->sheets) rtcReleaseScene(bvh->sheets);
     if (bvh->scene) rtcReleaseScene(bvh->scene);
-    if (bvh->device) rtcReleaseDevice(bvh->device);
+    /* oneTBB starts threads while it forgets a limit, and ends the program where it cannot. */
+    if (bvh->device && !bvh->is_short_of_threads) rtcReleaseDevice(bvh->device);
     free(bvh);
 }
 

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include "base/file.h"
+#include "base/parallel.h"
 #include "guarded/guarded.hpp"
 #include "openexr/exr_attribute.hpp"
 #include "openexr/exr_header.h"
@@ -46,7 +47,8 @@ std::string one_line(std::string text)
 int coding_threads()
 {
     int processors = (int)std::thread::hardware_concurrency();
-    return processors > 1 ? std::min(processors, 8) : 0;
+    int granted = parallel_grantable_threads(1 + std::min(processors, 8)) - 1;
+    return granted > 1 ? granted : 0;
 }
 
 /* The library's own threads, for as long as pixels are coded; how many makes no difference to

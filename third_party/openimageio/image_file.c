@@ -5,20 +5,29 @@
 #include <stdint.h>
 
 #include "base/machine.h"
+#include "base/parallel.h"
 #include "base/program.h"
 #include "openimageio/image_file_module.h"
 
 static const ProgramPart module_part = {
     "the program's part for pictures", PICTURES_MODULE, INSTALLED_MODULES "/" PICTURES_MODULE};
 
-/* A library that finds no memory while it is loaded ends the program, so there must be enough:
- * 370 MB are mapped and some threads started. */
+#define THREADS 4 /* of one of the libraries, as long as it is loaded */
+
+/* A library that finds no memory or thread while it is loaded ends the program, so there must be
+ * enough: 370 MB are mapped. */
 static void *load_first(const char *path, Error *err)
 {
     const size_t wanted = (size_t)512 << 20, left = machine_address_space_left();
     if (left < wanted) {
         error_set(err, ERROR_MEMORY, "the libraries for pictures want %zu MB of memory, %zu "
                   "are left of the address space (ulimit -v)", wanted >> 20, left >> 20);
+        return NULL;
+    }
+    int granted = parallel_grantable_threads(1 + THREADS) - 1;
+    if (granted < THREADS) {
+        error_set(err, ERROR_LIBRARY, "the libraries for pictures start %d threads, the system "
+                  "grants %d (ulimit -u, pids.max)", THREADS, granted);
         return NULL;
     }
     void *module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
