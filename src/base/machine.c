@@ -29,7 +29,8 @@ static size_t least_limit(const char *root, const char *group, const char *name)
 {
     char   folder[PATH_BYTES];
     size_t least = SIZE_MAX, length = strlen(root);
-    if (snprintf(folder, sizeof folder, "%s%s", root, group) >= (int)sizeof folder) return least;
+    int    written = snprintf(folder, sizeof folder, "%s%s", root, group);
+    if (written >= (int)sizeof folder) return least;
     for (;;) {
         size_t limit = limit_in(folder, name);
         if (limit < least) least = limit;

@@ -14,8 +14,8 @@ static const ProgramPart module_part = {
 
 #define THREADS 4 /* of one of the libraries, as long as it is loaded */
 
-/* A library that finds no memory or thread while it is loaded ends the program, so there must be
- * enough: 370 MB are mapped. */
+/* A library that finds no memory or thread while it is loaded ends the program, so there must
+ * be enough: 370 MB are mapped. */
 static void *load_first(const char *path, Error *err)
 {
     const size_t wanted = (size_t)512 << 20, left = machine_address_space_left();
