@@ -11,8 +11,8 @@
 #include "image/exposure.h"
 #include "image/icc_profile.h"
 #include "image/layer_view.h"
-#include "image/ocio_file.h"
 #include "image/srgb.h"
+#include "opencolorio/ocio_file.h"
 #include "opencolorio/view_transform.h"
 
 /* assets/ocio/parhelion.ocio, embedded by the build. */

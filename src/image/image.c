@@ -252,7 +252,8 @@ static bool decode_other(const Encoded *file, Arena *arena, Image *out, Error *e
 {
     ImageDecoder *decoder;
     char          why[PNG_WHY_BYTES];
-    double        most = fmin(MAX_PIXELS, (double)(arena->end - arena->next) / 4); /* that fit */
+    double        room = (double)(arena->end - arena->next) / 4; /* pixels that fit */
+    double        most = fmin(MAX_PIXELS, room);
     if (!strcmp(file->format, "png") && !png_is_sound(file->bytes, file->size, most, why))
         return error_set(err, ERROR_INPUT, "damaged png picture: %s", why);
     if (!image_decoder_create(file->format, file->name, file->bytes, file->size, &decoder, err))

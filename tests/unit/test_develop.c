@@ -9,7 +9,7 @@
 #include "image/exposure.h"
 #include "image/false_colour.h"
 #include "image/image.h"
-#include "image/ocio_file.h"
+#include "opencolorio/ocio_file.h"
 #include "opencolorio/view_transform.h"
 
 enum { ARENA_BYTES = 1 << 28 };

@@ -8,7 +8,7 @@
 
 #include "base/count.h"
 #include "image/image.h"
-#include "image/ocio_file.h"
+#include "opencolorio/ocio_file.h"
 #include "opencolorio/view_transform.h"
 #include "text/text.h"
 #include "text/xml_tags.h"

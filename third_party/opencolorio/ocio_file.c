@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "image/ocio_file.h"
+#include "opencolorio/ocio_file.h"
 
 #include <stdlib.h>
 #include <string.h>
