@@ -261,7 +261,7 @@ TEST(figures_are_of_the_frame_alone)
     static const char *const WORDS[] = {
         "measure n.exr --display cluster --denoise", "measure n.exr --adapt local",
         "compare n.exr n.exr --denoise", "compare n.exr n.exr --adapt local",
-        "develop n.exr -o n.exr --denoise", "develop n.exr -o n.png --denoise --layer normal",
+        "develop n.exr -o m.exr --denoise", "develop n.exr -o n.png --denoise --layer normal",
         "develop n.exr -o n.png --denoise --false-colour luminance",
         "develop n.exr -o n.png --adapt local --false-colour luminance",
         "develop n.exr -o n.png --adapt local --layer normal",
