@@ -20,14 +20,26 @@ static bool is_same_file(const char *output, const char *input)
     return file_is_same(output, input) && !stat(output, &info) && S_ISREG(info.st_mode);
 }
 
+/* A file that is read and written, as a checkpoint, is an output too: its option. NULL: none. */
+static const char *option_of(const Outputs *outputs, const char *path)
+{
+    for (int i = 0; i < outputs->count; i++)
+        if (outputs->list[i].path == path) return outputs->list[i].option;
+    return NULL;
+}
+
 static bool spares(const Outputs *outputs, const char *input, Error *err)
 {
+    const char *kept = option_of(outputs, input);
     for (int i = 0; i < outputs->count; i++) {
         const Output *output = &outputs->list[i];
-        if (input != output->path && is_same_file(output->path, input)) /* itself may be kept */
-            return error_at(err, ERROR_OUTPUT, output->path, "",
-                            "is read, and %s would write over it — name another file",
-                            output->option);
+        if (input == output->path || !is_same_file(output->path, input)) continue;
+        if (kept)
+            return error_set(err, ERROR_USAGE, "%s and %s name the same file, %s",
+                             output->option, kept, input);
+        return error_at(err, ERROR_OUTPUT, output->path, "",
+                        "is read, and %s would write over it — name another file",
+                        output->option);
     }
     return true;
 }

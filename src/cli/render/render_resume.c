@@ -16,8 +16,8 @@ bool render_check_checkpoint(const RenderRequest *request, Error *err)
     const char *path = request->checkpoint;
     if (request->replays) return true;
     if (!strcmp(path, request->output) || (request->png && !strcmp(path, request->png)))
-        return error_set(err, ERROR_USAGE, "--checkpoint %s: the result is to stand there",
-                         path);
+        return error_set(err, ERROR_USAGE, "%s and --checkpoint name the same file, %s",
+                         strcmp(path, request->output) ? "--png" : "-o", path);
     if (file_exists(path) && !checkpoint_is_there(path))
         return error_at(err, ERROR_OUTPUT, path, "",
                         "is there and is not a checkpoint — move it, or name another by "
