@@ -24,8 +24,9 @@ static void exit_when_full(size_t bytes_wanted, size_t bytes_left)
 
 #define PAGE ((size_t)1 << 16)
 
-/* The most that one arena may take: libraries and further arenas need addresses too, and a
- * file that asks for more than the machine has should exhaust the arena, not the system. */
+/* The most that one arena may take: libraries and further arenas need room too, and a file
+ * that asks for more than there is should exhaust the arena, not the system, nor the container,
+ * which is killed then. */
 static size_t most_bytes(void)
 {
     size_t space = machine_address_space_left() / 2;
@@ -60,14 +61,22 @@ void arena_release(Arena *arena)
     *arena = (Arena){0};
 }
 
+/* Blocks of so many bytes are held against what the machine has now: together several arenas
+ * may have more addresses than there is memory, and who touches too much of it is killed. */
+#define LARGE_BLOCK ((size_t)1 << 24)
+
 void *arena_alloc(Arena *arena, size_t size, size_t align, size_t count)
 {
-    size_t left = (size_t)(arena->end - arena->next);
+    size_t left = arena_left(arena), bytes;
     if (align < GUARD_ALIGN) align = GUARD_ALIGN;
     size_t pad = (size_t)(-(uintptr_t)arena->next) & (align - 1);
-    size_t bytes;
-    if (__builtin_mul_overflow(size, count, &bytes) || pad > left || bytes > left - pad) {
-        arena->on_full(__builtin_mul_overflow(size, count, &bytes) ? SIZE_MAX : bytes, left);
+    if (__builtin_mul_overflow(size, count, &bytes)) bytes = SIZE_MAX;
+    if (bytes >= LARGE_BLOCK) {
+        size_t memory = machine_memory_left();
+        if (memory < left) left = memory;
+    }
+    if (pad > left || bytes > left - pad) {
+        arena->on_full(bytes, left);
         abort(); /* on_full must not return */
     }
     char *memory = arena->next + pad;

@@ -26,8 +26,15 @@ typedef struct Arena {
 } Arena;
 
 /* An arena over `bytes` of fresh address space (rounded up to pages), but at most over three
- * quarters of the machine's memory and half of what the process may still take (ulimit -v). */
+ * quarters of the memory (machine_granted_bytes) and half of what the process may still take
+ * (ulimit -v). */
 Arena arena_reserve(size_t bytes);
+
+/* Bytes that it still has. */
+static inline size_t arena_left(const Arena *arena)
+{
+    return (size_t)(arena->end - arena->next);
+}
 
 /* Gives the address space back; everything from the arena is gone. */
 void arena_release(Arena *arena);

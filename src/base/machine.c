@@ -87,20 +87,33 @@ double machine_peak_bytes(void)
     return getrusage(RUSAGE_SELF, &usage) ? 0 : 1024.0 * (double)usage.ru_maxrss;
 }
 
-/* proc(5): the first number of statm counts the pages that are mapped. */
-static size_t mapped_bytes(void)
+/* proc(5): statm counts pages that are mapped, those in memory, and those of them that are of
+ * files. 0 where it cannot be read. */
+typedef struct OwnBytes {
+    size_t mapped, resident, of_files;
+} OwnBytes;
+
+static OwnBytes own_bytes(void)
 {
-    size_t pages = 0;
-    FILE  *file = fopen("/proc/self/statm", "r");
-    if (file && fscanf(file, "%zu", &pages) != 1) pages = 0;
+    size_t page = (size_t)sysconf(_SC_PAGESIZE), pages[3] = {0, 0, 0};
+    FILE  *file = fopen("/proc/self/statm", "re");
+    if (file && fscanf(file, "%zu %zu %zu", &pages[0], &pages[1], &pages[2]) != 3)
+        pages[0] = pages[1] = pages[2] = 0;
     if (file) fclose(file);
-    return pages * (size_t)sysconf(_SC_PAGESIZE);
+    return (OwnBytes){pages[0] * page, pages[1] * page, pages[2] * page};
+}
+
+size_t machine_memory_left(void)
+{
+    OwnBytes own = own_bytes();
+    size_t   installed = machine_installed_bytes(), taken = own.resident - own.of_files;
+    return taken < installed ? installed - taken : 0;
 }
 
 size_t machine_address_space_left(void)
 {
     struct rlimit limit;
     if (getrlimit(RLIMIT_AS, &limit) || limit.rlim_cur == RLIM_INFINITY) return SIZE_MAX;
-    size_t mapped = mapped_bytes();
+    size_t mapped = own_bytes().mapped;
     return mapped < limit.rlim_cur ? (size_t)limit.rlim_cur - mapped : 0;
 }

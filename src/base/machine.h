@@ -21,5 +21,8 @@ size_t machine_group_bytes(const char *own_groups, const char *root);
 /* The most bytes of memory that the process has held at once so far. */
 double machine_peak_bytes(void);
 
+/* Bytes of machine_installed_bytes that this process does not hold yet. */
+size_t machine_memory_left(void);
+
 /* Bytes of address space that the process may still map; SIZE_MAX where nothing limits it. */
 size_t machine_address_space_left(void);

@@ -8,7 +8,6 @@
 #include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
-#include "base/machine.h"
 #include "print/print.h"
 #include "cli/commands.h"
 #include "cli/job/job_manifest.h"
@@ -275,7 +274,7 @@ static bool check_memory(const MergeRun *work, Error *err)
 {
     const FilmPart *whole = &work->whole;
     double wanted = (double)film_bytes(whole->crop, whole->layers, whole->lights.count);
-    double memory = (double)machine_memory_bytes();
+    double memory = (double)arena_left(work->arena);
     if (wanted < memory) return true;
     return error_set(err, ERROR_MEMORY,
                      "the film of %dx%d pixels needs %.1f GB, there are %.1f GB — merge fewer "
@@ -330,6 +329,7 @@ static bool add_all(MergeRun *work, Error *err)
     double          total = 0, done = 0;
     work->film = film_create(whole->width, whole->height, whole->crop, whole->layers,
                              &whole->lights, work->arena);
+    if (!film_has_room(work->film, work->arena, err)) return false;
     if (frame_fisheye(&work->common)) film_set_blind(work->film);
     for (int i = 0; i < work->count; i++) total += pixels_in(work->parts[i].crop);
     Progress progress = progress_start(work->cli.progress, "merge", "pixels", total);

@@ -462,9 +462,21 @@ FrameImage film_view_outline(const Film *film, Arena *arena)
     return make_frame(film, &wish, arena);
 }
 
-size_t film_frame_bytes_most(const Film *film)
+size_t film_frame_bytes_most(const Film *film, Arena scratch)
 {
     FilmRect crop = film->crop;
     size_t   pixels = (size_t)(crop.x1 - crop.x0) * (size_t)(crop.y1 - crop.y0);
-    return pixels * (size_t)channels_most(film) * sizeof(float) + ((size_t)1 << 20);
+    size_t   channels = (size_t)film_view_outline(film, &scratch).channel_count;
+    return pixels * channels * sizeof(float) + ((size_t)1 << 20);
+}
+
+bool film_has_room(const Film *film, const Arena *arena, Error *err)
+{
+    FilmRect crop = film->crop;
+    size_t   wanted = film_frame_bytes_most(film, *arena), left = arena_left(arena);
+    return wanted <= left ||
+           error_set(err, ERROR_MEMORY,
+                     "the frame of %dx%d pixels needs %zu MB of memory beside its film, %zu MB "
+                     "are left — use --crop or fewer --layers",
+                     crop.x1 - crop.x0, crop.y1 - crop.y0, wanted >> 20, left >> 20);
 }

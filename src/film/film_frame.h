@@ -4,6 +4,7 @@
  * Memory   the frame lies in the arena.
  */
 #pragma once
+#include "base/error.h"
 #include "film/film.h"
 #include "image/frame.h"
 
@@ -45,7 +46,10 @@ FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena);
 uint32_t film_halves_samples(uint32_t first);
 
 /* An upper bound of the bytes that a film's frame takes. */
-size_t film_frame_bytes_most(const Film *film);
+size_t film_frame_bytes_most(const Film *film, Arena scratch);
+
+/* False: the arena has no room for it, and hours of rendering would end without a frame. */
+bool film_has_room(const Film *film, const Arena *arena, Error *err);
 
 /* The frame for a viewer: R, G, B, the layers if has_layers, and error.Y, the standard error
  * of each pixel's luminance, as film_pixel's sigma_y, cd m^-2; NaN below two samples. */

@@ -11,7 +11,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "image/frame.h"
-#include "image/plain_png.h"
+#include "image/plain/plain_jpeg.h"
+#include "image/plain/plain_png.h"
 #include "image/radiance_file.h"
 #include "image/tiff_directory.h"
 #include "openexr/exr_file.h"
@@ -281,19 +282,42 @@ static bool decode_radiance(const Encoded *file, Arena *arena, Image *out, Error
     return true;
 }
 
-/* A PNG without the library. False: it is for the library. */
+/* A PNG or JPEG without the library. */
+typedef struct PlainPicture {
+    PlainPng  png;
+    PlainJpeg jpeg;
+    int       width, height;
+    bool      is_jpeg;
+} PlainPicture;
+
+/* False: it is for the library. */
+static bool open_plain(const Encoded *file, PlainPicture *out)
+{
+    PlainPicture made = {.is_jpeg = !strcmp(file->format, "jpeg")};
+    if (made.is_jpeg ? !plain_jpeg_open(file->bytes, file->size, &made.jpeg)
+                     : strcmp(file->format, "png") != 0 ||
+                           !plain_png_open(file->bytes, file->size, &made.png))
+        return false;
+    made.width = made.is_jpeg ? made.jpeg.width : made.png.width;
+    made.height = made.is_jpeg ? made.jpeg.height : made.png.height;
+    *out = made;
+    return true;
+}
+
 static bool decode_plain(const Encoded *file, Arena *arena, Image *out)
 {
-    PlainPng png;
-    Error    ignored;
-    if (strcmp(file->format, "png") != 0 || !plain_png_open(file->bytes, file->size, &png))
+    PlainPicture plain;
+    Error        ignored;
+    if (!open_plain(file, &plain) ||
+        !check_size(plain.width, plain.height, 4, 0, arena, &ignored))
         return false;
-    if (!check_size(png.width, png.height, 4, 0, arena, &ignored)) return false;
     Arena    kept = *arena;
-    uint8_t *pixels = arena_alloc(&kept, 4, 16, (size_t)png.width * (size_t)png.height);
-    if (!plain_png_read(&png, pixels)) return false;
+    uint8_t *pixels = arena_alloc(&kept, 4, 16, (size_t)plain.width * (size_t)plain.height);
+    if (plain.is_jpeg ? !plain_jpeg_read(&plain.jpeg, pixels)
+                      : !plain_png_read(&plain.png, pixels))
+        return false;
     *arena = kept;
-    *out = (Image){png.width, png.height, IMAGE_RGBA8, pixels};
+    *out = (Image){plain.width, plain.height, IMAGE_RGBA8, pixels};
     return true;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/file_write.h"
 #include "base/mathf.h"
+#include "image/plain/picture_png.h"
 #include "openimageio/image_file.h"
 
 typedef struct Ending {
@@ -61,6 +62,30 @@ static void *quantised(const Picture *picture, int bits, Arena *arena)
     return bits == 8 ? (void *)u8 : (void *)u16;
 }
 
+/* room: behind the picture's codes. */
+static bool encode_png(const ImageToEncode *image, Arena room, Arena *arena, FileBytes *out,
+                       Error *err)
+{
+    FileBytes made;
+    if (!picture_png_encode(image, &room, &made, err)) return false;
+    *out = (FileBytes){arena_keep(arena, made.data, made.size + 1, 1), made.size};
+    return true;
+}
+
+static bool encode_other(const char *format, const ImageToEncode *image, Arena *arena,
+                         FileBytes *out, Error *err)
+{
+    EncodedImage *encoded;
+    if (!image_encode(format, image, &encoded, err)) return false;
+    size_t         size;
+    const void    *bytes = encoded_image_bytes(encoded, &size);
+    unsigned char *copy = ARENA_NEW(arena, unsigned char, size + 1);
+    memcpy(copy, bytes, size);
+    encoded_image_destroy(encoded);
+    *out = (FileBytes){copy, size};
+    return true;
+}
+
 bool picture_encode(const char *path, const Picture *picture, PictureFile file, Arena *arena,
                     FileBytes *out, Error *err)
 {
@@ -79,15 +104,18 @@ bool picture_encode(const char *path, const Picture *picture, PictureFile file, 
         .icc_profile_size = file.icc.size,
         .description = file.description,
     };
-    EncodedImage *encoded;
-    if (!image_encode(format, &image, &encoded, err)) return error_in_file(err, path);
-    size_t         size;
-    const void    *bytes = encoded_image_bytes(encoded, &size);
-    unsigned char *copy = ARENA_NEW(arena, unsigned char, size + 1);
-    memcpy(copy, bytes, size);
-    encoded_image_destroy(encoded);
-    *out = (FileBytes){copy, size};
-    return true;
+    bool ok = !strcmp(format, "png") ? encode_png(&image, scratch, arena, out, err)
+                                     : encode_other(format, &image, arena, out, err);
+    return ok || error_in_file(err, path);
+}
+
+bool picture_encode_small(const Picture *picture, Arena *arena, FileBytes *out,
+                          const char **kind, Error *err)
+{
+    const PictureFile file = {.bits = 8, .is_srgb = true};
+    bool is_jpeg = picture_encode("a.jpg", picture, file, arena, out, err);
+    *kind = is_jpeg ? "jpeg" : "png";
+    return is_jpeg || picture_encode("a.png", picture, file, arena, out, err);
 }
 
 bool picture_write(const char *path, const Picture *picture, PictureFile file, Arena scratch,

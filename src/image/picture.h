@@ -41,6 +41,11 @@ bool picture_write(const char *path, const Picture *picture, PictureFile file, A
 bool picture_encode(const char *path, const Picture *picture, PictureFile file, Arena *arena,
                     FileBytes *out, Error *err);
 
+/* What a page shows, of 8 bits in sRGB: a JPEG, or a PNG where the library for JPEG cannot be
+ * loaded. *kind: "jpeg" or "png". */
+bool picture_encode_small(const Picture *picture, Arena *arena, FileBytes *out,
+                          const char **kind, Error *err);
+
 /* False, with the endings that are supported, when picture_write would refuse the name or the
  * bits: to be asked before long work. */
 bool picture_check_name(const char *path, int bits, Error *err);

@@ -78,7 +78,7 @@ static void end_lookup(NameLookup *lookup)
 }
 
 static bool start_lookup(const char *host, const char *port, NameLookup **out,
-                         pthread_t *thread)
+                         pthread_t *thread, bool *has_thread)
 {
     NameLookup *lookup = calloc(1, sizeof *lookup);
     if (!lookup) return false;
@@ -88,11 +88,8 @@ static bool start_lookup(const char *host, const char *port, NameLookup **out,
         free(lookup);
         return false;
     }
-    if (pthread_create(thread, NULL, look_up, lookup)) {
-        close(lookup->ready[1]);
-        end_lookup(lookup);
-        return false;
-    }
+    *has_thread = !pthread_create(thread, NULL, look_up, lookup);
+    if (!*has_thread) look_up(lookup); /* the system refuses one (ulimit -u, pids.max) */
     *out = lookup;
     return true;
 }
@@ -103,14 +100,15 @@ static bool find_host(const char *host, const char *port, double *patience_s,
 {
     NameLookup *lookup = NULL;
     pthread_t   thread;
-    if (!start_lookup(host, port, &lookup, &thread))
+    bool        has_thread;
+    if (!start_lookup(host, port, &lookup, &thread, &has_thread))
         return error_set(err, ERROR_OUTPUT, "its name cannot be looked up: %s",
                          strerror(errno));
-    if (!wait_for(lookup->ready[0], POLLIN, patience_s)) {
+    if (has_thread && !wait_for(lookup->ready[0], POLLIN, patience_s)) {
         pthread_detach(thread);
         return error_set(err, ERROR_OUTPUT, "nobody knows its name in time");
     }
-    pthread_join(thread, NULL);
+    if (has_thread) pthread_join(thread, NULL);
     int status = lookup->status;
     if (status) {
         end_lookup(lookup);

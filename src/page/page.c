@@ -165,11 +165,13 @@ bool page_picture(Text *page, const char *alt, const Picture *picture, bool is_j
                   Arena scratch, Error *err)
 {
     FileBytes   bytes;
+    const char *kind = "png";
     PictureFile file = {.bits = 8, .is_srgb = true};
-    if (!picture_encode(is_jpeg ? "a.jpg" : "a.png", picture, file, &scratch, &bytes, err))
+    if (is_jpeg ? !picture_encode_small(picture, &scratch, &bytes, &kind, err)
+                : !picture_encode("a.png", picture, file, &scratch, &bytes, err))
         return error_prefix(err, "a picture of the report");
     add_between(page, "<img alt=\"", alt, "\" ");
-    text_format(page, "src=\"data:image/%s;base64,", is_jpeg ? "jpeg" : "png");
+    text_format(page, "src=\"data:image/%s;base64,", kind);
     base64_encode(page, bytes.data, bytes.size);
     text_add(page, "\">");
     return true;

@@ -7,6 +7,7 @@
 #include "base/machine.h"
 #include "base/parallel.h"
 #include "bvh/bvh.h"
+#include "film/film_frame.h"
 #include "guide/guide_file.h"
 #include "light/light.h"
 #include "render/favour.h"
@@ -162,6 +163,7 @@ static bool make_film(const RenderSetup *setup, const RenderOptions *options, Ar
     const FilmLights   lights = {groups ? groups->count : 0, groups ? groups->names : NULL};
     result->film = film_create(options->width, options->height, options->crop, options->layers,
                                &lights, arena);
+    if (!film_has_room(result->film, arena, err)) return false;
     if (setup->camera.fisheye) film_set_blind(result->film);
     result->has_features = (options->layers & LAYER_FEATURES) ||
                            (options->noise > 0 &&

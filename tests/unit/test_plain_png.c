@@ -5,7 +5,7 @@
 #include <zlib.h>
 
 #include "base/sampler.h"
-#include "image/plain_png.h"
+#include "image/plain/plain_png.h"
 #include "openimageio/image_file.h"
 
 enum { SIDE_MAX = 40, BYTES_MAX = 1 << 15 };

@@ -4,7 +4,7 @@
 #include <ctype.h>
 #include <string.h>
 
-#include "image/plain_png.h"
+#include "image/plain/plain_png.h"
 #include "review/output/review_bar.h"
 #include "review/output/review_words.h"
 #include "text/base64.h"

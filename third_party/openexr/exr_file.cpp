@@ -458,6 +458,14 @@ static OutPart words_part(const ExrPicture &p)
     return part;
 }
 
+/* Of its values as they are, and what else a file holds of each row. */
+static size_t most_bytes(const ExrPicture &p)
+{
+    const size_t rows = (size_t)(p.data.y1 - p.data.y0), width = (size_t)(p.data.x1 - p.data.x0);
+    const size_t words = p.words ? (size_t)p.words->count : 0;
+    return rows * (width * 4 * ((size_t)p.channel_count + words) + 64) + ((size_t)1 << 20);
+}
+
 static void write_picture(const ExrPicture &p, Imf::OStream *stream)
 {
     OutPart         part = picture_part(p);
@@ -496,7 +504,7 @@ bool exr_encode(const ExrPicture *p, ExrBytes **out, Error *err)
     return guarded(err, ERROR_LIBRARY, "encoding OpenEXR", [&] {
         CodingThreads   threads;
         auto            encoded = std::make_unique<ExrBytes>();
-        MemoryOutput    stream(&encoded->bytes);
+        MemoryOutput    stream(&encoded->bytes, most_bytes(*p));
         if (p->words) write_both(*p, &stream);
         else write_picture(*p, &stream);
         *out = encoded.release();

@@ -34,7 +34,11 @@ private:
 
 class MemoryOutput : public Imf::OStream {
 public:
-    explicit MemoryOutput(std::vector<char> *bytes) : Imf::OStream("memory"), bytes_(bytes) {}
+    explicit MemoryOutput(std::vector<char> *bytes, size_t most = 0)
+        : Imf::OStream("memory"), bytes_(bytes)
+    {
+        bytes_->reserve(most); /* a vector that grows takes three times its bytes */
+    }
     void write(const char *from, int n) override
     {
         if (at_ + (size_t)n > bytes_->size()) bytes_->resize(at_ + (size_t)n);

@@ -51,6 +51,7 @@ static bool open_input(ImageDecoder *decoder, const char *format, const char *na
         return error_set(err, ERROR_LIBRARY, "OpenImageIO was built without a %s reader: %s",
                          format, one_line(OIIO::geterror()).c_str());
     }
+    decoder->input->threads(1); /* a pool that finds no thread would end the program */
     OIIO::ImageSpec hints, spec;
     hints.attribute("oiio:UnassociatedAlpha", 1);
     decoder->input->set_ioproxy(&decoder->memory);
@@ -118,7 +119,6 @@ static OIIO::ImageSpec output_spec(const char *format, const ImageToEncode *imag
     spec.attribute("Software", "parhelion");
     spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("oiio:dither", 0);
-    spec.attribute("png:compressionLevel", 6);
     spec.attribute("Compression", "zip");
     if (image->jpeg_quality > 0) {
         spec.attribute("Compression", "jpeg:" + std::to_string(image->jpeg_quality));
@@ -147,6 +147,7 @@ static bool encode(const char *format, const ImageToEncode *image, EncodedImage 
             return error_set(err, ERROR_LIBRARY, "OpenImageIO cannot encode %s in memory",
                              format);
         }
+        output->threads(1);
         output->set_ioproxy(&sink);
         OIIO::ImageSpec spec = output_spec(format, image);
         std::string     name = std::string("picture.") + format;

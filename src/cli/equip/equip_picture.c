@@ -39,15 +39,14 @@ PixelBox equip_picture_box(const Image *image)
 
 json_t *equip_picture_json(const Image *image, PixelBox part, PixelSize size, Arena scratch)
 {
-    FileBytes bytes;
-    Error     none;
+    FileBytes   bytes;
+    const char *kind;
+    Error       none;
     if (image->format != IMAGE_RGBA8) return NULL;
     Picture small = shrink(image, part, size, &scratch);
-    if (!picture_encode("a.jpg", &small, (PictureFile){.bits = 8, .is_srgb = true}, &scratch,
-                        &bytes, &none))
-        return NULL;
+    if (!picture_encode_small(&small, &scratch, &bytes, &kind, &none)) return NULL;
     Text text = {.arena = &scratch};
-    text_add(&text, "data:image/jpeg;base64,");
+    text_format(&text, "data:image/%s;base64,", kind);
     base64_encode(&text, bytes.data, bytes.size);
     return json_string(text.data);
 }

@@ -12,7 +12,6 @@
 
 #include "base/file.h"
 #include "base/file_write.h"
-#include "base/machine.h"
 #include "cli/job/job_scripts.h"
 #include "film/film_part.h"
 #include "render/checkpoint.h"
@@ -104,7 +103,7 @@ static bool check_file(const SharedJob *job, const JobPart *wanted, const FilmPa
 static bool read_sums(FilmPartReader *from, Arena scratch, Error *err)
 {
     const FilmPart *part = &from->part;
-    if (film_bytes(part->crop, part->layers, part->lights.count) >= machine_memory_bytes())
+    if (film_bytes(part->crop, part->layers, part->lights.count) >= arena_left(&scratch))
         return error_set(err, ERROR_MEMORY, "does not go into this machine's memory");
     Film *film = film_create(part->width, part->height, part->crop, part->layers,
                              &part->lights, &scratch);

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/file_write.h"
-#include "base/machine.h"
 #include "print/print.h"
 #include "cli/options/answer.h"
 #include "cli/options/look_options.h"
@@ -65,13 +64,14 @@ static bool render_share(const RenderRequest *request, const char *identity, con
 /* ---- before ------------------------------------------------------------------------------ */
 
 /* Frames that our own reader would refuse, and films that the memory does not hold. */
-static bool check_memory(const RenderOptions *options, unsigned layers, Error *err)
+static bool check_memory(const RenderOptions *options, unsigned layers, const Arena *arena,
+                         Error *err)
 {
     FilmRect crop = options->crop;
     double   pixels = (double)options->width * (double)options->height;
     int      lights = options->lights ? options->lights->count : 0;
     double   wanted = (double)film_bytes(crop, layers, lights);
-    double   memory = (double)machine_memory_bytes();
+    double   memory = (double)arena_left(arena);
     if (pixels > EXR_MAX_PIXELS)
         return error_set(err, ERROR_USAGE,
                          "--size %dx%d: %.0f pixels, at most %d are supported", options->width,
@@ -101,7 +101,7 @@ static bool find_lights(RenderRun *work, Error *err)
                          "together one name",
                          work->lights.count, FILM_LIGHTS_MAX);
     options->lights = &work->lights;
-    return check_memory(options, options->layers, err);
+    return check_memory(options, options->layers, work->arena, err);
 }
 
 /* Hours of rendering must not end at a folder that cannot be written. */
@@ -114,17 +114,21 @@ static bool check_outputs(const RenderRequest *request, Error *err)
     return !request->png || file_check_writable(request->png, err);
 }
 
-/* A view that does not exist is found now, on a frame of one pixel. */
+/* A view that does not exist is found now, on a frame of one pixel, and a format whose library
+ * cannot be loaded here. */
 static bool check_look(const RenderRequest *request, Arena scratch, Error *err)
 {
     if (!request->png) return true;
     FrameImage    frame = frame_create(1, 1, (ExrWindow){0, 0, 1, 1}, 3, 0, &scratch);
     Picture       picture;
+    FileBytes     file;
     DevelopReport report;
     for (const char *name = "RGB"; *name; name++)
         frame_add_channel(&frame, arena_format(&scratch, "%c", *name), false, &scratch)[0] = 1;
     return picture_check_name(request->png, 8, err) &&
-           develop_picture(&frame, &request->look, &scratch, &picture, &report, err);
+           develop_picture(&frame, &request->look, &scratch, &picture, &report, err) &&
+           picture_encode(request->png, &picture, (PictureFile){.bits = 8}, &scratch, &file,
+                          err);
 }
 
 /* One sample that is replayed has none of them. */
@@ -165,7 +169,7 @@ static bool load(RenderRun *work, Error *err)
     if (loaded) set_areas(request);
     if (loaded) request->render.layers = render_layers(work->scene, request->render.layers);
     if (loaded && !request->replays)
-        loaded = check_memory(&request->render, request->render.layers, err);
+        loaded = check_memory(&request->render, request->render.layers, work->arena, err);
     if (loaded) render_warn_of_darkness(work->scene, &work->problems);
     if (loaded) warn_of_halves(request, &work->problems);
     cli_print_warnings(&work->problems);
@@ -461,7 +465,8 @@ static bool run(RenderRun *work, Error *err)
     options->checkpoint = work->request.keeps_checkpoints ? keep_checkpoint_meanwhile : NULL;
     options->user = work;
     /* whether the scene has a second display is not known yet */
-    if (!check_memory(options, options->layers & ~(unsigned)LAYER_DISPLAY_SECOND, err) ||
+    if (!check_memory(options, options->layers & ~(unsigned)LAYER_DISPLAY_SECOND, work->arena,
+                      err) ||
         !check_outputs(&work->request, err) ||
         !check_look(&work->request, *work->arena, err) || !load(work, err))
         return false;

@@ -65,7 +65,7 @@ static bool check_viewer(RenderLive *live, Error *err)
 /* A film that leaves no room for its frame is not worth the render. */
 static bool has_room(Viewer *viewer, const Film *film, const Arena *scratch)
 {
-    size_t wanted = film_frame_bytes_most(film), left = (size_t)(scratch->end - scratch->next);
+    size_t wanted = film_frame_bytes_most(film, *scratch), left = arena_left(scratch);
     if (wanted <= left) return true;
     error_set(&viewer->loss, ERROR_MEMORY,
               "a frame beside the film needs up to %zu MB, %zu MB are left", wanted >> 20,

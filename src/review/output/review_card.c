@@ -6,7 +6,7 @@
 #include <strings.h>
 
 #include "base/file.h"
-#include "image/plain_png.h"
+#include "image/plain/plain_png.h"
 #include "page/page.h"
 #include "review/output/review_bar.h"
 #include "review/output/review_decide.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "image/plain_png.h"
+#include "image/plain/plain_png.h"
 
 #include <png.h>
 #include <stdint.h>
