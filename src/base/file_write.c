@@ -155,15 +155,16 @@ void file_writer_discard(FileWriter *writer)
     unlink(name);
 }
 
-static bool writer_failed(FileWriter *writer, int reason, Error *err)
+static bool writer_failed(FileWriter *writer, const char *path, int reason, Error *err)
 {
     file_writer_discard(writer);
-    return output_error(writer->path, "written", reason, err);
+    return output_error(path, "written", reason, err);
 }
 
 bool file_writer_add(FileWriter *writer, const void *bytes, size_t size, Error *err)
 {
-    return write_all(writer->handle, bytes, size) || writer_failed(writer, errno, err);
+    return write_all(writer->handle, bytes, size) ||
+           writer_failed(writer, writer->path, errno, err);
 }
 
 /* Gives the unnamed file its name. A link cannot replace a file, a rename can: so where there
@@ -186,10 +187,10 @@ static bool link_unnamed(int handle, const char *path)
     return false;
 }
 
-static bool rename_own_name(const char *path)
+static bool rename_own_name(const char *place, const char *path)
 {
     char name[PATH_BYTES];
-    own_name(path, name);
+    own_name(place, name);
     return rename(name, path) == 0;
 }
 
@@ -205,20 +206,24 @@ static void sync_folder(const char *path)
     close(handle);
 }
 
-bool file_writer_commit(FileWriter *writer, Error *err)
+bool file_writer_commit_as(FileWriter *writer, const char *path, Error *err)
 {
-    const char *path = writer->path;
     bool is_file = writer->kind != FILE_SPECIAL;
     if (is_file && (fsync(writer->handle) != 0 || is_protected(path)))
-        return writer_failed(writer, errno, err);
+        return writer_failed(writer, path, errno, err);
     if (writer->kind == FILE_UNNAMED && !link_unnamed(writer->handle, path))
-        return writer_failed(writer, errno, err);
-    if (writer->kind == FILE_NAMED && !rename_own_name(path))
-        return writer_failed(writer, errno, err);
+        return writer_failed(writer, path, errno, err);
+    if (writer->kind == FILE_NAMED && !rename_own_name(writer->path, path))
+        return writer_failed(writer, path, errno, err);
     if (close(writer->handle) != 0 && !is_file)
         return output_error(path, "written", errno, err);
     if (is_file) sync_folder(path);
     return true;
+}
+
+bool file_writer_commit(FileWriter *writer, Error *err)
+{
+    return file_writer_commit_as(writer, writer->path, err);
 }
 
 bool file_write(const char *path, const void *bytes, size_t size, Error *err)

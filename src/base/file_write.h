@@ -38,6 +38,9 @@ typedef struct FileWriter {
 bool file_writer_open(const char *path, FileWriter *out, Error *err);
 bool file_writer_add(FileWriter *writer, const void *bytes, size_t size, Error *err);
 bool file_writer_commit(FileWriter *writer, Error *err);
+
+/* The same by another name on the same file system, in a folder made meanwhile. */
+bool file_writer_commit_as(FileWriter *writer, const char *path, Error *err);
 void file_writer_discard(FileWriter *writer);
 
 /* Makes a folder, unless there is one: of several processes that do so at once all succeed. */

@@ -447,10 +447,20 @@ static void print_line(const MergeRun *work)
           work->keeps_sums ? ", with its sums" : "");
 }
 
+static bool check_dropped(const MergeRun *work, Error *err)
+{
+    const char *line = line_of_whole(work, work->arena);
+    const char *text = frame_dropped_warning(work->film, line, work->arena);
+    if (!frame_check_dropped(work->film, line, *work->arena, err)) return false;
+    if (text)
+        print_to(stderr, "parhelion: warning: %s: %s\n", work->output, text);
+    return true;
+}
+
 static bool merge(MergeRun *work, Error *err)
 {
     if (!look_at_all(work, err) || !check_memory(work, err) || !add_all(work, err) ||
-        !write_frame(work, err))
+        !check_dropped(work, err) || !write_frame(work, err))
         return false;
     if (work->cli.json) return print_json(work, err);
     print_line(work);

@@ -296,6 +296,15 @@ FilmDropped film_dropped(const Film *film)
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
+uint64_t film_kept_samples(const Film *film)
+{
+    FilmRect crop = film->crop;
+    uint64_t kept = 0;
+    for (int y = crop.y0; y < crop.y1; y++)
+        for (int x = crop.x0; x < crop.x1; x++) kept += film_sums(film, x, y)->samples;
+    return kept;
+}
+
 FilmPixel film_pixel(const Film *film, int x, int y)
 {
     const PixelSums *sums = film_sums(film, x, y);

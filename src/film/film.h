@@ -71,6 +71,9 @@ typedef struct FilmError {
 
 FilmError film_relative_error(const Film *film);
 
+/* Samples that are kept, over all its pixels. */
+uint64_t film_kept_samples(const Film *film);
+
 #define FILM_ALL_PIXELS (-2)
 #define FILM_ANY_DISPLAY (-1)
 

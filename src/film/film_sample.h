@@ -89,6 +89,8 @@ typedef struct FilmLights {
 
 typedef struct Film Film; /* opaque: the accumulators are private to src/film */
 
+#define FILM_MOST_CD_M2 0x1p47 /* of a sample that is kept */
+
 /* Samples that were dropped, and where the first of them (by sample, then row, then column)
  * stood: enough to replay them. */
 typedef struct FilmDropped {

@@ -18,7 +18,7 @@ __extension__ typedef __int128 Fixed;
 #define SQUARE_HIGH_BITS (-5)  /* a step is 2^5: the others */
 #define SQUARE_SPLIT 0x1p34
 #define SHARED_LOW_BITS 45     /* so that ids of 16 bits stay in range */
-#define VALUE_LIMIT 0x1p47f
+#define VALUE_LIMIT ((float)FILM_MOST_CD_M2)
 #define NO_SAMPLE 0xffffffffu
 #define BLOCK_SAMPLES 16 /* consecutive samples that are well spread among themselves */
 #define BLOCK_LEAST 8    /* that still are: the half of a block */

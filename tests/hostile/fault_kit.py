@@ -80,10 +80,13 @@ class Bench:
     def file(self, *names):
         return os.path.join(self.folder, *names)
 
-    def run(self, *arguments, limits=(), user=None, timeout=TIMEOUT_S, **more):
+    def run(self, *arguments, limits=(), user=None, enter=None, timeout=TIMEOUT_S,
+            **more):
         """A finished run; returncode "hang" after the timeout, negative when a signal ended it.
-        limits: (resource, value) pairs."""
+        limits: (resource, value) pairs; enter: what the new process does first."""
         def prepare():
+            if enter:
+                enter()
             for which, value in limits:
                 resource.setrlimit(which, (value, value))
             signal.signal(signal.SIGPIPE, signal.SIG_DFL)

@@ -10,6 +10,7 @@ import tempfile
 
 import fault_files
 import fault_limits
+import fault_machine
 import fault_memory
 import fault_scenes
 from fault_kit import Bench
@@ -22,7 +23,7 @@ def main():
         os.chmod(folder, 0o755)  # for the faults that are tried as another user
         bench = Bench(report, sys.argv[-1], folder)
         try:
-            for part in (fault_files, fault_limits, fault_memory, fault_scenes):
+            for part in (fault_files, fault_limits, fault_machine, fault_memory, fault_scenes):
                 for check in part.CHECKS + (part.MORE if everything else ()):
                     check(bench)
         finally:

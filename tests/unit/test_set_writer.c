@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 
 #include "panel/set/set_writer.h"
 
@@ -103,15 +104,55 @@ TEST(a_set_that_is_not_whole_goes_again)
     assert_int_equal(entries_below(test_folder()), 0);
 }
 
+/* Stopped by each signal, the one that cannot be caught too. */
+TEST(a_process_that_is_stopped_leaves_nothing)
+{
+    static const int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGKILL};
+    for (size_t i = 0; i < sizeof signals / sizeof *signals; i++) {
+        pid_t child = fork();
+        if (!child) {
+            SetWriter writer;
+            Error     ignored;
+            signal(signals[i], SIG_DFL);
+            if (!set_writer_open(in_folder("set/MANIFEST.json"), &inputs, &writer, &ignored) ||
+                !add_all(&writer))
+                _exit(1);
+            raise(signals[i]);
+            _exit(2);
+        }
+        int status = 0;
+        assert_int_equal(waitpid(child, &status, 0), child);
+        assert_true(WIFSIGNALED(status) && WTERMSIG(status) == signals[i]);
+        assert_int_equal(entries_below(test_folder()), 0);
+    }
+    assert_done(write_all(&err)); /* and again, from the start */
+    remove_all();
+}
+
+TEST(a_set_has_more_tables_than_the_system_first_allows_open_files)
+{
+    struct rlimit before, few;
+    SetWriter     writer;
+    assert_int_equal(getrlimit(RLIMIT_NOFILE, &before), 0);
+    few = (struct rlimit){32, before.rlim_max};
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &few), 0);
+    assert_true(set_writer_open(in_folder("MANIFEST.json"), &inputs, &writer, why()));
+    for (int i = 0; i < 100; i++)
+        assert_true(add(&writer, arena_format(test_memory(), "%d.csv", i), "x"));
+    assert_false(set_writer_close(&writer, false));
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &before), 0);
+    assert_int_equal(entries_below(test_folder()), 0);
+}
+
 TEST(a_file_where_a_folder_is_wanted_is_named)
 {
     write_text(in_folder("set"), "a file");
-    refused("set/emission", "cannot be made: Not a directory");
+    refused("set", "cannot be made: Not a directory");
     assert_true(holds("set", "a file"));
     assert_int_equal(remove(in_folder("set")), 0);
     assert_int_equal(mkdir(in_folder("set"), 0777), 0);
     write_text(in_folder("set/brdf"), "a file");
-    refused("set/brdf/i30.csv", "cannot be written: Not a directory");
+    refused("set/brdf", "cannot be made: Not a directory");
     assert_int_equal(entries_below(test_folder()), 2);
     assert_int_equal(remove(in_folder("set/brdf")), 0);
     assert_int_equal(rmdir(in_folder("set")), 0);
@@ -138,6 +179,9 @@ TEST(names_that_were_given_are_taken_back)
     SetWriter writer;
     assert_true(set_writer_open(in_folder("set/MANIFEST.json"), &inputs, &writer, why()));
     assert_true(add_all(&writer));
+    assert_int_equal(entries_below(test_folder()), 0);
+    assert_int_equal(mkdir(in_folder("set"), 0777), 0);
+    assert_int_equal(mkdir(in_folder("set/brdf"), 0777), 0);
     assert_int_equal(mkdir(in_folder("set/brdf/i30.csv"), 0777), 0);
     assert_false(set_writer_close(&writer, true));
     assert_string_equal(why()->file, in_folder("set/brdf/i30.csv"));
@@ -171,7 +215,7 @@ TEST(a_read_only_folder_is_named)
 {
     if (geteuid() == 0) skip();
     assert_int_equal(mkdir(in_folder("set"), 0555), 0);
-    refused("set/emission", "cannot be made: Permission denied");
+    refused("set/emission/black.csv", "cannot be created: Permission denied");
     assert_int_equal(rmdir(in_folder("set")), 0);
 }
 

@@ -260,14 +260,20 @@ static void warn_of(RenderRun *work, const Error *err)
 
 static void warn_of_dropped(RenderRun *work, const RenderResult *result)
 {
-    FilmDropped dropped = film_dropped(result->film);
-    if (!dropped.count || work->request.replays) return;
-    warn(work, arena_format(work->arena,
-                            "%llu samples were not finite and are left out; to see the first "
-                            "again: %s --replay %d,%d,%u",
-                            (unsigned long long)dropped.count, work->request.command_line,
-                            dropped.first[0].x, dropped.first[0].y,
-                            dropped.first[0].sample_index));
+    const char *line = work->request.command_line;
+    const char *text = frame_dropped_warning(result->film, line, work->arena);
+    if (text && !work->request.replays) warn(work, text);
+}
+
+/* Of a job's part the others may have what it lacks. */
+static bool check_dropped(const RenderRun *work, const RenderResult *result, Error *err)
+{
+    const RenderRequest *request = &work->request;
+    if (request->replays || work->task ||
+        frame_check_dropped(result->film, request->command_line, *work->arena, err))
+        return true;
+    render_remove_checkpoint(request);
+    return false;
 }
 
 static void warn_of_noise(RenderRun *work, const RenderResult *result)
@@ -425,6 +431,7 @@ static bool develop(const RenderRun *work, const RenderResult *result, Error *er
 /* The checkpoint comes first: who stopped the render may not wait for long. */
 static bool hand_over(RenderRun *work, const RenderResult *result, Error *err)
 {
+    if (!check_dropped(work, result, err)) return false;
     warn_of_dropped(work, result);
     warn_of_noise(work, result);
     warn_of_favour(work, result);

@@ -440,6 +440,34 @@ static void set_time(FrameImage *frame, Arena *arena)
     frame_set_values(frame, "utcOffset", EXR_FLOAT, (const double[]){0}, arena);
 }
 
+/* Of the film's samples so many are gone, and where the first can be seen again. */
+static const char *dropped_words(const Film *film, const char *line, Arena *arena)
+{
+    FilmDropped dropped = film_dropped(film);
+    uint64_t    all = dropped.count + film_kept_samples(film);
+    const char *again = !line ? "" : arena_format(arena, "; to see the first again: %s --replay "
+                                                  "%d,%d,%u", line, dropped.first[0].x,
+                                                  dropped.first[0].y,
+                                                  dropped.first[0].sample_index);
+    return arena_format(arena,
+                        "%llu of %llu samples (%.3g %%) are not finite, or above %.2g cd/m2, and "
+                        "are left out%s", (unsigned long long)dropped.count,
+                        (unsigned long long)all, 100 * (double)dropped.count / (double)all,
+                        FILM_MOST_CD_M2, again);
+}
+
+const char *frame_dropped_warning(const Film *film, const char *line, Arena *arena)
+{
+    return film_dropped(film).count ? dropped_words(film, line, arena) : NULL;
+}
+
+bool frame_check_dropped(const Film *film, const char *line, Arena scratch, Error *err)
+{
+    return !film_dropped(film).count || film_kept_samples(film) ||
+           error_set(err, ERROR_INPUT, "there is no frame: %s",
+                     dropped_words(film, line, &scratch));
+}
+
 void frame_set_outcome(FrameImage *frame, const FrameOutcome *outcome, Arena *arena)
 {
     frame_set_string(frame, "parhelion:samples",

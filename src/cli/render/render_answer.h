@@ -33,3 +33,10 @@ typedef struct FrameOutcome {
  * gives one (reproducible-builds.org). It is left out otherwise, so that the same render gives
  * the same file. */
 void frame_set_outcome(FrameImage *frame, const FrameOutcome *outcome, Arena *arena);
+
+/* What is to be said of samples that the film does not hold; NULL: it holds them all. line: the
+ * command that made it, to see one of them again; NULL: none is known. */
+const char *frame_dropped_warning(const Film *film, const char *line, Arena *arena);
+
+/* False: it holds none of them, and there is no frame (ERROR_INPUT). */
+bool frame_check_dropped(const Film *film, const char *line, Arena scratch, Error *err);

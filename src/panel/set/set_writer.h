@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* set_writer.h -- a measurement set becomes files: all of them or none.
  *
- * Every file is written under a temporary name beside its own. Only when all are there do they
- * get their names, in the order in which they were added: the manifest comes last, so that
- * whoever finds one finds its tables. On any failure what was made here goes again, folders
- * too; a file that stood there before is then as it was, unless its successor has its name
- * already.
+ * Every file is written without a name (base/file_write.h). Only when all are there do they get
+ * their names, in the order in which they were added: the manifest comes last, so that whoever
+ * finds one finds its tables; signals wait meanwhile. A process that is stopped before leaves
+ * nothing, folders neither. On any failure what was made here goes again; a file that stood
+ * there before is then as it was, unless its successor has its name already.
  *
  * Memory   its own arena, from open to close. Threads: one at a time.
  * Fails    with the file or folder that cannot be made or written, and the system's reason.
@@ -23,6 +23,8 @@ typedef struct SetWriter {
     const Lines      *inputs;
     struct SetFile   *first, *last;
     struct SetFolder *made; /* the latest first */
+    const char       *place; /* beside it the files lie until they have their names */
+    int               count; /* that were opened */
     Arena             arena;
     Error            *err;
 } SetWriter;

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: Apache-2.0
+"""fault_machine.py -- machines that grant little: few threads (RLIMIT_NPROC, as pids.max), a
+control group's memory, light that no film holds: part of faults.py.
+
+Documented in src/base/parallel.h, src/base/machine.h and cli/render/render_answer.h: a command
+goes on with the threads there are, and gives the same bytes; memory that a group does not grant
+is one line with status 3 instead of a kill.
+"""
+import os
+import resource
+
+from fault_files import make_inputs
+from fault_kit import NOBODY
+from gltf import Scene, png
+
+GROUPS = "/sys/fs/cgroup/memory"
+GIGABYTE = 1 << 30
+
+
+def textured_scene(bench):
+    """A lit floor whose picture is a JPEG, made by the program."""
+    picture, path = bench.file("in", "floor.png"), bench.file("in", "floor.gltf")
+    with open(picture, "wb") as file:
+        file.write(png(16, 16, [[8 * x, 8 * y, 99] for y in range(16) for x in range(16)]))
+    jpeg = bench.file("in", "floor.jpg")
+    frame = bench.file("in", "frame.exr")
+    done = bench.run("develop", frame, "-o", jpeg)
+    bench.claim(done.returncode == 0, f"{jpeg}: {done.stderr[:200]}")
+    scene = Scene()
+    material = scene.material("floor", pbrMetallicRoughness={"baseColorTexture": {"index": 0}})
+    scene.quad(material, [-1, 0, 0], [2, 0, 0], [0, 0, -3])
+    scene.view("eye", [0, 1, 2], [0, -0.3, -1], 60)
+    scene.document |= {"images": [{"uri": "floor.jpg"}], "textures": [{"source": 0}]}
+    scene.write(path)
+    os.chmod(bench.file("in"), 0o755)
+    return path
+
+
+def threads_outcome(bench, count, commands):
+    """What the commands make where the user may have so many threads; None: no limit."""
+    folder = bench.file(f"threads-{count}")
+    os.makedirs(folder)
+    os.chmod(folder, 0o777)
+    limits = [] if count is None else [(resource.RLIMIT_NPROC, count)]
+    made = {}
+    for name, words in commands:
+        done = bench.run(*words, cwd=folder, user=NOBODY, limits=limits)
+        bench.claim_sound(done, f"{name} with {count} threads")
+        bench.claim(done.returncode == 0, f"{name} with {count} threads: {done.returncode} "
+                    f"{done.stderr[:300]}")
+        path = os.path.join(folder, name)
+        made[name] = open(path, "rb").read() if os.path.exists(path) else None
+    return made
+
+
+def check_few_threads(bench):
+    if os.geteuid() != 0:
+        return bench.report.skip("few threads: the limit is another user's")
+    make_inputs(bench)
+    scene = textured_scene(bench)
+    commands = [
+        ("f.png", ("render", scene, "-o", "f.exr", "--png", "f.png", "--size", "24x16", "--spp",
+                   "2", "--environment", "constant:100", "--threads", "4", "--quiet")),
+        ("d.png", ("develop", "f.exr", "-o", "d.png", "--threads", "4")),
+        ("p.svg", ("panel", "plot", bench.file("in", "x.panel"), "-o", "p.svg", "--threads",
+                   "4")),
+        ("w.panel", ("panel", "fit", bench.file("in", "white.csv"), "-o", "w.panel",
+                     "--quiet", "--threads", "4"))]
+    free = threads_outcome(bench, None, commands)
+    for count in (1, 2, 3, 4, 6):
+        made = threads_outcome(bench, count, commands)
+        for name, data in made.items():
+            bench.claim(data is not None and data == free[name],
+                        f"{name} with {count} threads: other bytes")
+
+
+def check_control_group(bench):
+    """A real group of 1 GB where this process may make one."""
+    group = os.path.join(GROUPS, f"parhelion-{os.getpid()}")
+    try:
+        os.mkdir(group)
+        with open(os.path.join(group, "memory.limit_in_bytes"), "w") as file:
+            file.write(str(GIGABYTE))
+    except OSError:
+        return bench.report.skip("a control group of 1 GB: none can be made here")
+    make_inputs(bench)
+
+    def within(*arguments):
+        def enter():
+            with open(os.path.join(group, "tasks"), "w") as file:
+                file.write(str(os.getpid()))
+        return bench.run(*arguments, enter=enter)
+    try:
+        scene = bench.file("in", "scene.gltf")
+        done = within("render", scene, "-o", bench.file("g.exr"), "--size", "8000x8000",
+                      "--spp", "1", "--quiet")
+        bench.fails(done, 3, "GB", "--crop", what="8000x8000 within 1 GB")
+        bench.claim(not os.path.exists(bench.file("g.exr")), "a refused film left a frame")
+        bench.works(within("render", scene, "-o", bench.file("g.exr"), "--size", "64x64",
+                           "--spp", "1", "--quiet", "--json"), what="64x64 within 1 GB")
+    finally:
+        os.rmdir(group)
+
+
+def lamp_scene(bench, luminance, half_height):
+    """A glowing square of 1 m in a view of 2 half_height m."""
+    scene = Scene()
+    scene.facing_quad(scene.emitter(luminance), [0, 0, 0], [0, 0, 1], 1)
+    scene.probe("eye", [0, 0, 5], [0, 0, -1], half_height)
+    path = bench.file("glow.gltf")
+    scene.write(path)
+    return path
+
+
+def check_dropped(bench):
+    """Light beyond the film's range: all of it is no frame, some of it is told with its share,
+    by a merge too."""
+    frame, size = bench.file("frame.exr"), "16x16"
+    bench.works(bench.render(lamp_scene(bench, 1e14, 0.4), "--json", size=size, spp=4))
+    os.remove(frame)
+    done = bench.render(lamp_scene(bench, 1e15, 0.4), "--json", size=size, spp=4)
+    bench.fails(done, 3, "there is no frame: 1024 of 1024 samples (100 %)", "--replay 0,0,0")
+    bench.claim(not os.path.exists(frame), "a frame without samples was written")
+    scene = lamp_scene(bench, 1e15, 2 ** 0.5 / 2)
+    bench.works(bench.render(scene, "--json", size=size, spp=4), "of 1024 samples (5",
+                "left out")
+    for first in (0, 2):
+        bench.works(bench.run("render", scene, "--size", size, "--samples",
+                              f"{first}:{first + 2}", "--quiet", "--json", "-o",
+                              bench.file(f"part-{first}.exr")), "of 512 samples (")
+    bench.works(bench.run("merge", bench.file("part-0.exr"), bench.file("part-2.exr"), "-o",
+                          bench.file("whole.exr"), "--json", "--quiet"),
+                "of 1024 samples (5", "left out")
+
+
+CHECKS = (check_few_threads, check_control_group, check_dropped)
+MORE = ()
