@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/parallel.h"
+#include "onetbb/task_threads.h"
 
 /* EMBREE_MAJOR comes from the build. */
 #if EMBREE_MAJOR >= 4
@@ -73,7 +74,6 @@ struct Bvh {
     uint32_t  first_triangle[GEOMETRY_COUNT];
     BvhRecorder *recorder;
     int       threads; /* that built it */
-    bool      is_short_of_threads;
 };
 
 /* A query's context, with what the filters need behind Embree's own part. */
@@ -280,12 +280,12 @@ bool bvh_build(const Scene *scene, int threads, const char *isa, ProgressMode pr
     char config[96];
     Error first = {0};
     int granted = parallel_grantable_threads(threads);
+    if (granted < threads && !task_threads_limit(granted, err)) return false;
     snprintf(config, sizeof config, "threads=%d,set_affinity=0%s%s", granted,
              isa ? ",isa=" : "", isa ? isa : "");
     Bvh *bvh = calloc(1, sizeof *bvh);
     if (!bvh) return error_set(err, ERROR_MEMORY, "out of memory for the ray tracer");
     bvh->threads = granted;
-    bvh->is_short_of_threads = granted < threads;
     bvh->device = rtcNewDevice(config);
     if (!bvh->device) {
         free(bvh);
@@ -314,8 +314,7 @@ void bvh_destroy(Bvh *bvh)
     if (!bvh) return;
     if (bvh->sheets) rtcReleaseScene(bvh->sheets);
     if (bvh->scene) rtcReleaseScene(bvh->scene);
-    /* oneTBB starts threads while it forgets a limit, and ends the program where it cannot. */
-    if (bvh->device && !bvh->is_short_of_threads) rtcReleaseDevice(bvh->device);
+    if (bvh->device) rtcReleaseDevice(bvh->device);
     free(bvh);
 }
 

@@ -8,9 +8,10 @@ is one line with status 3 instead of a kill.
 """
 import os
 import resource
+import shutil
 
 from fault_files import make_inputs
-from fault_kit import NOBODY
+from fault_kit import NOBODY, ROOT
 from gltf import Scene, png
 
 GROUPS = "/sys/fs/cgroup/memory"
@@ -74,6 +75,26 @@ def check_few_threads(bench):
                         f"{name} with {count} threads: other bytes")
 
 
+def check_review_without_threads(bench):
+    """Its ray tracers follow each other, and none can have a thread of its own."""
+    cases = os.path.join(ROOT, "..", "shared", "data", "cases", "faults")
+    if os.geteuid() != 0 or not os.path.isdir(cases):
+        return bench.report.skip("a review without threads: no other user, or no cases")
+    folder = bench.file("review")
+    shutil.copytree(cases, folder)
+    os.chmod(folder, 0o777)
+
+    def answer(*limits):
+        done = bench.run("review", os.path.join(folder, "not_usable.review.json"), "--json",
+                         "--quiet", "--threads", "2", "-o", os.path.join(folder, "out"),
+                         user=NOBODY, limits=limits, cwd=folder)
+        bench.claim_sound(done, f"a review, {limits}")
+        return done.returncode, done.stdout
+    free, short = answer(), answer((resource.RLIMIT_NPROC, 1))
+    bench.claim(free[0] == 0 and free == short,
+                f"a review without threads: another answer, {free[0]}, {short[0]}")
+
+
 def check_control_group(bench):
     """A real group of 1 GB where this process may make one."""
     group = os.path.join(GROUPS, f"parhelion-{os.getpid()}")
@@ -133,5 +154,5 @@ def check_dropped(bench):
                 "of 1024 samples (5", "left out")
 
 
-CHECKS = (check_few_threads, check_control_group, check_dropped)
+CHECKS = (check_few_threads, check_review_without_threads, check_control_group, check_dropped)
 MORE = ()

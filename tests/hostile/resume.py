@@ -258,8 +258,9 @@ def check_refusals(work, *options):
         work.report.claim(part in done.stderr and done.returncode in (3, 4) and
                           contents(path) == broken, f"{name}: {done.stderr[:300]}")
     done = work.run(*options, "--checkpoint", "frame.exr")
-    work.report.claim(done.returncode == 2 and "-o and --checkpoint name the same file, frame.exr" in
-                      done.stderr, f"one name for both: {done.stderr}")
+    work.report.claim(done.returncode == 2 and
+                      "-o and --checkpoint name the same file, frame.exr" in done.stderr,
+                      f"one name for both: {done.stderr}")
     work.clear()
     one, _ = work.reference(*options, "--spp", "1")
     with open(path, "wb") as file:

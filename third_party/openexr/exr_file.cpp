@@ -461,7 +461,8 @@ static OutPart words_part(const ExrPicture &p)
 /* Of its values as they are, and what else a file holds of each row. */
 static size_t most_bytes(const ExrPicture &p)
 {
-    const size_t rows = (size_t)(p.data.y1 - p.data.y0), width = (size_t)(p.data.x1 - p.data.x0);
+    const size_t rows = (size_t)(p.data.y1 - p.data.y0);
+    const size_t width = (size_t)(p.data.x1 - p.data.x0);
     const size_t words = p.words ? (size_t)p.words->count : 0;
     return rows * (width * 4 * ((size_t)p.channel_count + words) + 64) + ((size_t)1 << 20);
 }

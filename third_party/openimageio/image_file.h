@@ -28,7 +28,8 @@ bool image_decoder_read(ImageDecoder *decoder, void *pixels, Error *err);
 
 void image_decoder_destroy(ImageDecoder *decoder); /* NULL is fine */
 
-/* format: "jpeg" or "tiff" (a PNG: image/plain/picture_png.h). The same input gives the same bytes. */
+/* format: "jpeg" or "tiff" (a PNG: image/plain/picture_png.h). The same input gives the same
+ * bytes. */
 bool image_encode(const char *format, const ImageToEncode *image, EncodedImage **out,
                   Error *err);
 

@@ -20,7 +20,7 @@ static bool is_same_file(const char *output, const char *input)
     return file_is_same(output, input) && !stat(output, &info) && S_ISREG(info.st_mode);
 }
 
-/* A file that is read and written, as a checkpoint, is an output too: its option. NULL: none. */
+/* A file that is read and written, as a checkpoint, is an output too: its option, or NULL. */
 static const char *option_of(const Outputs *outputs, const char *path)
 {
     for (int i = 0; i < outputs->count; i++)

@@ -445,13 +445,14 @@ static const char *dropped_words(const Film *film, const char *line, Arena *aren
 {
     FilmDropped dropped = film_dropped(film);
     uint64_t    all = dropped.count + film_kept_samples(film);
-    const char *again = !line ? "" : arena_format(arena, "; to see the first again: %s --replay "
-                                                  "%d,%d,%u", line, dropped.first[0].x,
-                                                  dropped.first[0].y,
-                                                  dropped.first[0].sample_index);
+    const char *again = "";
+    if (line)
+        again = arena_format(arena, "; to see the first again: %s --replay %d,%d,%u", line,
+                             dropped.first[0].x, dropped.first[0].y,
+                             dropped.first[0].sample_index);
     return arena_format(arena,
-                        "%llu of %llu samples (%.3g %%) are not finite, or above %.2g cd/m2, and "
-                        "are left out%s", (unsigned long long)dropped.count,
+                        "%llu of %llu samples (%.3g %%) are not finite, or above %.2g cd/m2, "
+                        "and are left out%s", (unsigned long long)dropped.count,
                         (unsigned long long)all, 100 * (double)dropped.count / (double)all,
                         FILM_MOST_CD_M2, again);
 }

@@ -9,16 +9,16 @@
 
 enum { LEVEL = 6, FIRST_BYTES = 1 << 16 };
 
-/* Bytes that follow each other; they are the arena's last while libpng has memory of its own. */
-typedef struct Sink {
+/* Bytes that follow each other, the arena's last; libpng has memory of its own meanwhile. */
+typedef struct PngSink {
     Arena         *arena;
     unsigned char *bytes;
     size_t         size, room;
-} Sink;
+} PngSink;
 
 static void put(png_structp png, png_bytep bytes, size_t size)
 {
-    Sink  *sink = png_get_io_ptr(png);
+    PngSink  *sink = png_get_io_ptr(png);
     size_t room = sink->room ? sink->room : FIRST_BYTES;
     while (room <= sink->size + size) room *= 2;
     if (room > sink->room)
@@ -89,7 +89,7 @@ static bool write_all(png_structp png, png_infop info, const ImageToEncode *imag
 
 bool picture_png_encode(const ImageToEncode *image, Arena *arena, FileBytes *out, Error *err)
 {
-    Sink        sink = {.arena = arena};
+    PngSink        sink = {.arena = arena};
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, err, keep_words, ignore);
     png_infop   info = png ? png_create_info_struct(png) : NULL;
     if (!info) {

@@ -7,14 +7,14 @@
 #include <jpeglib.h>
 
 /* libjpeg's, first, so that it is found from there. */
-typedef struct Reader {
+typedef struct PlainReader {
     struct jpeg_error_mgr errors;
     jmp_buf               back;
-} Reader;
+} PlainReader;
 
 static void give_up(j_common_ptr jpeg)
 {
-    longjmp(((Reader *)jpeg->err)->back, 1);
+    longjmp(((PlainReader *)jpeg->err)->back, 1);
 }
 
 /* A warning too (level -1): its faults are the other library's to report. */
@@ -59,7 +59,7 @@ static void read_rows(struct jpeg_decompress_struct *jpeg, unsigned char *rgba)
 /* rgba NULL: the head alone. */
 static bool read_file(struct jpeg_decompress_struct *jpeg, PlainJpeg *file, unsigned char *rgba)
 {
-    Reader reader;
+    PlainReader reader;
     jpeg->err = jpeg_std_error(&reader.errors);
     reader.errors.error_exit = give_up;
     reader.errors.emit_message = give_up_at_warnings;

@@ -125,7 +125,7 @@ bool set_writer_add_manifest(SetWriter *writer, const json_t *root, int digits)
     return set_writer_add(writer, path_name(writer->manifest), &text);
 }
 
-/* ---- all files get their names ------------------------------------------------------------ */
+/* ---- all files get their names ----------------------------------------------------------- */
 
 static bool make_folder(SetWriter *writer, const char *folder)
 {
