@@ -63,7 +63,7 @@ void arena_release(Arena *arena)
 
 /* Blocks of so many bytes are held against what the machine has now: together several arenas
  * may have more addresses than there is memory, and who touches too much of it is killed. */
-#define LARGE_BLOCK ((size_t)1 << 24)
+#define LARGE_BLOCK ((size_t)1 << 22)
 
 void *arena_alloc(Arena *arena, size_t size, size_t align, size_t count)
 {

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/machine.h"
 #include "base/parallel.h"
 #include "onetbb/task_threads.h"
 
@@ -182,9 +183,20 @@ static void ask_passes(const struct RTCFilterFunctionNArguments *args)
 static void keep_first_message(void *user, enum RTCError code, const char *text)
 {
     Error *err = user;
-    if (err->code == ERROR_NONE)
-        error_set(err, code == RTC_ERROR_OUT_OF_MEMORY ? ERROR_MEMORY : ERROR_LIBRARY,
-                  "ray tracing: %s", text ? text : "unknown error");
+    const char *why = text ? text : "unknown error";
+    if (err->code != ERROR_NONE) return;
+    if (code == RTC_ERROR_OUT_OF_MEMORY)
+        error_set(err, ERROR_MEMORY, "out of memory for the ray tracer: %s", why);
+    else
+        error_set(err, ERROR_LIBRARY, "ray tracing: %s", why);
+}
+
+/* Where the memory is short the library's next block is refused: it says so then, and nobody is
+ * killed. */
+static bool grant_memory(void *user, ssize_t bytes, bool is_done)
+{
+    (void)user;
+    return is_done || bytes <= 0 || (size_t)bytes < machine_memory_left();
 }
 
 static bool has_holes(const Scene *scene)
@@ -292,6 +304,7 @@ bool bvh_build(const Scene *scene, int threads, const char *isa, ProgressMode pr
         return error_set(err, ERROR_LIBRARY, "ray tracing: no device for \"%s\"", config);
     }
     rtcSetDeviceErrorFunction(bvh->device, keep_first_message, &first);
+    rtcSetDeviceMemoryMonitorFunction(bvh->device, grant_memory, NULL);
     if (check_device(bvh->device, &first)) build_scene(bvh, scene, progress);
     rtcSetDeviceErrorFunction(bvh->device, NULL, NULL);
     if (first.code != ERROR_NONE) {

@@ -12,10 +12,11 @@ import shutil
 
 from fault_files import make_inputs
 from fault_kit import NOBODY, ROOT
+from fault_scenes import large_mesh
 from gltf import Scene, png
 
 GROUPS = "/sys/fs/cgroup/memory"
-GIGABYTE = 1 << 30
+MEGABYTE = 1 << 20
 
 
 def textured_scene(bench):
@@ -96,14 +97,18 @@ def check_review_without_threads(bench):
 
 
 def check_control_group(bench):
-    """A real group of 1 GB where this process may make one."""
+    """Real groups where this process may make one: a film of 1.5 GB within 1 GB, and a ray
+    tracer that grows into the limit. Without memory the system kills without a word."""
     group = os.path.join(GROUPS, f"parhelion-{os.getpid()}")
+
+    def limit(megabytes):
+        with open(os.path.join(group, "memory.limit_in_bytes"), "w") as file:
+            file.write(str(megabytes * MEGABYTE))
     try:
         os.mkdir(group)
-        with open(os.path.join(group, "memory.limit_in_bytes"), "w") as file:
-            file.write(str(GIGABYTE))
+        limit(1024)
     except OSError:
-        return bench.report.skip("a control group of 1 GB: none can be made here")
+        return bench.report.skip("control groups: none can be made here")
     make_inputs(bench)
 
     def within(*arguments):
@@ -119,6 +124,15 @@ def check_control_group(bench):
         bench.claim(not os.path.exists(bench.file("g.exr")), "a refused film left a frame")
         bench.works(within("render", scene, "-o", bench.file("g.exr"), "--size", "64x64",
                            "--spp", "1", "--quiet", "--json"), what="64x64 within 1 GB")
+        scene = large_mesh(bench.folder, 600)
+        for megabytes, statuses in ((60, (3,)), (70, (0, 3)), (80, (0, 3)), (160, (0,))):
+            limit(megabytes)
+            done = within("render", scene, "-o", bench.file("g.exr"), "--size", "64x64",
+                          "--spp", "1", "--quiet")
+            lines = [line for line in done.stderr.splitlines() if "warning" not in line]
+            bench.claim(done.returncode in statuses and len(lines) == (done.returncode == 3)
+                        and all("out of memory" in line for line in lines),
+                        f"720,000 triangles within {megabytes} MB: {done.returncode} {lines}")
     finally:
         os.rmdir(group)
 
