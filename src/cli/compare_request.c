@@ -97,7 +97,7 @@ static bool read_region(const char *text, ExrWindow *out, Error *err)
 {
     double r[4];
     if (!cli_numbers(text, 4, r))
-        return error_set(err, ERROR_USAGE, "--region %.200s: wanted X0,Y0,X1,Y1, four numbers "
+        return error_set(err, ERROR_USAGE, "--region %.200s: required X0,Y0,X1,Y1, four numbers "
                          "of pixels", text);
     for (int i = 0; i < 4; i++)
         if (r[i] != floor(r[i]) || fabs(r[i]) > REGION_MOST)
@@ -127,7 +127,7 @@ static void add_ignored(const CliTexts *texts, Arena *arena, CompareRules *out)
 }
 
 /* `out` holds what goes for all pairs where the words are those of one. A pair with limits of
- * its own is judged by them: by the statistical test as well where it has a level of its own. */
+ * its own is judged by them: by the statistical test as well where it has its own level. */
 static bool read_options(const CompareWords *words, Arena *arena, CompareOptions *out,
                          Error *err)
 {

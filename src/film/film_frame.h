@@ -52,7 +52,8 @@ size_t film_frame_bytes_most(const Film *film, Arena scratch);
 /* False: the arena has no room for it, and hours of rendering would end without a frame. */
 bool film_has_room(const Film *film, const Arena *arena, Error *err);
 
-/* What it takes at least, with so many groups of lights: numbers of one channel are left out. */
+/* What it takes at least, with so many groups of lights: numbers of one channel are left
+ * out. */
 size_t film_frame_bytes(FilmRect crop, unsigned layers, int light_count);
 
 /* The frame for a viewer: R, G, B, the layers if has_layers, and error.Y, the standard error

@@ -493,7 +493,8 @@ def main():
         for check in (check_frames, check_structure, check_contrast, check_numbers,
                       check_pictures, check_masks, check_usage, check_files,
                       check_json, check_folders, check_broken_pair,
-                      check_pairs, check_not_made, check_junit, check_report, check_noise, check_limits_of_noise):
+                      check_pairs, check_not_made, check_junit, check_report, check_noise,
+                      check_limits_of_noise):
             try:
                 check(report, program)
             except (ValueError, KeyError, IndexError, OSError, AttributeError,

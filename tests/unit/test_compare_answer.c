@@ -137,7 +137,7 @@ TEST(wrong_options_say_what_is_wanted)
     refused("--metric", "flips", "did you mean flip?");
     refused("--metric", "mse,flips", "did you mean flip?");
     refused("--region", "0,0,1.5,9", "1.5 is no whole number");
-    refused("--region", "0,0,9", "wanted X0,Y0,X1,Y1");
+    refused("--region", "0,0,9", "required X0,Y0,X1,Y1");
     refused("--region", "0,0,99999,9", "99999 is no whole number of pixels from -65536");
     refused("--exposure-range", "9,3", "--exposure-range 9,3: wanted A,B with A <= B");
     refused("--exposure", "bright", "--exposure bright");
