@@ -8,6 +8,7 @@
 
 #include "base/file_write.h"
 #include "print/print.h"
+#include "cli/job/job_isa.h"
 #include "cli/options/answer.h"
 #include "cli/options/look_options.h"
 #include "cli/render/noise_goal.h"
@@ -208,7 +209,9 @@ static bool share(RenderRun *work, Error *err)
 {
     const Kernel *kernel;
     const char   *identity;
-    return identify_plan(work, &kernel, &identity, err) &&
+    return job_isa_choose(work->request.render.isa, work->request.share.dir, work->arena,
+                          &work->request.render.isa, err) &&
+           identify_plan(work, &kernel, &identity, err) &&
            render_share(&work->request, identity, kernel->isa, work->arena, err);
 }
 
