@@ -97,8 +97,8 @@ static bool read_region(const char *text, ExrWindow *out, Error *err)
 {
     double r[4];
     if (!cli_numbers(text, 4, r))
-        return error_set(err, ERROR_USAGE, "--region %.200s: required X0,Y0,X1,Y1, four numbers "
-                         "of pixels", text);
+        return error_set(err, ERROR_USAGE, "--region %.200s: required X0,Y0,X1,Y1, four "
+                         "numbers of pixels", text);
     for (int i = 0; i < 4; i++)
         if (r[i] != floor(r[i]) || fabs(r[i]) > REGION_MOST)
             return error_set(err, ERROR_USAGE, "--region: %g is no whole number of pixels "

@@ -477,7 +477,8 @@ def check_again(work, line):
 
 
 NODES = (("avx2,ib\navx512f,ib", "avx2"), ("AVX512\ngpu,avx512vl", "avx512"),
-         ("(null)", "avx2"), ("sse4_2\navx512", "sse2"), ("x86-64-v4\nx86-64-v3", "avx2"), ("avx", "sse2"),
+         ("(null)", "avx2"), ("sse4_2\navx512", "sse2"), ("x86-64-v4\nx86-64-v3", "avx2"),
+         ("avx", "sse2"),
          ("avx2,avx512", "avx512"), ("cascadelake\navx512", "avx2"), ("noavx512", "avx2"))
 SETS = ["sse2", "avx2", "avx512"]
 

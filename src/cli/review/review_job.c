@@ -148,7 +148,8 @@ bool review_share(const ShareRequest *share, ReviewFolder *folder, ReviewRun *ru
     cli_print_warnings(run->problems);
     if (!ok) return false;
     SharedJob job = {.kind = JOB_REVIEW, .line = review_folder_command(folder, arena),
-                     .output = folder->target, .identity = found.identity, .isa = run->means.isa};
+                     .output = folder->target, .identity = found.identity,
+                     .isa = run->means.isa};
     return job_share(share, &job, arena, json ? &answer : NULL, err) &&
            (!answer || cli_print_json(answer, err));
 }
