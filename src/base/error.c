@@ -72,5 +72,6 @@ void error_line(const Error *err, char *buffer, int size)
 
 int error_exit_status(ErrorCode code)
 {
+    if (code == ERROR_MACHINE) return 5;
     return code == ERROR_LIBRARY || code == ERROR_MEMORY ? 3 : (int)code;
 }

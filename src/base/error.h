@@ -23,6 +23,7 @@ typedef enum ErrorCode {
     ERROR_OUTPUT = 4,        /* an output cannot be written */
     ERROR_LIBRARY = 5,       /* a library refused for a reason of its own: exit status 3 */
     ERROR_MEMORY = 6,        /* out of memory: exit status 3 */
+    ERROR_MACHINE = 7,       /* this machine cannot, another may: exit status 5 */
     ERROR_HUNG_UP = 129,     /* HUP */
     ERROR_INTERRUPTED = 130, /* INT */
     ERROR_TERMINATED = 143   /* TERM */

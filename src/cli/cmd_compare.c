@@ -2,8 +2,10 @@
 /* parhelion compare: are two frames, pictures or folders of them the same? */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/count.h"
+#include "base/file.h"
 #include "base/file_write.h"
 #include "print/print.h"
 #include "cli/commands.h"
@@ -16,6 +18,8 @@
 #include "compare/report/html_report.h"
 #include "compare/report/junit.h"
 #include "text/json_text.h"
+
+#define FAILED_BYTES 4096
 
 /* Results so far, for every kind of answer. */
 typedef struct CompareRun {
@@ -42,14 +46,14 @@ static void end(CompareRun *run)
     json_decref(run->pairs);
 }
 
-static bool collect(CompareRun *run, const char *name, const Comparison *c, Arena scratch,
-                    Error *err)
+static bool collect(CompareRun *run, const char *name, const Comparison *c,
+                    const CompareOptions *options, Arena scratch, Error *err)
 {
     run->count++;
     run->different += !c->same;
     if (run->request->junit) junit_add(&run->junit, name, c);
     return !run->request->report ||
-           html_report_add(&run->html, name, c, &run->request->options, scratch, err);
+           html_report_add(&run->html, name, c, options, scratch, err);
 }
 
 static bool write_files(const CompareRun *run, Error *err)
@@ -58,6 +62,23 @@ static bool write_files(const CompareRun *run, Error *err)
     if (r->report && !html_report_write(&run->html, r->reference, r->test, r->report, err))
         return false;
     return !r->junit || junit_write(&run->junit, "parhelion compare", r->junit, err);
+}
+
+static bool wants_json(const CompareRequest *request)
+{
+    return request->cli.json || request->answer;
+}
+
+/* Into the file and to stdout, as far as they are asked for; releases it. */
+static bool answer_json(const CompareRequest *request, json_t *document, Error *err)
+{
+    if (request->answer && !cli_write_json(document, request->answer, err)) {
+        json_decref(document);
+        return false;
+    }
+    if (request->cli.json) return cli_print_json(document, err);
+    json_decref(document);
+    return true;
 }
 
 /* The answer is on stdout: nothing more is to be said. */
@@ -163,12 +184,10 @@ static bool compare_two(CompareRun *run, Error *err)
     const CompareRequest *r = run->request;
     Comparison            c;
     if (!compare_files(r->reference, r->test, &r->options, run->arena, &c, err)) return false;
-    if (!collect(run, r->test, &c, *run->arena, err) || !write_files(run, err)) return false;
-    if (r->cli.json) {
-        if (!cli_print_json(comparison_json(&c, &r->options), err)) return false;
-    } else {
-        compare_print_pair(r, &c);
-    }
+    if (!collect(run, r->test, &c, &r->options, *run->arena, err) || !write_files(run, err) ||
+        (wants_json(r) && !answer_json(r, comparison_json(&c, &r->options), err)))
+        return false;
+    if (!r->cli.json) compare_print_pair(r, &c);
     return answered(c.same ? ERROR_NONE : ERROR_DIFFERENT, err);
 }
 
@@ -212,23 +231,84 @@ static void add_failed(CompareRun *run, const char *name, const Error *error)
                             "message", json_text(error->text)));
 }
 
+/* "noon" and "noon.exr" both name noon.exr. */
+static bool is_named(const char *picture, const char *name)
+{
+    size_t length = strlen(name);
+    return !strncmp(picture, name, length) &&
+           (!picture[length] || picture + length == path_ending(picture));
+}
+
+/* What was asked of this pair, or else of all. */
+static const CompareOptions *options_of(const CompareRequest *request, const char *picture)
+{
+    for (int i = 0; i < request->pair_count; i++)
+        if (is_named(picture, request->pairs[i].name)) return &request->pairs[i].options;
+    return &request->options;
+}
+
+static bool check_pairs(const CompareRequest *request, const FolderPairs *pairs, Error *err)
+{
+    for (int i = 0; i < request->pair_count; i++) {
+        const ComparePair *asked = &request->pairs[i];
+        int                k = 0;
+        while (k < pairs->count && !is_named(pairs->list[k].name, asked->name)) k++;
+        if (k == pairs->count)
+            return error_at(err, ERROR_INPUT, request->pairs_file, asked->place,
+                            "no picture is named %.200s, in neither %.200s nor %.200s",
+                            asked->name, request->reference, request->test);
+    }
+    return true;
+}
+
+/* No output is a picture of a pair, or the mask of one. */
+static bool spare_pairs(const CompareRequest *request, const FolderPairs *pairs, Error *err)
+{
+    for (int i = 0; i < pairs->count; i++) {
+        const FolderPair *pair = &pairs->list[i];
+        const char *const files[] = {pair->reference, pair->test, pair->failed,
+                                     options_of(request, pair->name)->selection.mask};
+        if (!outputs_spare(&request->cli.outputs, files, COUNT_OF(files), err)) return false;
+    }
+    return true;
+}
+
 static bool add_compared(CompareRun *run, const FolderPair *pair, Arena arena, Error *err)
 {
-    const CompareRequest *r = run->request;
+    const CompareOptions *options = options_of(run->request, pair->name);
     Comparison            c;
     Error                 why;
-    if (!compare_files(pair->reference, pair->test, &r->options, &arena, &c, &why)) {
+    if (!compare_files(pair->reference, pair->test, options, &arena, &c, &why)) {
         add_failed(run, pair->name, &why);
         return true;
     }
-    if (!collect(run, pair->name, &c, arena, err)) return false;
-    if (r->cli.json) add_pair_json(run, pair->name, comparison_json(&c, &r->options));
-    else compare_print_line(pair->name, &c);
+    if (!collect(run, pair->name, &c, options, arena, err)) return false;
+    if (wants_json(run->request))
+        add_pair_json(run, pair->name, comparison_json(&c, options));
+    if (!run->request->cli.json) compare_print_line(pair->name, &c);
     return true;
+}
+
+/* A picture that could not be made: whoever tried left the line that says why. */
+static void add_not_made(CompareRun *run, const FolderPair *pair, Arena scratch)
+{
+    FileBytes bytes;
+    Error     why;
+    if (file_read_start(pair->failed, FAILED_BYTES, &scratch, &bytes, &why)) {
+        char *line = arena_string(&scratch, (const char *)bytes.data, bytes.size);
+        line[strcspn(line, "\r\n")] = '\0';
+        error_at(&why, ERROR_INPUT, pair->failed, "", "it was not made: %.900s",
+                 arena_printable(&scratch, line));
+    }
+    add_failed(run, pair->name, &why);
 }
 
 static bool add_pair(CompareRun *run, const FolderPair *pair, Error *err)
 {
+    if (pair->failed) {
+        add_not_made(run, pair, *run->arena);
+        return true;
+    }
     if (pair->reference && pair->test) return add_compared(run, pair, *run->arena, err);
     if (pair->reference) add_missing(run, pair->name, "is missing in the test");
     else if (!run->request->allow_extra)
@@ -240,12 +320,14 @@ static bool add_pair(CompareRun *run, const FolderPair *pair, Error *err)
 static bool print_total(const CompareRun *run, Error *err)
 {
     int same = run->count - run->different - run->failed;
-    if (run->request->cli.json)
-        return cli_print_json(json_pack("{s:b, s:i, s:i, s:i, s:i, s:O}", "same",
-                                        same == run->count, "total", run->count, "equal",
-                                        same, "different", run->different, "failed",
-                                        run->failed, "pairs", run->pairs),
-                              err);
+    if (wants_json(run->request) &&
+        !answer_json(run->request,
+                     json_pack("{s:b, s:i, s:i, s:i, s:i, s:O}", "same", same == run->count,
+                               "total", run->count, "equal", same, "different",
+                               run->different, "failed", run->failed, "pairs", run->pairs),
+                     err))
+        return false;
+    if (run->request->cli.json) return true;
     if (run->request->report) print("report: %s\n", run->request->report);
     print("%s: %d of %d pairs are the same", same == run->count ? "same" : "different", same,
           run->count);
@@ -259,11 +341,9 @@ static bool compare_folders(CompareRun *run, Error *err)
 {
     const CompareRequest *r = run->request;
     FolderPairs           pairs;
-    if (!folders_match(r->reference, r->test, run->arena, &pairs, err)) return false;
-    for (int i = 0; i < pairs.count; i++) {
-        const char *const files[] = {pairs.list[i].reference, pairs.list[i].test};
-        if (!outputs_spare(&r->cli.outputs, files, COUNT_OF(files), err)) return false;
-    }
+    if (!folders_match(r->reference, r->test, run->arena, &pairs, err) ||
+        !check_pairs(r, &pairs, err) || !spare_pairs(r, &pairs, err))
+        return false;
     Progress progress = progress_start(r->cli.progress, "compare", "pairs", pairs.count);
     for (int i = 0; i < pairs.count; i++) {
         progress_clear(&progress);
@@ -286,8 +366,12 @@ static bool compare(const CompareRequest *request, Arena *arena, Error *err)
         return error_set(err, ERROR_USAGE, "%s is a folder and %s is not: wanted two files or "
                          "two folders", both ? request->reference : request->test,
                          both ? request->test : request->reference);
+    if (request->pairs_file && !both)
+        return error_set(err, ERROR_USAGE, "--pairs %s goes with two folders: %s is none",
+                         request->pairs_file, request->reference);
     if ((request->report && !file_check_writable(request->report, err)) ||
-        (request->junit && !file_check_writable(request->junit, err)))
+        (request->junit && !file_check_writable(request->junit, err)) ||
+        (request->answer && !file_check_writable(request->answer, err)))
         return false;
     CompareRun run;
     start(request, both, arena, &run);

@@ -91,7 +91,7 @@ static bool run_one(PartRun *work, Error *err)
     const SharedJob   *job = &work->job;
     Lines          folder;
     const JobReviewPart part = {work->index, work->name, &folder};
-    return job_enter(job, *work->arena, err) &&
+    return job_check_machine(job, work->name, err) && job_enter(job, *work->arena, err) &&
            job_folder_list(job, work->arena, &folder, err) &&
            (job->kind == JOB_REVIEW
                 ? job_review_part(job, &work->cli, &part, work->arena, err)
@@ -147,7 +147,10 @@ static bool do_part(PartRun *work, Error *err)
     work->was_there = is_done(work);
     if (!work->was_there) {
         job_part_forget_failure(&work->job, work->index, *work->arena);
-        if (!run_whole(work, err) && !end_badly(work, err)) return false;
+        int  lock = job_part_begin(&work->job, work->index, *work->arena);
+        bool ok = run_whole(work, err) || end_badly(work, err);
+        job_part_end(&work->job, work->index, lock, *work->arena);
+        if (!ok) return false;
     }
     job_part_clean(&work->job, work->index, *work->arena);
     return print_answer(work, err);

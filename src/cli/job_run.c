@@ -13,6 +13,7 @@
 #include "cli/render/command_line.h"
 #include "cli/review/cmd_review.h"
 #include "cli/review/review_job.h"
+#include "render/identity.h"
 
 static const char *progress_word(const Cli *cli, Arena *arena)
 {
@@ -76,6 +77,20 @@ bool job_enter(const SharedJob *job, Arena scratch, Error *err)
                     "cannot be entered: %s — the job was planned there", strerror(errno));
 }
 
+/* Slurm's task goes to another node then (job_scripts.c). */
+bool job_check_machine(const SharedJob *job, const char *name, Error *err)
+{
+    const Kernel *kernel;
+    Error         why;
+    char          host[64] = "";
+    gethostname(host, sizeof host - 1);
+    return kernel_choose(job->isa, &kernel, &why) ||
+           error_at(err, ERROR_MACHINE, name, "",
+                    "was planned for %.20s, and %s cannot: %.200s — take another machine, or "
+                    "plan the job with the --isa that all have, in another folder",
+                    job->isa, host, why.text);
+}
+
 /* The mark comes last, and then the file gets its name. */
 bool job_review_part(const SharedJob *job, const Cli *cli, const JobReviewPart *part,
                      Arena *arena, Error *err)
@@ -127,6 +142,6 @@ bool job_review_merge(const SharedJob *job, const Cli *cli, const char *output, 
                         .resume_line = job_merge_command(job, arena)};
     for (int i = 0; i < job->part_count; i++)
         task.found[i] = job_part_file(job, i, job_part_ending(job), arena);
-    return job_enter(job, *arena, err) &&
+    return job_check_machine(job, job->dir, err) && job_enter(job, *arena, err) &&
            cmd_review_run(words.count, words.list, &task, arena, err);
 }

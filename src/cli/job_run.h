@@ -20,6 +20,9 @@ typedef struct JobWords {
 JobWords job_words(const SharedJob *job, const Cli *cli, const char *const *own, int own_count,
                    Arena *arena);
 
+/* Whether this processor has the job's instruction set. Fails: ERROR_MACHINE. */
+bool job_check_machine(const SharedJob *job, const char *name, Error *err);
+
 /* Whether a manifest's words are such as `--slurm` leaves there: none that names an output,
  * controls the run or makes something else. Fails: ERROR_INPUT with the first that is not. */
 bool job_check_words(const SharedJob *job, Arena scratch, Error *err);

@@ -7,8 +7,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "compare/input.h"
+#include "base/file.h"
 #include "base/lines.h"
+#include "compare/input.h"
 
 #define MOST_LEVELS 64 /* of folders in folders: links may go round in circles */
 
@@ -16,6 +17,18 @@ bool is_folder(const char *path)
 {
     struct stat info;
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+static bool is_failed(const char *name)
+{
+    return !strcmp(path_ending(name), FOLDERS_FAILED);
+}
+
+/* The picture's name, of its NAME.failed as well. */
+static const char *picture_of(const char *name, Arena *arena)
+{
+    size_t left_out = is_failed(name) ? strlen(FOLDERS_FAILED) : 0;
+    return arena_string(arena, name, strlen(name) - left_out);
 }
 
 /* below: "" or "sub/folder/". */
@@ -36,16 +49,22 @@ static bool list_folder(const char *top, const char *below, int level, Lines *na
         if (is_folder(arena_format(names->arena, "%s/%s", top, name)))
             ok = list_folder(top, arena_format(names->arena, "%s/", name), level + 1, names,
                              err);
-        else if (input_has_known_ending(name))
+        else if (input_has_known_ending(picture_of(name, names->arena)))
             lines_put(names, name);
     }
     closedir(folder);
     return ok;
 }
 
+/* Of pictures, each with its NAME.failed beside it. */
 static int by_name(const void *a, const void *b)
 {
-    return strcmp(*(const char *const *)a, *(const char *const *)b);
+    const char *one = *(const char *const *)a, *other = *(const char *const *)b;
+    size_t      end = strlen(FOLDERS_FAILED);
+    size_t      one_size = strlen(one) - (is_failed(one) ? end : 0);
+    size_t      other_size = strlen(other) - (is_failed(other) ? end : 0);
+    int         order = memcmp(one, other, one_size < other_size ? one_size : other_size);
+    return order ? order : (one_size > other_size) - (one_size < other_size);
 }
 
 static bool sorted_names(const char *top, Arena *arena, Lines *out, Error *err)
@@ -64,6 +83,18 @@ static const char *trimmed(const char *path, Arena *arena)
     return arena_string(arena, path, length);
 }
 
+/* The files of one folder, from *next on, that are the picture's. */
+static void take_files(const char *top, const Lines *names, int *next, const char *name,
+                       const char **picture, const char **failed)
+{
+    Arena *arena = names->arena;
+    for (; *next < names->count; (*next)++) {
+        const char *file = names->list[*next];
+        if (strcmp(picture_of(file, arena), name) != 0) return;
+        *(is_failed(file) ? failed : picture) = arena_format(arena, "%s/%s", top, file);
+    }
+}
+
 bool folders_match(const char *reference, const char *test, Arena *arena, FolderPairs *out,
                    Error *err)
 {
@@ -77,13 +108,12 @@ bool folders_match(const char *reference, const char *test, Arena *arena, Folder
                         "there is no picture in this folder nor in %s", test);
     *out = (FolderPairs){ARENA_NEW(arena, FolderPair, a.count + b.count), 0};
     for (int i = 0, j = 0; i < a.count || j < b.count;) {
-        int order = i == a.count ? 1 : j == b.count ? -1 : strcmp(a.list[i], b.list[j]);
-        const char *name = order <= 0 ? a.list[i] : b.list[j];
-        out->list[out->count++] = (FolderPair){
-            name, order <= 0 ? arena_format(arena, "%s/%s", reference, name) : NULL,
-            order >= 0 ? arena_format(arena, "%s/%s", test, name) : NULL};
-        i += order <= 0;
-        j += order >= 0;
+        const char *one = i < a.count ? picture_of(a.list[i], arena) : NULL;
+        const char *two = j < b.count ? picture_of(b.list[j], arena) : NULL;
+        FolderPair *pair = &out->list[out->count++];
+        pair->name = !two || (one && strcmp(one, two) <= 0) ? one : two;
+        take_files(reference, &a, &i, pair->name, &pair->reference, &pair->failed);
+        take_files(test, &b, &j, pair->name, &pair->test, &pair->failed);
     }
     return true;
 }

@@ -8,9 +8,14 @@
 #include "base/arena.h"
 #include "base/error.h"
 
+/* Whoever cannot make a picture leaves NAME.failed, whose first line says why: then the pair
+ * cannot be compared, whatever else lies there. */
+#define FOLDERS_FAILED ".failed"
+
 typedef struct FolderPair {
-    const char *name;             /* relative to both folders */
+    const char *name;             /* of the picture, relative to both folders */
     const char *reference, *test; /* whole paths; NULL where there is none */
+    const char *failed;           /* the same of NAME.failed, of either folder */
 } FolderPair;
 
 typedef struct FolderPairs {

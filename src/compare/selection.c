@@ -26,24 +26,37 @@ static void leave_out(const Planes *planes, ExrWindow inside, unsigned char *cou
                 counts[(size_t)y * (size_t)planes->width + (size_t)x] = 0;
 }
 
-static bool apply_region(const CompareInput *input, const SelectionRequest *request,
-                         unsigned char *counts, Error *err)
+static bool mark_region(const CompareInput *input, ExrWindow r, unsigned char *is_inside,
+                        Error *err)
 {
-    ExrWindow e = extent_of(input), r = request->region;
+    ExrWindow e = extent_of(input);
     int       left = 0, top = 0;
     if (input->kind == INPUT_FRAME) {
         left = input->frame.display.x0;
         top = input->frame.display.y0;
     }
-    const ExrWindow inside = {r.x0 - left, r.y0 - top, r.x1 - left, r.y1 - top};
-    if (inside.x0 < e.x0 || inside.y0 < e.y0 || inside.x1 > e.x1 || inside.y1 > e.y1 ||
-        r.x0 >= r.x1 || r.y0 >= r.y1)
+    const ExrWindow in = {r.x0 - left, r.y0 - top, r.x1 - left, r.y1 - top};
+    if (in.x0 < e.x0 || in.y0 < e.y0 || in.x1 > e.x1 || in.y1 > e.y1 || r.x0 >= r.x1 ||
+        r.y0 >= r.y1)
         return error_set(err, ERROR_USAGE,
                          "--region %d,%d,%d,%d: wanted X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 "
                          "inside the pixels %d,%d,%d,%d of %s",
                          r.x0, r.y0, r.x1, r.y1, e.x0 + left, e.y0 + top, e.x1 + left,
                          e.y1 + top, input->name);
-    leave_out(&input->light, inside, counts);
+    for (int y = in.y0; y < in.y1; y++)
+        memset(is_inside + (size_t)y * (size_t)input->light.width + in.x0, 1,
+               (size_t)(in.x1 - in.x0));
+    return true;
+}
+
+static bool apply_regions(const CompareInput *input, const SelectionRequest *request,
+                          Arena scratch, unsigned char *counts, Error *err)
+{
+    size_t         count = planes_pixel_count(&input->light);
+    unsigned char *is_inside = ARENA_NEW(&scratch, unsigned char, count);
+    for (int i = 0; i < request->region_count; i++)
+        if (!mark_region(input, request->regions[i], is_inside, err)) return false;
+    for (size_t i = 0; i < count; i++) counts[i] = counts[i] && is_inside[i];
     return true;
 }
 
@@ -154,10 +167,10 @@ bool selection_make(const CompareInput *const sides[2], const SelectionRequest *
     Arena     kept = *arena;
     size_t    count = planes_pixel_count(&reference->light);
     Selection made = {.counts = ARENA_NEW(&kept, unsigned char, count)};
-    made.is_part = request->mask || request->has_region || request->display;
+    made.is_part = request->mask || request->region_count || request->display;
     memset(made.counts, 1, count);
     leave_out(&reference->light, extent_of(reference), made.counts);
-    if (request->has_region && !apply_region(reference, request, made.counts, err))
+    if (request->region_count && !apply_regions(reference, request, kept, made.counts, err))
         return false;
     if (request->mask && !apply_mask(reference, request->mask, kept, made.counts, err))
         return false;

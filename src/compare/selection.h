@@ -14,8 +14,8 @@
 
 typedef struct SelectionRequest {
     const char *mask;    /* a picture's file: black is left out; NULL: none */
-    bool        has_region;
-    ExrWindow   region;  /* half-open, pixels of the display window */
+    const ExrWindow *regions; /* half-open, pixels of the display window: those of any count */
+    int         region_count; /* 0: all */
     const char *display; /* only what this display sends; NULL: all */
 } SelectionRequest;
 

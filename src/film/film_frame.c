@@ -164,12 +164,24 @@ static void read_coverage(const Film *film, const PixelSums *sums, float v[3])
     v[0] = sums->samples ? (float)sums->display_hits / (float)sums->samples : 0;
 }
 
+/* Keeps 8 of 24 bits, to the nearest: an estimate of noise is not known to a part in 256, and
+ * the file has half the bytes. */
+static void round_noise(const Film *film, float v[3])
+{
+    for (int i = 0; i < 3 && film->layers & LAYER_ROUNDED; i++) {
+        uint32_t bits;
+        memcpy(&bits, &v[i], sizeof bits);
+        bits = (bits + 0x8000u) & 0xffff0000u;
+        if (!isnan(v[i])) memcpy(&v[i], &bits, sizeof bits);
+    }
+}
+
 static void read_variance(const Film *film, const PixelSums *sums, float v[3])
 {
-    (void)film;
     double variance[3];
     pixel_variance(sums, variance);
     for (int i = 0; i < 3; i++) v[i] = (float)variance[i];
+    round_noise(film, v);
 }
 
 static void rgb_of_known(bool is_known, const double known[3], float v[3])
@@ -181,9 +193,9 @@ static void rgb_of_known(bool is_known, const double known[3], float v[3])
 
 static void read_halves(const Film *film, const PixelSums *sums, float v[3])
 {
-    (void)film;
     double halves[3];
     rgb_of_known(pixel_halves(sums, BLOCK_LEAST, halves), halves, v);
+    round_noise(film, v);
 }
 
 uint32_t film_halves_samples(uint32_t first)
@@ -202,6 +214,7 @@ static void read_display_halves(const Film *film, const PixelSums *sums, float v
                                                  layers + film->first[SUMS_ODD], BLOCK_LEAST,
                                                  halves);
     rgb_of_known(is_known, halves, v);
+    round_noise(film, v);
 }
 
 static DisplaySums display_sums(const Film *film, const PixelSums *sums)
@@ -221,6 +234,7 @@ static void read_display_variance(const Film *film, const PixelSums *sums, float
     double      variance[3];
     pixel_display_variance(&of, variance);
     for (int i = 0; i < 3; i++) v[i] = (float)variance[i];
+    round_noise(film, v);
 }
 
 static SecondDisplay second_display(const Film *film, const PixelSums *sums)
@@ -239,6 +253,7 @@ static void read_second_variance(const Film *film, const PixelSums *sums, float 
 {
     SecondDisplay second = second_display(film, sums);
     for (int i = 0; i < 3; i++) v[i] = second.id >= 0 ? (float)second.variance[i] : NAN;
+    round_noise(film, v);
 }
 
 static void read_second_id(const Film *film, const PixelSums *sums, float v[3])
@@ -479,4 +494,13 @@ bool film_has_room(const Film *film, const Arena *arena, Error *err)
                      "the frame of %dx%d pixels needs %zu MB of memory beside its film, %zu MB "
                      "are left — use --crop or fewer --layers",
                      crop.x1 - crop.x0, crop.y1 - crop.y0, wanted >> 20, left >> 20);
+}
+
+size_t film_frame_bytes(FilmRect crop, unsigned layers, int light_count)
+{
+    size_t pixels = (size_t)(crop.x1 - crop.x0) * (size_t)(crop.y1 - crop.y0);
+    size_t channels = 3 + 3 * (size_t)light_count;
+    for (size_t i = 0; i < sizeof layer_channels / sizeof *layer_channels; i++)
+        if (layers & layer_channels[i].layer) channels += strlen(layer_channels[i].letters);
+    return pixels * channels * sizeof(float);
 }

@@ -39,7 +39,8 @@
  *       Sobol points' halves fill each other's gaps: measured between frames of two seeds, its
  *       root mean square is 0 to 6 % too large at 32 samples, 12 % at 256 (that of `variance`
  *       7 to 29 %). NaN below 24 samples: the smaller half has 8 of them there;
- *   display.halves   the same of display.reflected, over the samples that saw a display. */
+ *   display.halves   the same of display.reflected, over the samples that saw a display.
+ * With LAYER_ROUNDED the layers of noise (variance, halves, of displays too) have 8 bits. */
 FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena);
 
 /* The fewest samples from index `first` on of which `halves` is known. */
@@ -50,6 +51,10 @@ size_t film_frame_bytes_most(const Film *film, Arena scratch);
 
 /* False: the arena has no room for it, and hours of rendering would end without a frame. */
 bool film_has_room(const Film *film, const Arena *arena, Error *err);
+
+/* What it takes at least, with so many groups of lights: numbers of one channel are left
+ * out. */
+size_t film_frame_bytes(FilmRect crop, unsigned layers, int light_count);
 
 /* The frame for a viewer: R, G, B, the layers if has_layers, and error.Y, the standard error
  * of each pixel's luminance, as film_pixel's sigma_y, cd m^-2; NaN below two samples. */

@@ -94,3 +94,35 @@ const char *escape_shell(const char *word, Arena *arena)
         quoted = arena_format(arena, "%s%.*s'\\''", quoted, (int)(mark - rest), rest);
     return arena_format(arena, "%s%s'", quoted, rest);
 }
+
+/* Adds the part that begins at `text` to the word, and returns its end; NULL: it has none. */
+static const char *add_part(const char *text, Text *word)
+{
+    if (*text == '\'') {
+        const char *end = strchr(text + 1, '\'');
+        if (end) text_add_bytes(word, text + 1, (size_t)(end - text - 1));
+        return end ? end + 1 : NULL;
+    }
+    if (*text != '"') {
+        text += *text == '\\';
+        if (*text) text_add_bytes(word, text, 1);
+        return *text ? text + 1 : NULL;
+    }
+    for (text++; *text && *text != '"'; text++) {
+        text += *text == '\\' && strchr("\"\\$`", text[1]) && text[1];
+        text_add_bytes(word, text, 1);
+    }
+    return *text ? text + 1 : NULL;
+}
+
+bool shell_words(const char *line, Lines *words)
+{
+    for (;;) {
+        Text word = {.arena = words->arena};
+        line += strspn(line, " \t\r\n");
+        if (!*line) return true;
+        while (line && *line && !strchr(" \t\r\n", *line)) line = add_part(line, &word);
+        if (!line) return false;
+        lines_put(words, word.size ? arena_string(words->arena, word.data, word.size) : "");
+    }
+}

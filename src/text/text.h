@@ -11,6 +11,7 @@
 
 #include "base/arena.h"
 #include "base/error.h"
+#include "base/lines.h"
 
 typedef struct Text {
     Arena *arena;
@@ -39,3 +40,7 @@ void escape_markup(Text *text, const char *string);
 
 /* A word as a POSIX shell wants it: itself, or in single quotes. */
 const char *escape_shell(const char *word, Arena *arena);
+
+/* Adds the words of a line as a POSIX shell cuts it, by quotes and backslashes; nothing stands
+ * for something else ($, *, ~), and # begins no comment. False: a quote stays open. */
+bool shell_words(const char *line, Lines *words);

@@ -340,6 +340,73 @@ def check_broken_pair(report, program):
                  and broken[0]["error"]["status"] == 3, f"folders --json: {status} {broken}")
 
 
+def check_pairs(report, program):
+    """A line for each pair with limits, masks and regions of its own."""
+    for name, change in (("one", 9), ("two", 9), ("sub/three", 0)):
+        program.png(f"pa/{name}.png")
+        program.png(f"pb/{name}.png", change)
+    pictures.write_png(program.file("dark.png"), WIDTH, HEIGHT,
+                       [0 if i // 3 == 33 else 255 for i in range(3 * PIXELS)], 8)
+    lines = program.file("pairs")
+
+    def run(text, *more):
+        with open(lines, "w", encoding="utf-8") as file:
+            file.write(text)
+        return program.compare("pa", "pb", "--quiet", "--pairs", "pairs", *more)
+    told(report, run("# none"), 1, "2 differ")
+    told(report, run("one --max flip=1"), 1, "same       one.png", "different  two.png")
+    told(report, run("one --max flip=1\n\n'two.png'\t--mask dark.png"), 0, "3 of 3")
+    told(report, run("one --region 0,0,24,1 --region 0,2,24,16\ntwo --region 0,0,9,2 "
+                     "--region 10,0,24,16"), 0, "3 of 3")
+    told(report, run("one --region 0,0,24,1 --region 9,1,10,2\ntwo --max flip=1"), 1,
+         "different  one.png", "same       two.png")
+    told(report, run("one --max flip=1 --max max_difference=1\ntwo --max flip=1", "--max",
+                     "max_difference=0"), 1, "same       one.png", "different  two.png")
+    for text, *words in (("none --max flip=1", "line 1", "no picture is named none"),
+                         ("one\n\none", "line 3", "stands in line 1"),
+                         ("one --max 'flip=1", "line 1", "a quote is open"),
+                         ("one --max flop=1", "line 1", "flop"),
+                         ("one --region 1,2", "line 1", "--region 1,2"),
+                         ("one two", "line 1", "too many arguments"),
+                         ("one --maxx 1", "line 1", "--maxx"), ("one --", "--"),
+                         *((f"one {word}", "line 1", re.split("[= ]", word)[0]) for word in (
+                             "--report=a.html", "--junit a", "--answer a", "--pairs a",
+                             "--json", "--quiet", "--help", "-h", "--version", "--threads 1",
+                             "--progress none", "--allow-extra"))):
+        refused(report, run(text), 3, "pairs", *words)
+    refused(report, program.compare("pa", "pb", "--pairs", "no_such"), 3, "no_such")
+    run("one")
+    refused(report, program.compare("a.exr", "b.exr", "--pairs", "pairs"), 2, "two folders")
+
+
+def check_not_made(report, program):
+    """A picture that could not be made is an error by its name, and the others are compared."""
+    for side, name in (("pb", "one.png"), ("pa", "two.png"), ("pb", "new.png")):
+        with open(program.file(side, name + ".failed"), "w", encoding="utf-8") as file:
+            file.write(f"no light in {name}\nand more")
+    os.remove(program.file("pb/one.png"))
+    done = program.compare("pa", "pb", "--quiet", "--allow-extra", "--junit", "j.xml",
+                           "--report", "e.html", "--answer", "f.json")
+    report.claim(done.returncode == 3 and len(done.stderr.splitlines()) == 3
+                 and "pb/one.png.failed: it was not made: no light in one.png" in done.stderr
+                 and "1 of 4 pairs are the same, 3 could not be" in done.stdout,
+                 f"not made: {done.returncode} {done.stderr} {done.stdout}")
+    root = xml.parse(program.file("j.xml")).getroot()
+    errors = {case.get("name") for case in root.iter("testcase")
+              if case.find("error") is not None}
+    report.claim(errors == {"one.png", "two.png", "new.png"}, f"junit: {errors}")
+    with open(program.file("f.json"), encoding="utf-8") as file:
+        kept = json.load(file)
+    _, answer = program.json("pa", "pb", "--quiet", "--allow-extra", "--answer", "g.json")
+    for pair in (*kept["pairs"], *answer["pairs"]):
+        pair.pop("seconds", 0)
+    report.claim(kept == answer and kept["failed"] == 3, f"--answer: {kept} {answer}")
+    refused(report, program.compare("pa", "pb", "--answer", "no/such/j.json"), 4, "j.json")
+    told(report, program.compare("a.exr", "a.exr", "--answer", "one.json"), 0, "same:")
+    with open(program.file("one.json"), encoding="utf-8") as file:
+        report.claim(json.load(file)["same"] is True, "--answer of two files")
+
+
 def check_junit(report, program):
     told(report, program.compare("a.exr", "b.exr", "--junit", "one.xml"), 1)
     root = xml.parse(program.file("one.xml")).getroot()
@@ -426,7 +493,8 @@ def main():
         for check in (check_frames, check_structure, check_contrast, check_numbers,
                       check_pictures, check_masks, check_usage, check_files,
                       check_json, check_folders, check_broken_pair,
-                      check_junit, check_report, check_noise, check_limits_of_noise):
+                      check_pairs, check_not_made, check_junit, check_report, check_noise,
+                      check_limits_of_noise):
             try:
                 check(report, program)
             except (ValueError, KeyError, IndexError, OSError, AttributeError,

@@ -15,6 +15,7 @@ import xml.etree.ElementTree as xml
 
 import yaml
 
+from exr import Frame
 from gltf import Scene
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
@@ -138,10 +139,12 @@ def check_file(report, project):
                  "options of the workflow and of the script differ")
 
 
+STEP = "Render the frames that are missing, and compare"
+
+
 def check_first(report, project):
     """Before anything was accepted, and then the first time."""
-    project.claim_workflow("nothing accepted",
-                           "Frames of the accepted commit, if they were not", 3,
+    project.claim_workflow("nothing accepted", STEP, 3,
                            ["no commit has ci/accepted", "accept WHY"])
     done = project.script("accept")
     report.claim(done.returncode == 3 and "wanted a word on why" in done.stderr, str(done))
@@ -164,7 +167,7 @@ def check_change(report, project):
     """A lamp of 3 % more light is found, and taken over by `accept` alone."""
     write_scene(project.path("scenes", "box.gltf"), 515)
     project.commit("more light")
-    project.claim_workflow("more light", "Compare", 1, ["different", "wide.exr", "near.exr"])
+    project.claim_workflow("more light", STEP, 1, ["different", "wide.exr", "near.exr"])
     failures = xml.parse(project.path("ci/out/junit.xml")).getroot().iter("failure")
     report.claim(len(list(failures)) == 2, "junit.xml tells other failures")
     with open(os.path.join(project.away, "summary"), encoding="utf-8") as file:
@@ -183,7 +186,63 @@ def check_views(report, project):
     report.claim(os.path.exists(project.path("ci/out/today/high.exr")), "no new frame")
     project.write("ci/views", "wide scenes/box.gltf\n")
     project.commit("a view less")
-    project.claim_workflow("a view less", "Compare", 1, ["near.exr"])
+    project.claim_workflow("a view less", STEP, 1, ["near.exr"])
+
+
+def layers_of(path):
+    """Names of the frame's channels without their last part."""
+    return {name.rpartition(".")[0] for name in Frame(path).channels} - {""}
+
+
+def check_broken(report, project):
+    """A broken view hides no other: each is tried, the broken one is an error by its name, and
+    the status is 3. Then limits, a mask and regions of one view alone."""
+    project.environment["PARHELION_OPTIONS"] = "--size 24x16 --spp 8 --no-guiding"
+    shutil.rmtree(project.path("ci/out/reference"))
+    views = ("broken scenes/no_such.gltf\nquote scenes/box.gltf --camera 'eye\n"
+             "deep/wide scenes/box.gltf --layers variance --isa=sse2\n"
+             "wide scenes/box.gltf\n"
+             "last scenes/box.gltf --eye 0,1,0.5 --look-at 0,0.8,-1")
+    project.write("ci/views", views)
+    project.commit("broken views, and a last line without its end")
+    project.claim_workflow("broken views", STEP, 3, ["view broken: parhelion: ",
+                                                     "no_such.gltf", "view quote: "])
+    cases = xml.parse(project.path("ci/out/junit.xml")).getroot().iter("testcase")
+    found = {case.get("name"): [part.tag for part in case if part.tag in ("error", "failure")]
+             for case in cases}
+    report.claim(found == {"broken.exr": ["error"], "quote.exr": ["error"], "wide.exr": [],
+                           "near.exr": ["failure"]}, f"junit.xml of broken views: {found}")
+    report.claim(sorted(os.listdir(project.path("ci/out/today"))) == [
+        "broken.exr.failed", "deep", "last.exr", "quote.exr.failed", "wide.exr"],
+        f"frames: {os.listdir(project.path('ci/out/today'))}")
+    report.claim(layers_of(project.path("ci/out/today/deep/wide.exr")) == {"variance"}
+                 and layers_of(project.path("ci/out/today/last.exr")) == {
+                     "variance", "display.emitted", "display.reflected", "display.white",
+                     "display.black", "display.variance", "samples", "id", "display"},
+                 f"layers: {layers_of(project.path('ci/out/today/last.exr'))}")
+    write_scene(project.path("scenes", "box.gltf"), 515)
+    project.write("ci/views", views.replace("last", "near", 1))
+    project.script("accept", "what is broken")
+    project.commit("what is broken is accepted")
+    project.claim_workflow("a broken reference", STEP, 3, ["2 could not be compared"])
+    write_scene(project.path("scenes", "box.gltf"), 530)
+    project.write("ci/views", views.replace("last", "near", 1).partition("'eye\n")[2])
+    project.write("ci/limits", "wide --max mean_shift=0.05\nnear --region 0,0,4,4 --region "
+                  "8,8,12,12 --max mean_shift=0.1")
+    project.commit("more light, within limits of two views")
+    done = project.script()
+    report.claim(done.returncode == 3 and "near.exr: within the limits" in done.stdout
+                 and "wide.exr: within the limits" in done.stdout
+                 and "different  deep/wide.exr" in done.stdout, f"limits of views: {done}")
+    project.write("ci/views", "wide scenes/box.gltf\nwide scenes/box.gltf")
+    done = project.script("today")
+    report.claim(done.returncode == 3 and "wide twice" in done.stderr, f"twice: {done}")
+    os.remove(project.path("ci", "limits"))
+    project.write("ci/views", "wide scenes/box.gltf\n")
+    project.environment["PARHELION_OPTIONS"] = OPTIONS
+    project.script("accept", "one view")
+    project.commit("one view accepted")
+    project.claim_workflow("mended", words=["same: 1 of 1"])
 
 
 def check_noise(report, project):
@@ -225,7 +284,8 @@ def main():
         write_scene(project.path("scenes", "box.gltf"), 500)
         project.run("git", "init", "-q")
         project.commit("scenes")
-        for check in (check_first, check_change, check_views, check_noise, check_refused):
+        for check in (check_first, check_change, check_views, check_broken, check_noise,
+                      check_refused):
             check(report, project)
     report.finish()
 

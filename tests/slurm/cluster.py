@@ -19,7 +19,7 @@ import sys
 import tempfile
 import time
 
-from jobs import Report, ROOT, Work, contents
+from jobs import ISA, Report, ROOT, Work, contents
 
 sys.path.insert(0, os.path.join(ROOT, "tests", "hostile"))
 from review_resume import files_of  # noqa: E402
@@ -27,7 +27,7 @@ from review_resume import files_of  # noqa: E402
 TOOLS = ("slurmctld", "slurmd", "sbatch", "squeue", "scontrol", "scancel", "sinfo")
 NODES = ("n1", "n2", "n3")
 PATIENCE_S = 420
-SMALL = ("--size", "64x48", "--layers", "all", "--spp", "24")
+SMALL = ("--size", "64x48", "--layers", "all", "--spp", "24", *ISA)
 PART_S = 40  # of a part that something happens to
 
 # cred_expire is how long a task that is requeued waits; two minutes without it.
@@ -160,7 +160,8 @@ def long_frame(work, count):
     done = work.run("render", "small.gltf", "-o", "rate.exr", "--size", "96x64", "--spp", "64",
                     "--json", "--quiet")
     rate = 64 / max(json.loads(done.stdout)["seconds"], 0.01)
-    return "--size", "96x64", "--spp", str(count * max(64, int(PART_S * rate / len(NODES))))
+    samples = count * max(64, int(PART_S * rate / len(NODES)))
+    return *ISA, "--size", "96x64", "--spp", str(samples)
 
 
 def submit(work, count, *options, job):
@@ -263,13 +264,36 @@ def check_dead(work, cluster):
     report.claim(cluster.wait(cluster.is_idle, 60), f"{node} does not come back")
 
 
+def check_two_kinds(work, cluster):
+    """Two of three nodes lack the instruction set: the third does all parts."""
+    report, job = work.report, work.path("kinds")
+    work.share(4, *SMALL, job="kinds", output="kinds.exr")
+    with open(work.path("kinds", "array.sbatch"), encoding="utf-8") as file:
+        script = file.read()
+    with open(work.path("lacks"), "w", encoding="utf-8") as file:
+        file.write(f'#!/bin/sh\n[ "$SLURMD_NODENAME" = n3 ] || exit 5\n'
+                   f'exec {work.program} "$@"\n')
+    os.chmod(work.path("lacks"), 0o755)
+    with open(work.path("kinds", "array.sbatch"), "w", encoding="utf-8") as file:
+        file.write(script.replace(os.path.realpath(work.program) + " part",
+                                  work.path("lacks") + " part"))
+    array = cluster.ask("sbatch", "--parsable", f"{job}/array.sbatch").stdout.strip()
+    report.claim(cluster.wait(cluster.is_empty), "two kinds of nodes do not end: " +
+                 cluster.ask("squeue", "--array").stdout)
+    tasks = cluster.tasks(array)
+    report.claim([(task["JobState"], task["NodeList"]) for task in tasks.values()]
+                 == [("COMPLETED", "n3")] * 4, f"two kinds of nodes: {tasks}")
+    work.claim_whole("kinds", SMALL, "two kinds of nodes", output="kinds.exr")
+
+
 def check_review(work, cluster):
     """The shipped car at a glance: a job array, and the merge ends as the review does."""
     asked = os.path.join(ROOT, "scenes", "glance.review.json")
-    one = work.run("review", asked, "-o", "glance", "--quiet")
+    one = work.run("review", asked, "-o", "glance", "--quiet", *ISA)
     work.report.claim(one.returncode == 1, f"one run: {one.returncode} {one.stderr}")
     os.rename(work.path("glance"), work.path("one"))
-    done = work.run("review", asked, "-o", "glance", "--slurm", "6", "--submit", "--json")
+    done = work.run("review", asked, "-o", "glance", "--slurm", "6", "--submit", "--json",
+                    *ISA)
     if not work.report.claim(done.returncode == 0, f"--submit: {done.stderr}"):
         return
     answer = json.loads(done.stdout)
@@ -305,7 +329,8 @@ def main():
         work = Work(arguments.program, os.path.realpath(folder), report)
         if report.claim(cluster.wait(cluster.is_idle, 60), "the nodes do not come up: " +
                         cluster.ask("sinfo", "-N", "-l").stdout):
-            for check in (check_twelve, check_failing, check_warned, check_dead, check_review):
+            for check in (check_twelve, check_failing, check_warned, check_dead,
+                          check_two_kinds, check_review):
                 if arguments.only not in check.__name__:
                     continue
                 begun = time.time()

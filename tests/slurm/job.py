@@ -16,12 +16,12 @@ import sys
 import tempfile
 import time
 
-from jobs import PATIENCE_S, Report, ROOT, Work, contents
+from jobs import ISA, PATIENCE_S, Report, ROOT, Work, contents
 
 # Without guiding but for one job of check_cuts: its lesson takes longer than such a frame.
-FRAME = ("--size", "52x36", "--no-guiding", "--layers", "all")
+FRAME = ("--size", "52x36", "--no-guiding", "--layers", "all", *ISA)
 SMALL = (*FRAME, "--spp", "12")
-LONG_RUN = ("--size", "96x64", "--no-guiding", "--spp", "96")
+LONG_RUN = ("--size", "96x64", "--no-guiding", "--spp", "96", *ISA)
 LONG = (*LONG_RUN, "--checkpoint-interval", "0")
 HALF = 48  # samples a pixel of one of its two parts
 
@@ -76,7 +76,7 @@ def check_cuts(work):
             ("one", 1, SMALL, ()),
             ("late", 3, (*FRAME, "--samples", "2:12"), ()),
             ("window", 4, (*SMALL, "--crop", "3,5,40,30"), ("--split=rows",)),
-            ("word", 2, ("--size=52x36", "--spp=5"), ("--threads", "1"))):
+            ("word", 2, ("--size=52x36", "--spp=5", *ISA), ("--threads", "1"))):
         do_all(work, work.share(count, *options, *how, job=name))
         work.claim_whole(name, options, f"{name}: {count} parts")
         shutil.rmtree(work.path(name))
@@ -108,12 +108,15 @@ def check_stopped(work):
         before = newest(kept)
         running = work.start("part", job, "0")
         wait_for(kept, running, before)
+        part = work.status(job)[1]["list"][0]
+        report.claim(part["state"] == "running" and part["worker"].endswith(f"-{running.pid}")
+                     or running.poll() is not None, f"at work: {part}")
         running.send_signal(number)
         err = running.communicate(timeout=PATIENCE_S)[1]
         code, status = work.status(job)
         part = status["list"][0]
         report.claim(running.returncode == wanted, f"{number}: {running.returncode} {err}")
-        report.claim(code == 1 and part["state"] == "begun"
+        report.claim(code == 1 and part["state"] == "begun" and part["worker"] is None
                      and samples[-1] <= part["samples_kept"] < HALF and part["samples_kept"]
                      and len(glob.glob(kept)) == 1, f"after {number}: {part} {glob.glob(kept)}")
         report.claim(not os.path.exists(work.path(job, "part-0000.exr")),
@@ -393,6 +396,7 @@ def with_tools(work):
 def check_submit(work):
     """sbatch is run twice, and only when asked for; what it says wrong is one line."""
     report, tools = work.report, with_tools(work)
+    write_tool(work, "squeue", "exit 0\n")
     write_tool(work, "sbatch", 'echo "$*" >>../submitted\necho warning: busy >&2\n'
                                'echo "4$(wc -l <../submitted);cluster"\n'.replace(
                                    "../submitted", work.path("submitted")))
@@ -412,6 +416,8 @@ def check_submit(work):
                     "no such partition", "by hand: J=$(sbatch --parsable", "afterany:${J%%;*}")
     write_tool(work, "sbatch", "echo Submitted batch job\n")
     work.claim_line(work.run(*line, **tools), 3, "gave no number of a job")
+    os.remove(work.path("submitted"))
+    check_again(work, line)
     os.remove(work.path("tools", "sbatch"))
     work.claim_line(work.run(*line, PATH=work.path("tools")), 3, "sbatch cannot be started",
                     "by hand")
@@ -419,20 +425,135 @@ def check_submit(work):
     shutil.rmtree(work.path("sent"))
 
 
+def check_again(work, line):
+    """`status` tells what Slurm has, and a second --submit hands it what nobody does yet."""
+    report, tools = work.report, with_tools(work)
+    shutil.copy(work.path("small.gltf"), work.path("frame.exr"))  # older than its parts
+    note = work.path("submitted")
+    write_tool(work, "sbatch", f'echo "$*" >>{note}\necho "5$(wc -l <{note})"\n')
+
+    def again(queue, *words, **counts):
+        write_tool(work, "squeue", f"case \"$*\" in *{job}*) printf '{queue}' ;; esac\n")
+        status = json.loads(work.run("status", "sent", "--json", **tools).stdout)
+        found = {key: status[key] for key in counts}
+        report.claim(found == counts and status["merge_job"] == merge, f"{queue}: {status}")
+        if os.path.exists(note):
+            os.remove(note)
+        done = work.run(*line, "--json", **tools)
+        report.claim(done.returncode == 0, f"{queue}: {done.stderr}")
+        sent = contents(note).decode().splitlines() if os.path.exists(note) else []
+        wanted = [f"--parsable {word}" for word in words]
+        report.claim([one.replace(work.path("sent") + "/", "") for one in sent] == wanted,
+                     f"{queue}: {sent}, wanted {wanted}")
+        return json.loads(done.stdout)
+    job, merge = "--jobs=41,41,42", "42"
+    answer = again("41_0 RUNNING\\n41_1 PENDING\\n42 PENDING\\n", "--array=2 array.sbatch",
+                   "--dependency=afterany:51:41 merge.sbatch", running=1, queued=1, missing=1)
+    report.claim((answer["submitted"], answer["array_job"], answer["merge_job"]) ==
+                 (1, "51", "52"), f"what is missing: {answer}")
+    job, merge = "--jobs=41,41,51,42,52", "52"
+    again("41_0 RUNNING\\n51_2 COMPLETING\\n41_1 REQUEUED\\n52 PENDING\\n99_1 RUNNING\\n"
+          "51_3 RUNNING\\n51_x RUNNING\\n", running=2, queued=1, missing=0)
+    text = work.run("status", "sent", **tools).stdout
+    report.claim("Slurm's job 41, 51; merged by 52, queued\n" in text
+                 and "part 0: running\n" in text and "part 1: queued\n" in text, text)
+    again("41_1 RUNNING\\n41_2 COMPLETED\\n", "--array=0,2 array.sbatch",
+          "--dependency=afterany:51:41 merge.sbatch", running=1, queued=0, missing=2)
+    do_all(work, "sent")
+    job, merge = "--jobs=41,41,51,51,42,52,52", "52"
+    again("", "merge.sbatch", done=3, missing=0)
+    work.merge("sent")
+    job, merge = "--jobs=41,41,51,51,42,52,52,51", "51"
+    again("", done=3)
+    os.remove(work.path("frame.exr"))
+    os.remove(work.path("sent", "part-0001.exr"))
+    write_tool(work, "squeue", "echo slurm_load_jobs error >&2; exit 1\n")
+    work.claim_line(work.run(*line, **tools), 3, "is ready, but not submitted: what Slurm has "
+                    "of it is not known: squeue failed: slurm_load_jobs error", "by hand")
+    report.claim(not os.path.exists(note), "it submits what may be queued")
+    text = work.run("status", "sent", **tools).stdout
+    report.claim("merged by 51, unknown\n" in text and "slurm_load_jobs error" in text, text)
+    write_tool(work, "squeue", "exit 0\n")
+
+
+NODES = (("avx2,ib\navx512f,ib", "avx2"), ("AVX512\ngpu,avx512vl", "avx512"),
+         ("(null)", "avx2"), ("sse4_2\navx512", "sse2"), ("x86-64-v4\nx86-64-v3", "avx2"),
+         ("avx", "sse2"),
+         ("avx2,avx512", "avx512"), ("cascadelake\navx512", "avx2"), ("noavx512", "avx2"))
+SETS = ["sse2", "avx2", "avx512"]
+
+
+def check_choice(work):
+    """The least instruction set of the nodes on which Slurm would run it, if this machine has
+    it; without Slurm the machine's best; a job keeps its own, and --isa is obeyed."""
+    report, tools = work.report, with_tools(work)
+    small = tuple(word for word in SMALL if word not in ISA)
+    best = work.run("--version").stdout.partition("instruction set: ")[2].split()[0]
+
+    def choose(*options, **more):
+        shutil.rmtree(work.path("choice"), ignore_errors=True)
+        work.share(2, *small, *options, job="choice", **tools, **more)
+        return json.loads(contents(work.path("choice", "manifest.json")))["isa"]
+    write_tool(work, "sinfo", "echo no controller >&2; exit 1\n")
+    report.claim(choose() == best, "without Slurm")
+    if best not in SETS:
+        return
+    for features, least in NODES:
+        write_tool(work, "sinfo", f"printf '{features}\\n'\n")
+        chosen, wanted = choose(), SETS[min(SETS.index(least), SETS.index(best))]
+        report.claim(chosen == wanted, f"nodes of {features!r}: {chosen}, wanted {wanted}")
+    write_tool(work, "sinfo",
+               'case "$*" in *--partition=old) echo sse ;; *) echo avx512 ;; esac')
+    report.claim(choose(SBATCH_PARTITION="old") == "sse2", "a partition of its own")
+    work.share(2, *small, job="choice", **tools)
+    report.claim(json.loads(contents(work.path("choice", "manifest.json")))["isa"] == "sse2",
+                 "planned again: another set")
+    report.claim(choose("--isa", "sse2") == "sse2", "--isa is not obeyed")
+    shutil.rmtree(work.path("choice"))
+    os.remove(work.path("tools", "sinfo"))
+
+
+def check_machine(work):
+    """A node without the job's instruction set: status 5, and Slurm's task goes elsewhere."""
+    report = work.report
+    job = work.share(2, *SMALL, job="machine")
+    path = work.path(job, "manifest.json")
+    document = json.loads(contents(path))
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump({**document, "isa": "avx9"}, file)
+    done = work.run("part", job, "0")
+    work.claim_line(done, 5, "part 0: was planned for avx9, and ", "this processor and program",
+                    "--isa that all have")
+    part = work.status(job)[1]["list"][0]
+    report.claim((part["state"], part["status"]) == ("failed", 5), f"status: {part}")
+    code, requeued, err = run_task(work, job, 0, "RUNNING")
+    report.claim((code, requeued) == (5, "requeue 70_0\nupdate JobId=70_0 ExcNodeList=n1,n7\n"),
+                 f"another node: {code} {requeued} {err}")
+    code, requeued, err = run_task(work, job, 0, "COMPLETING")
+    report.claim((code, requeued) == (5, ""), f"a cancelled one: {code} {requeued} {err}")
+    shutil.rmtree(work.path(job))
+
+
 def run_task(work, job, index, state, stop=False):
     """(exit status, requeued?) of array.sbatch as Slurm would run it."""
+    kept = work.path(job, f"part-{index:04}.*.checkpoint") if stop else None
+    return run_script(work, work.path(job, "array.sbatch"), state, kept,
+                      SLURM_ARRAY_JOB_ID="70", SLURM_ARRAY_TASK_ID=str(index))
+
+
+def run_script(work, script, state, kept=None, **more):
+    """The same of any; with `kept` it gets TERM as soon as such a file is written."""
     note = work.path("requeued")
-    write_tool(work, "squeue", f"echo {state}\n")
+    write_tool(work, "squeue", f'case "$*" in *%x*) echo n1 ;; *) echo {state} ;; esac\n')
     write_tool(work, "scontrol", f'echo "$*" >>{note}\n')
     if os.path.exists(note):
         os.remove(note)
-    kept = work.path(job, f"part-{index:04}.*.checkpoint")
-    before = newest(kept)
-    task = subprocess.Popen(["sh", work.path(job, "array.sbatch")], cwd="/", text=True,
+    before = newest(kept) if kept else 0
+    task = subprocess.Popen(["sh", script], cwd="/", text=True,
                             stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                             env={**os.environ, **with_tools(work), "SLURM_JOB_ID": "77",
-                                 "SLURM_ARRAY_TASK_ID": str(index), "SLURM_CPUS_PER_TASK": "1"})
-    if stop:
+                                 "SLURMD_NODENAME": "n7", "SLURM_CPUS_PER_TASK": "1", **more})
+    if kept:
         wait_for(kept, task, before)
         task.send_signal(signal.SIGTERM)
     err = task.communicate(timeout=PATIENCE_S)[1]
@@ -444,7 +565,7 @@ def check_script(work):
     """The batch script: TERM reaches the render once, and only what may end well comes back."""
     report = work.report
     job = work.share(2, *LONG, job="script")
-    for state, wanted in (("COMPLETING", ""), ("RUNNING", "requeue 77\n")):
+    for state, wanted in (("COMPLETING", ""), ("RUNNING", "requeue 70_0\n")):
         code, requeued, err = run_task(work, job, 0, state, stop=True)
         report.claim((code, requeued) == (143, wanted),
                      f"TERM, {state}: {code} {requeued} {err}")
@@ -469,8 +590,9 @@ def main():
     with tempfile.TemporaryDirectory(prefix="job-") as folder:
         work = Work(sys.argv[1], os.path.realpath(folder), report)
         for check in (check_plain, check_cuts, check_stopped, check_script, check_damage,
-                      check_failures, check_manifests, check_foreign_words,
-                      check_foreign_output, check_schema, check_lines, check_submit):
+                      check_failures, check_choice, check_machine, check_manifests,
+                      check_foreign_words, check_foreign_output, check_schema, check_lines,
+                      check_submit):
             check(work)
     report.finish()
 

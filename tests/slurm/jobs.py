@@ -2,6 +2,7 @@
 """jobs.py -- what the tests of shared frames have in common: a small scene, the frame of one
 run, jobs of it and their parts.
 """
+import contextlib
 import json
 import os
 import subprocess
@@ -14,6 +15,17 @@ from bits import write_scene  # noqa: E402
 from report import Report  # noqa: E402, F401
 
 PATIENCE_S = 300
+
+
+def shared_isa():
+    """What a job takes unless told, as an option: frames of one run take it too, then."""
+    with contextlib.suppress(OSError), open("/proc/cpuinfo", encoding="utf-8") as file:
+        if " avx2 " in file.read():
+            return "--isa", "avx2"
+    return ()
+
+
+ISA = shared_isa()
 
 
 def contents(path):

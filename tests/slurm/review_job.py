@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 from jobs import PATIENCE_S, Report, ROOT, Work, contents
-from job import newest, wait_for, write_tool, with_tools
+from job import newest, run_script, wait_for, write_tool, with_tools
 
 for folder in ("hostile", "image"):
     sys.path.insert(0, os.path.join(ROOT, "tests", folder))
@@ -170,6 +170,31 @@ def check_stopped(work):
     shutil.rmtree(work.path(job))
 
 
+def check_limit(work):
+    """The merge of a review, which traces, comes back when its time is over."""
+    work.ask(of_moments())
+    job = work.share_review(1)
+    script = contents(work.path(job, "merge.sbatch")).decode()
+    work.report.claim("#SBATCH --requeue\n#SBATCH --signal=B:TERM@60\n" in script, script)
+    write_tool(work, "merging", "sleep 60 & sleeper=$!\ntrap 'kill $sleeper; exit $code' TERM\n"
+               f">{work.path('begun')}\nwait\n")
+    own = os.path.realpath(work.program)
+    work.report.claim(script.count(own) == 1, f"no {own}: {script}")
+    with open(work.path("slow.sbatch"), "w", encoding="utf-8") as file:
+        file.write(script.replace(own, work.path("tools", "merging")))
+    for code, state, requeued in (("143", "RUNNING", "requeue 77\n"), ("1", "RUNNING", ""),
+                                  ("143", "COMPLETING", ""), ("4", "RUNNING", "requeue 77\n"),
+                                  ("3", "RUNNING", "")):
+        ended = run_script(work, work.path("slow.sbatch"), state, work.path("begun"), code=code)
+        work.report.claim(ended[:2] == (int(code), requeued), f"merge, {code}: {ended}")
+        os.remove(work.path("begun"))
+    work.do_parts(job, (0,))
+    ended = run_script(work, work.path(job, "merge.sbatch"), "RUNNING")
+    work.report.claim(ended[:2] == (0, ""), f"merge: {ended}")
+    shutil.rmtree(work.path("out"))
+    shutil.rmtree(work.path(job))
+
+
 # ---- what is wrong ---------------------------------------------------------------------------
 
 def check_damage(work):
@@ -283,8 +308,8 @@ def main():
     report = Report()
     with tempfile.TemporaryDirectory(prefix="review-job-") as folder:
         work = Reviews(sys.argv[1], os.path.realpath(folder), report)
-        for check in (check_all_kinds, check_cuts, check_verdict, check_stopped, check_damage,
-                      check_failures, check_manifests, check_lines):
+        for check in (check_all_kinds, check_cuts, check_verdict, check_stopped, check_limit,
+                      check_damage, check_failures, check_manifests, check_lines):
             check(work)
     report.finish()
 

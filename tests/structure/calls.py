@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""calls.py -- what no source may call: no shell and no other program (but Slurm's sbatch, in
+"""calls.py -- what no source may call: no shell and no other program (but three of Slurm's, in
 one file), no network (but in the one file that sends frames to a viewer), no code that is
 loaded while the program runs, no file that is mapped (one that shrinks would kill us), and no
 stream but by src/print/print.c, which escapes what a foreign name could make a terminal do.
@@ -21,11 +21,12 @@ FORBIDDEN = {
                 "perror",
 }
 # What a file may call all the same, with a word that must stand in the same call: memory that
-# is no file, the one program that is started when it is asked for, and the program's own part
+# is no file, the programs of Slurm that hand it a job and ask it, and the program's own part
 # of that name and no other.
-SPAWNER = "src/cli/job/sbatch.c"
+SPAWNER = "src/cli/job/slurm.c"
+SLURM = ["sbatch", "squeue", "sinfo"]
 ALLOWED = {("src/base/arena.c", "mmap"): "MAP_ANONYMOUS",
-           (SPAWNER, "posix_spawnp"): '"sbatch"',
+           (SPAWNER, "posix_spawnp"): "tools[tool]",
            ("third_party/openimageio/image_file.c", "dlopen"): "path, RTLD_NOW",
            ("src/panel/set/set_writer.c", "fwrite"): "text->data"}
 STREAM = "a stream"
@@ -70,11 +71,13 @@ def check_itself(report):
                         ("std::fputs(name, stderr);", 1)):
         found = list(calls_in("x.c", text))
         report.claim(len(found) == count, f"calls.py: {text!r} has {found}")
-    start = 'posix_spawnp(&child, "{}", NULL);'
-    report.claim(not list(calls_in(SPAWNER, start.format("sbatch")))
-                 and list(calls_in(SPAWNER, start.format("sh")))
-                 and list(calls_in("x.c", start.format("sbatch"))),
-                 f"calls.py: who else than {SPAWNER} may start sbatch?")
+    start, table = "posix_spawnp(&child, {}, NULL);", read(SPAWNER).partition("tools[] = {")[2]
+    report.claim(not list(calls_in(SPAWNER, start.format("tools[tool]")))
+                 and list(calls_in(SPAWNER, start.format('"sh"')))
+                 and list(calls_in("x.c", start.format("tools[tool]"))),
+                 f"calls.py: who else than {SPAWNER} may start Slurm's programs?")
+    report.claim(re.findall('"(.*?)"', table.partition("};")[0]) == SLURM,
+                 f"calls.py: what else than {SLURM} does {SPAWNER} start?")
     talk = "send(1, x, 2, 0); recv(1, x, 2, 0);"
     report.claim(len(list(calls_in("x.c", talk))) == 2 and not list(calls_in(SENDER, talk)),
                  f"calls.py: who else than {SENDER} may send?")

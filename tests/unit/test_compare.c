@@ -206,8 +206,8 @@ ARENA_TEST(what_is_no_number_in_light_always_fails)
         assert_reason(&c, "the first at pixel 5,1");
         assert_true(isfinite(c.value[METRIC_MSE]));
         CompareOptions part = LOOSE;
-        part.selection.has_region = true;
-        part.selection.region = (ExrWindow){0, 2, WIDTH, HEIGHT};
+        part.selection.region_count = 1;
+        part.selection.regions = &(const ExrWindow){0, 2, WIDTH, HEIGHT};
         c = compared(&a, &b, part, &arena);
         assert_true(c.same && has_note(&c, "in pixels that do not count"));
     }
@@ -341,8 +341,8 @@ ARENA_TEST(bands_give_the_figures_of_whole_pictures)
     CompareOptions options = {.threads = 2};
     Comparison     whole, bands;
     for (int region = 0; region < 2; region++) {
-        options.selection.has_region = region;
-        options.selection.region = (ExrWindow){3, 5, 140, 50};
+        options.selection.region_count = region;
+        options.selection.regions = &(const ExrWindow){3, 5, 140, 50};
         options.whole_pixels = 0;
         assert_done(compare_files(a, b, &options, &arena, &whole, &err));
         for (int k = 0; k < COUNT_OF(ROWS); k++) {
@@ -383,12 +383,17 @@ ARENA_TEST(regions_select_and_displays_are_known)
 {
     Selection        selection;
     CompareInput     a = frame_input("a.exr", &arena);
-    SelectionRequest request = {.has_region = true, .region = {2, 1, 5, 3}};
+    ExrWindow        regions[2] = {{2, 1, 5, 3}, {4, 2, 6, 4}}; /* one pixel is of both */
+    SelectionRequest request = {.regions = regions, .region_count = 1};
     const CompareInput *const sides[2] = {&a, &a};
     assert_done(selection_make(sides, &request, &arena, &selection, &err));
     assert_int_equal(selection.pixels, 6);
     assert_true(selection.counts[WIDTH + 2] && !selection.counts[WIDTH + 5]);
-    request.region.x1 = WIDTH + 1;
+    request.region_count = 2;
+    assert_done(selection_make(sides, &request, &arena, &selection, &err));
+    assert_int_equal(selection.pixels, 9);
+    assert_true(selection.counts[3 * WIDTH + 5] && !selection.counts[3 * WIDTH + 3]);
+    regions[1].x1 = WIDTH + 1;
     assert_fails(selection_make(sides, &request, &arena, &selection, &err),
                  "inside the pixels 0,0,12,8 of a.exr");
     request = (SelectionRequest){.display = "cluster"};

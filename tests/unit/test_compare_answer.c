@@ -4,6 +4,7 @@
 
 #include <libxml/parser.h>
 
+#include "base/file_write.h"
 #include "cli/compare_request.h"
 #include "compare/report/comparison_json.h"
 #include "compare/report/html_report.h"
@@ -136,10 +137,68 @@ TEST(wrong_options_say_what_is_wanted)
     refused("--metric", "flips", "did you mean flip?");
     refused("--metric", "mse,flips", "did you mean flip?");
     refused("--region", "0,0,1.5,9", "1.5 is no whole number");
+    refused("--region", "0,0,9", "required X0,Y0,X1,Y1");
+    refused("--region", "0,0,99999,9", "99999 is no whole number of pixels from -65536");
     refused("--exposure-range", "9,3", "--exposure-range 9,3: wanted A,B with A <= B");
     refused("--exposure", "bright", "--exposure bright");
     refused("--report", "x.txt", "wanted a name that ends in .html");
     refused("--level", "0", "--level");
+}
+
+ARENA_TEST(a_line_is_cut_into_words_as_a_shell_does)
+{
+    static const char *const LINES[][2] = {
+        {"", ""}, {" \t ", ""}, {"a  b\tc ", "a|b|c"}, {"a'b c'd", "ab cd"},
+        {"\"a \\\" \\\\ \\x\" ''", "a \" \\ \\x|"}, {"a\\ b\\'", "a b'"},
+        {"$HOME * ~ #no", "$HOME|*|~|#no"}, {"\"'\"'\"'\r", "'\""}};
+    for (size_t i = 0; i < sizeof LINES / sizeof *LINES; i++) {
+        Lines words = {.arena = &arena};
+        Text  joined = {.arena = &arena};
+        assert_true(shell_words(LINES[i][0], &words));
+        text_add(&joined, "");
+        for (int k = 0; k < words.count; k++) text_format(&joined, "|%s", words.list[k]);
+        assert_string_equal(words.count ? joined.data + 1 : "", LINES[i][1]);
+    }
+    static const char *const OPEN[] = {"'", "a \"b", "\"\\\"", "a\\"};
+    Lines words = {.arena = &arena};
+    for (size_t i = 0; i < sizeof OPEN / sizeof *OPEN; i++)
+        assert_false(shell_words(OPEN[i], &words));
+}
+
+static const ComparePair *pair_of(const char *line, const char *const *more, Arena *arena)
+{
+    CompareRequest *r = ARENA_NEW(arena, CompareRequest, 1);
+    const char     *path = in_folder("pairs");
+    const char     *argv[16] = {"compare", "a", "b", "--pairs", path};
+    int             argc = 5;
+    for (; *more; more++) argv[argc++] = *more;
+    assert_done(file_write(path, line, strlen(line), &err));
+    assert_done(compare_parse(argc, (char **)argv, arena, r, &err));
+    assert_int_equal(r->pair_count, 1);
+    unlink(path);
+    return &r->pairs[0];
+}
+
+/* What a pair does not say is as for all; its limits replace theirs of the same figures. */
+ARENA_TEST(a_pair_takes_what_it_does_not_say_from_all)
+{
+    static const char *const ALL[] = {"--max", "flip=0.5", "--max", "mae=2", "--level", "0.02",
+                                      "--ignore", "seed", "--region", "1,2,3,4", NULL};
+    const CompareOptions *o = &pair_of("# none\n\nnoon", ALL, &arena)->options;
+    assert_true(o->wants_stat && o->level == 0.02 && o->threshold_count == 2);
+    assert_int_equal(o->selection.region_count, 1);
+    o = &pair_of("noon --max flip=0.1 --min ssim=0.9 --region 0,0,1,1 --region 2,2,3,3 "
+                 "--ignore isa --mask 'a b.png'", ALL, &arena)->options;
+    assert_true(!o->wants_stat && o->level == 0.02);
+    assert_int_equal(o->threshold_count, 3);
+    assert_true(o->thresholds[0].metric == METRIC_FLIP && o->thresholds[0].limit == 0.1);
+    assert_true(o->thresholds[2].metric == METRIC_MAE && o->thresholds[2].limit == 2);
+    assert_int_equal(o->selection.region_count, 2);
+    assert_int_equal(o->selection.regions[1].x0, 2);
+    assert_string_equal(o->selection.mask, "a b.png");
+    assert_int_equal(o->rules.ignored_count, 2);
+    o = &pair_of("noon --max flip=0.1 --level 0.3 --metric mse", ALL, &arena)->options;
+    assert_true(o->wants_stat && o->level == 0.3 && o->groups == GROUP_MSE);
 }
 
 ARENA_TEST(limits_and_lists_are_read)
@@ -154,7 +213,7 @@ ARENA_TEST(limits_and_lists_are_read)
     assert_int_equal(r.options.thresholds[2].metric, METRIC_SSIM);
     assert_int_equal(r.options.groups, GROUP_MSE | GROUP_PSNR);
     assert_false(r.options.wants_stat);
-    assert_int_equal(r.options.selection.region.y1, 4);
+    assert_int_equal(r.options.selection.regions[0].y1, 4);
     assert_true(r.options.has_range && r.options.range_ev[1] == 9);
     assert_string_equal(r.options.rules.ignored[0], "seed");
     const char *stat[] = {"compare", "a", "b", "--metric", "stat"};

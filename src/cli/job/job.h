@@ -8,6 +8,8 @@
  *     commands.txt              the same parts as commands, one a line
  *     replaces.txt              the hash of the file that had the output's name when it was
  *                               planned: that one was meant to be written over
+ *     submitted                 Slurm's numbers of it
+ *     part-0003.running         whose lock says that a process is at it
  *     logs/                     what Slurm's tasks print
  *     part-0003.exr             a part that is done; of a review part-0003.answers
  *     part-0003.HOST-PID.checkpoint   what a task has done of it so far

@@ -26,31 +26,46 @@ static void add_job_name(Text *text, const SharedJob *job, const char *ending)
     text_format(text, "%s\n", ending);
 }
 
+#define WARNING "--signal=B:TERM@60"
+
 /* The shell around a task. The last 60 s of its time begin with a TERM to this shell alone
  * (B:), which hands it on. A task that is cancelled, or must make room for another, gets it as
  * well as its shell: the second one ends the program at once, and what it did since its last
  * checkpoint, a minute at most, is lost. `squeue` distinguishes a task at its limit from one
- * that was cancelled, which must not come back. Bad input (2, 3) fails the same way again and
- * is not tried again; a full disk (4) may be gone. */
+ * that was cancelled, which must not come back; an array's last task has the whole array's
+ * number, so that each is named by its index. Bad input (2, 3) fails the same way again and is
+ * not tried again; a full disk (4) may be gone. A node that lacks the job's instruction set (5)
+ * is excluded, once the task waits again: Slurm excludes none of one that runs. */
 static const char task[] =
     "# A part's file is written only when it is whole: a task that runs twice does no harm.\n"
+    "job=${SLURM_ARRAY_JOB_ID:+${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID}\n"
+    "job=${job:-$SLURM_JOB_ID}\n"
     "again()\n"
     "{\n"
     "    [ \"${SLURM_RESTART_COUNT:-0}\" -lt 100 ] || return\n"
-    "    [ \"$(squeue --noheader --jobs=\"$SLURM_JOB_ID\" --format=%T)\" = RUNNING ] &&\n"
-    "        scontrol requeue \"$SLURM_JOB_ID\"\n"
+    "    [ \"$(squeue --noheader --jobs=\"$job\" --format=%T)\" = RUNNING ] &&\n"
+    "        scontrol requeue \"$job\"\n"
     "}\n"
-    "trap 'kill -TERM \"$task\"' TERM\n";
+    "elsewhere()\n"
+    "{\n"
+    "    trap '' TERM # which a requeue sends\n"
+    "    nodes=$(squeue --noheader --jobs=\"$job\" --format=%x)\n"
+    "    again && scontrol update JobId=\"$job\" \\\n"
+    "        ExcNodeList=\"${nodes:+$nodes,}$SLURMD_NODENAME\"\n"
+    "}\n"
+    "trap 'stopped=1; kill -TERM \"$task\"' TERM\n"
+    "stopped=\n";
 
 static const char task_end[] =
     "task=$!\n"
     "wait \"$task\"\n"
     "status=$?\n"
-    "while kill -0 \"$task\" 2>/dev/null; do\n"
+    "while [ \"$stopped\" ] && [ \"$status\" -gt 128 ]; do # what ended is the wait\n"
+    "    stopped=\n"
     "    wait \"$task\"\n"
     "    status=$?\n"
     "done\n"
-    "case $status in 4 | 143) again ;; esac\n"
+    "case $status in 4 | 143) again ;; 5) elsewhere ;; esac\n"
     "exit \"$status\"\n";
 
 static bool write_array(const SharedJob *job, int threads, Arena scratch, Error *err)
@@ -58,7 +73,7 @@ static bool write_array(const SharedJob *job, int threads, Arena scratch, Error 
     Text text = {.arena = &scratch};
     add_job_name(&text, job, "");
     text_format(&text, "#SBATCH --array=0-%d\n#SBATCH --requeue\n"
-                       "#SBATCH --signal=B:TERM@60\n#SBATCH --open-mode=append\n",
+                       "#SBATCH " WARNING "\n#SBATCH --open-mode=append\n",
                 job->part_count - 1);
     if (threads) text_format(&text, "#SBATCH --cpus-per-task=%d\n", threads);
     add_log(&text, job, "part-%a.log");
@@ -76,10 +91,14 @@ static bool write_merge(const SharedJob *job, Arena scratch, Error *err)
     Text text = {.arena = &scratch};
     add_job_name(&text, job, "-merge");
     text_add(&text, "#SBATCH --open-mode=append\n");
+    if (job->kind == JOB_REVIEW) text_add(&text, "#SBATCH --requeue\n#SBATCH " WARNING "\n");
     add_log(&text, job, "merge.log");
-    text_format(&text, "# After all tasks, well or not (afterany): what is missing is listed.\n"
-                       "exec %s --quiet\n",
-                job_merge_command(job, &scratch));
+    text_add(&text, "# After all tasks, well or not (afterany): what is missing is listed.\n");
+    if (job->kind == JOB_REVIEW) /* which traces, and keeps what it has */
+        text_format(&text, "%s%s --quiet &\n%s", task, job_merge_command(job, &scratch),
+                    task_end);
+    else
+        text_format(&text, "exec %s --quiet\n", job_merge_command(job, &scratch));
     return text_write(&text, job_file(job, JOB_MERGE, &scratch), err);
 }
 

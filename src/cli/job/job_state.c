@@ -3,9 +3,11 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -19,6 +21,8 @@
 
 #define CHECKPOINT ".checkpoint"
 #define FAILED ".failed"
+#define RUNNING ".running"
+#define WORKER_BYTES 128
 #define FAILURE_BYTES 4096
 
 /* ---- the folder -------------------------------------------------------------------------- */
@@ -80,6 +84,24 @@ bool job_may_replace(const SharedJob *job, Arena scratch)
     return hash[0] && file_read(job_file(job, JOB_REPLACES, &scratch), 64, &scratch, &bytes,
                                 &none) &&
            !strcmp((const char *)bytes.data, hash);
+}
+
+static bool is_older(const struct stat *a, const struct stat *b)
+{
+    return a->st_mtim.tv_sec != b->st_mtim.tv_sec ? a->st_mtim.tv_sec < b->st_mtim.tv_sec
+                                                  : a->st_mtim.tv_nsec < b->st_mtim.tv_nsec;
+}
+
+bool job_is_merged(const SharedJob *job, Arena scratch)
+{
+    struct stat output, part;
+    const char *path = job_output_file(job, &scratch);
+    if (job->kind == JOB_REVIEW) path = arena_format(&scratch, "%s/review.json", path);
+    bool is_merged = !stat(path, &output);
+    for (int i = 0; i < job->part_count && is_merged; i++)
+        is_merged = !stat(job_part_file(job, i, job_part_ending(job), &scratch), &part) &&
+                    !is_older(&output, &part);
+    return is_merged;
 }
 
 /* ---- a part that is done ----------------------------------------------------------------- */
@@ -251,10 +273,59 @@ static const char *failure_of(const SharedJob *job, int index, int *status, Aren
     return arena_printable(arena, end);
 }
 
-JobPartReport job_part_report(const SharedJob *job, const Lines *folder, int index,
-                              Arena *arena)
+/* ---- who is at it ------------------------------------------------------------------------ */
+
+int job_part_begin(const SharedJob *job, int index, Arena scratch)
 {
-    JobPartReport report = {0};
+    struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    const char  *path = job_part_file(job, index, RUNNING, &scratch);
+    const char  *name = process_name(&scratch) + 1; /* without its dot */
+    int          handle = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    ssize_t      size = (ssize_t)strlen(name);
+    if (handle < 0) return -1;
+    if (fcntl(handle, F_SETLK, &lock) == 0 && ftruncate(handle, 0) == 0 &&
+        write(handle, name, (size_t)size) == size)
+        return handle;
+    close(handle);
+    return -1;
+}
+
+void job_part_end(const SharedJob *job, int index, int lock, Arena scratch)
+{
+    if (lock < 0) return;
+    unlink(job_part_file(job, index, RUNNING, &scratch));
+    close(lock);
+}
+
+/* NULL: nobody that is known. A file without a lock is of a process that was killed. */
+static const char *worker_of(const SharedJob *job, int index, Arena *arena)
+{
+    struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    const char  *path = job_part_file(job, index, RUNNING, arena);
+    int          handle = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+    char         name[WORKER_BYTES];
+    if (handle < 0) return NULL;
+    bool    is_locked = fcntl(handle, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+    ssize_t size = read(handle, name, sizeof name);
+    close(handle);
+    return is_locked ? arena_printable(arena, arena_string(arena, name,
+                                                           size > 0 ? (size_t)size : 0))
+                     : NULL;
+}
+
+static JobPartState state_of(const JobPartReport *report, JobQueued queued)
+{
+    return report->worker || queued == JOB_RUNS ? JOB_PART_RUNNING
+           : queued == JOB_WAITS                ? JOB_PART_QUEUED
+           : report->reason                     ? JOB_PART_FAILED
+           : report->kept                       ? JOB_PART_BEGUN
+                                                : JOB_PART_MISSING;
+}
+
+JobPartReport job_part_report(const SharedJob *job, const Lines *folder,
+                              const JobQueue *queue, int index, Arena *arena)
+{
+    JobPartReport report = {.worker = worker_of(job, index, arena)};
     Error         err;
     char          line[2048];
     if (job_part_is_done(job, index, false, *arena, &err)) {
@@ -268,7 +339,6 @@ JobPartReport job_part_report(const SharedJob *job, const Lines *folder, int ind
         report.reason = arena_string(arena, line, strlen(line));
         report.status = error_exit_status(err.code);
     }
-    report.state = report.reason ? JOB_PART_FAILED
-                   : report.kept ? JOB_PART_BEGUN : JOB_PART_MISSING;
+    report.state = state_of(&report, (JobQueued)queue->parts[index]);
     return report;
 }

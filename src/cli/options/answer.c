@@ -11,12 +11,28 @@
 
 #define DOCUMENT_BYTES ((size_t)1 << 32) /* address space: what is not touched costs nothing */
 
+static bool write_document(Text *text, const json_t *document)
+{
+    bool is_whole = json_dump_text(text, document, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
+    text_add(text, "\n");
+    return is_whole;
+}
+
+bool cli_write_json(const json_t *document, const char *path, Error *err)
+{
+    Arena arena = arena_reserve(DOCUMENT_BYTES);
+    Text  text = {.arena = &arena};
+    bool  done = write_document(&text, document) ? text_write(&text, path, err)
+                     : error_at(err, ERROR_OUTPUT, path, NULL, "holds no JSON");
+    arena_release(&arena);
+    return done;
+}
+
 bool cli_print_json(json_t *document, Error *err)
 {
     Arena arena = arena_reserve(DOCUMENT_BYTES);
     Text  text = {.arena = &arena};
-    bool  is_whole = json_dump_text(&text, document, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
-    text_add(&text, "\n");
+    bool  is_whole = write_document(&text, document);
     if (is_whole) print_own(stdout, text.data);
     bool done = is_whole && !fflush(stdout) && !ferror(stdout);
     int  reason = errno;

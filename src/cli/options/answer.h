@@ -17,6 +17,9 @@
 /* Prints the document to stdout with a newline, and releases it. False: stdout is full. */
 bool cli_print_json(json_t *document, Error *err);
 
+/* The same into a file, which it does not release. */
+bool cli_write_json(const json_t *document, const char *path, Error *err);
+
 /* `parhelion: FILE: what is wrong (where) — what to do`: one line in buffer, no newline. */
 void cli_error_line(const Error *error, char *buffer, int size);
 

@@ -243,6 +243,7 @@ static void print_statuses(void)
     print_row("2", "the command line is wrong");
     print_row("3", "an input is missing, malformed or not supported");
     print_row("4", "an output cannot be written");
+    print_row("5", "a part's machine lacks the job's instruction set");
     print_row("130, 143, 129", "interrupted (INT, TERM, HUP); what was done is saved where the "
               "line on stderr says so");
 }

@@ -8,6 +8,7 @@
 
 #include "base/file_write.h"
 #include "print/print.h"
+#include "cli/job/job_isa.h"
 #include "cli/options/answer.h"
 #include "cli/options/look_options.h"
 #include "cli/render/noise_goal.h"
@@ -63,14 +64,21 @@ static bool render_share(const RenderRequest *request, const char *identity, con
 
 /* ---- before ------------------------------------------------------------------------------ */
 
+/* Of the film, and of the frame that it becomes. */
+static double bytes_of(const RenderOptions *options, unsigned layers)
+{
+    int lights = options->lights ? options->lights->count : 0;
+    return (double)film_bytes(options->crop, layers, lights) +
+           (double)film_frame_bytes(options->crop, layers, lights);
+}
+
 /* Frames that our own reader would refuse, and films that the memory does not hold. */
 static bool check_memory(const RenderOptions *options, unsigned layers, const Arena *arena,
                          Error *err)
 {
     FilmRect crop = options->crop;
     double   pixels = (double)options->width * (double)options->height;
-    int      lights = options->lights ? options->lights->count : 0;
-    double   wanted = (double)film_bytes(crop, layers, lights);
+    double   wanted = bytes_of(options, layers);
     double   memory = (double)arena_left(arena);
     if (pixels > EXR_MAX_PIXELS)
         return error_set(err, ERROR_USAGE,
@@ -79,8 +87,8 @@ static bool check_memory(const RenderOptions *options, unsigned layers, const Ar
     if (wanted < memory) return true;
     return error_set(
         err, ERROR_MEMORY,
-        "the film of %dx%d pixels needs %.1f GB, there are %.1f GB — use --crop or "
-        "fewer --layers",
+        "the film of %dx%d pixels needs %.1f GB with its frame, there are %.1f GB — use "
+        "--crop or fewer --layers",
         crop.x1 - crop.x0, crop.y1 - crop.y0, wanted / 1e9, memory / 1e9);
 }
 
@@ -201,7 +209,9 @@ static bool share(RenderRun *work, Error *err)
 {
     const Kernel *kernel;
     const char   *identity;
-    return identify_plan(work, &kernel, &identity, err) &&
+    return job_isa_choose(work->request.render.isa, work->request.share.dir, work->arena,
+                          &work->request.render.isa, err) &&
+           identify_plan(work, &kernel, &identity, err) &&
            render_share(&work->request, identity, kernel->isa, work->arena, err);
 }
 
@@ -256,6 +266,19 @@ static void warn_of(RenderRun *work, const Error *err)
     char line[2048];
     error_line(err, line, (int)sizeof line);
     warn(work, arena_string(work->arena, line, strlen(line)));
+}
+
+/* Half of the memory: others need some, and so do the scene and what writes the file. */
+static void warn_of_memory(RenderRun *work)
+{
+    const RenderOptions *options = &work->request.render;
+    double wanted = bytes_of(options, options->layers), memory = (double)machine_memory_bytes();
+    if (wanted <= memory / 2 || work->request.replays) return;
+    warn(work, arena_format(work->arena,
+                            "--layers: the film and the frame take %.1f of the %.1f GB here%s",
+                            wanted / 1e9, memory / 1e9,
+                            options->layers & ~(unsigned)LAYER_COMPARED
+                                ? " — --layers compare takes less, or --crop" : ""));
 }
 
 static void warn_of_dropped(RenderRun *work, const RenderResult *result)
@@ -484,8 +507,9 @@ static bool run(RenderRun *work, Error *err)
     if (!render_prepare(work->scene, &work->camera, options, work->arena, &work->setup, err))
         return false;
     render_live_find_displays(&work->live, work->scene, &work->setup.camera, work->arena);
-    bool done = find_lights(work, err) && identify(work, err) &&
-                render_prepared(&work->setup, options, work->arena, &result, err);
+    bool done = find_lights(work, err) && identify(work, err);
+    if (done) warn_of_memory(work);
+    done = done && render_prepared(&work->setup, options, work->arena, &result, err);
     render_setup_end(&work->setup);
     return done && hand_over(work, &result, err);
 }

@@ -46,6 +46,7 @@ static const struct {
     {"display.lambertian", LAYER_DISPLAY_LAMBERTIAN},
     {"display.variance", LAYER_DISPLAY_VARIANCE}, {"display.second", LAYER_DISPLAY_SECOND},
     {"display.halves", LAYER_DISPLAY_HALVES}, {"light", LAYER_LIGHT}, {"stokes", LAYER_STOKES},
+    {"compare", LAYER_COMPARED}, {"rounded", LAYER_ROUNDED},
 };
 
 #define LAYER_NAME_COUNT COUNT_OF(layer_names)
@@ -397,7 +398,8 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
         {"--samples", OPTION_TEXT, "A:B", "only these sample indices, half-open",
          &typed->samples},
         {"--layers", OPTION_TEXT, "LIST",
-         "all, or names with commas: xyz,depth,normal,... (halves: of 24 samples and more)",
+         "all, compare (what `compare` reads), or names with commas: xyz,depth,normal,... "
+         "(halves: of 24 samples and more)",
          &typed->layers},
         SCENE_OPTIONS(&typed->scene, &request->scene, outside),
         {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",

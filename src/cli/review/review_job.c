@@ -10,9 +10,9 @@
 #include "base/file.h"
 #include "base/file_write.h"
 #include "print/print.h"
+#include "cli/job/job_isa.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
-#include "kernel/kernel.h"
 #include "render/signals.h"
 #include "review/pace/work.h"
 #include "review/run/run.h"
@@ -138,18 +138,18 @@ void review_share_set(ShareRequest *share, int argc, char **argv, const char *ou
 bool review_share(const ShareRequest *share, ReviewFolder *folder, ReviewRun *run, bool json,
                   Arena *arena, Error *err)
 {
-    ReviewPlan    found;
-    const Kernel *kernel;
-    json_t       *answer = NULL;
+    ReviewPlan found;
+    json_t    *answer = NULL;
     review_folder_responses(folder, arena);
     run->responses = folder->responses;
     run->responses_shown = "";
-    bool ok = review_plan(run, arena, &found, err) &&
-              kernel_choose(run->means.isa, &kernel, err);
+    bool ok = job_isa_choose(run->means.isa, share->dir, arena, &run->means.isa, err) &&
+              review_plan(run, arena, &found, err);
     cli_print_warnings(run->problems);
     if (!ok) return false;
     SharedJob job = {.kind = JOB_REVIEW, .line = review_folder_command(folder, arena),
-                     .output = folder->target, .identity = found.identity, .isa = kernel->isa};
+                     .output = folder->target, .identity = found.identity,
+                     .isa = run->means.isa};
     return job_share(share, &job, arena, json ? &answer : NULL, err) &&
            (!answer || cli_print_json(answer, err));
 }
