@@ -249,6 +249,18 @@ TEST_WITH(slices_of_packed_meshes_are_warned_of, maker_reset, NULL)
     }
 }
 
+/* A packed model's textures are DDS files in another folder: nobody looks for them. */
+TEST_WITH(pictures_that_are_not_read_need_not_be_there, maker_reset, NULL)
+{
+    Found found = maker_survey_file(maker_gltf("", 0,
+        "'extensionsUsed':['MSFT_texture_dds'],'images':[{'uri':'GLASS.PNG.DDS'}],'textures':[{"
+        "'extensions':{'MSFT_texture_dds':{'source':0}}}],'materials':[{'emissiveTexture':{"
+        "'index':0}}],'meshes':[{'primitives':[{'attributes':{},'material':0}]}]"));
+    assert_int_equal(found.problems.error_count, 0);
+    assert_non_null(maker_find(&found, "/extensionsUsed/0", "pictures in DDS"));
+    assert_non_null(maker_find(&found, "/images/0/uri", "No such file"));
+}
+
 /* DirectX's normal maps are green where a normal leans down. */
 TEST_WITH(the_simulator_s_normal_maps_lean_its_way, maker_reset, NULL)
 {
@@ -369,7 +381,8 @@ static void put_file(const char *folder, const char *name)
 /* Each kind of file that a scene names; %s is the uri. */
 static const char *const NAMERS[] = {
     "'buffers':[{'byteLength':4,'uri':'%s'}]",
-    "'images':[{'uri':'%s'}],'textures':[{'source':0}]",
+    "'images':[{'uri':'%s'}],'textures':[{'source':0}],'materials':[{'emissiveTexture':{"
+    "'index':0}}],'meshes':[{'primitives':[{'attributes':{},'material':0}]}]",
     "'materials':[{'name':'m','extensions':{'PARHELION_display':{'panel':'%s'}}}]",
     "'materials':[{'extensions':{'PARHELION_spectrum':{'baseColor':'%s'}}}]",
     "'scene':0,'scenes':[{'extensions':{'PARHELION_environment':{'type':'hdri','uri':'%s'}}}]",
