@@ -282,6 +282,71 @@ def marked(scene, folder):
             "eyes": [o.name for o in objects if o.type == "EMPTY" and o.parhelion.is_eye]}
 
 
+# ---- area lamps: glTF has none, a sheet that glows as they do takes their place -------------
+
+LUMENS_A_WATT = 683  # as Blender's exporter writes its other lamps
+LAMP_WATTS = "area_lamp_w"  # in the extras of what stands for a lamp
+
+
+def outline_of(lamp):
+    """Corners of an area lamp in its own plane, whose front looks along its -Z."""
+    across = lamp.size
+    along = lamp.size_y if lamp.shape in ("RECTANGLE", "ELLIPSE") else across
+    if lamp.shape in ("SQUARE", "RECTANGLE"):
+        corners = [(.5, .5), (.5, -.5), (-.5, -.5), (-.5, .5)]
+    else:
+        turns = [-math.tau * i / 32 for i in range(32)]
+        corners = [(.5 * math.cos(turn), .5 * math.sin(turn)) for turn in turns]
+    return [(across * x, along * y, 0) for x, y in corners]
+
+
+def sheet_for(item):
+    """Blender's area lamp of P watts shines with P / (4 area) W/(m2 sr), whatever its shape."""
+    lamp, mesh = item.data, bpy.data.meshes.new(item.name)
+    if lamp.spread < math.pi - 1e-4:
+        raise Wrong(f'area lamp "{item.name}": its spread is {math.degrees(lamp.spread):g} '
+                    f'degrees, required 180: what glows has no other')
+    corners = outline_of(lamp)
+    mesh.from_pydata(corners, [], [tuple(range(len(corners)))])
+    material = bpy.data.materials.new(f"{item.name} (area lamp)")
+    material.use_nodes = material.use_backface_culling = True
+    material[LAMP_WATTS] = lamp.energy
+    inputs = material.node_tree.nodes["Principled BSDF"].inputs
+    inputs["Base Color"].default_value = (0, 0, 0, 1)
+    inputs["Emission" if "Emission" in inputs else "Emission Color"].default_value = (
+        *lamp.color, 1)
+    mesh.materials.append(material)
+    sheet = bpy.data.objects.new(material.name, mesh)
+    sheet.matrix_world = item.matrix_world
+    places = [sheet.matrix_world @ vertex.co for vertex in mesh.vertices]
+    area = abs(sum(((b - places[0]).cross(c - places[0]).length for b, c in
+                    zip(places[1:], places[2:])), 0)) / 2
+    inputs["Emission Strength"].default_value = LUMENS_A_WATT * lamp.energy / (4 * area)
+    return sheet
+
+
+def put_sheets(scene):
+    """A sheet beside each area lamp that is shown, until the export is over."""
+    bpy.context.view_layer.update()
+    for item in list(scene.objects):
+        if item.type != "LIGHT" or item.data.type != "AREA" or not item.visible_get():
+            continue
+        sheet = sheet_for(item)
+        _export["sheets"].append(sheet)
+        scene.collection.objects.link(sheet)
+        sheet.select_set(item.select_get())
+    bpy.context.view_layer.update()
+
+
+def take_sheets():
+    for sheet in _export["sheets"]:
+        mesh, material = sheet.data, sheet.data.materials[0]
+        bpy.data.objects.remove(sheet)
+        bpy.data.meshes.remove(mesh)
+        bpy.data.materials.remove(material)
+    _export["sheets"] = []
+
+
 # ---- what became of the marks --------------------------------------------------------------
 
 
@@ -345,15 +410,18 @@ def lost(document, wanted):
 
 # ---- the exporter's hooks (found by their names) -------------------------------------------
 
-_export = {"wanted": None, "faults": [], "tree": None, "is_ours": False}
+_export = {"wanted": None, "faults": [], "tree": None, "is_ours": False, "sheets": []}
 
 
 def glTF2_pre_export_callback(export_settings):
     """An exception here ends the export before anything is written, in every version."""
     folder = os.path.normpath(export_settings["gltf_filedirectory"])
     _export.update(faults=[], tree=None, wanted=None)
+    take_sheets()
     try:
         _export["wanted"] = marked(bpy.context.scene, folder)
+        if export_settings.get("gltf_lights", True):
+            put_sheets(bpy.context.scene)
     except Wrong as error:
         _export["faults"].append(str(error))
         raise
@@ -361,6 +429,7 @@ def glTF2_pre_export_callback(export_settings):
 
 def glTF2_post_export_callback(export_settings):
     """Runs before the file is written: whoever exported by the menu is told a moment later."""
+    take_sheets()
     if _export["faults"]:
         raise Wrong(_export["faults"][0])
     if _export["is_ours"] or not _export["wanted"]:
@@ -422,6 +491,8 @@ class glTF2ExportUserExtension:
         except Wrong as error:  # of a material that pre_export did not find in the scene
             _export["faults"].append(str(error))
             raise
+        if LAMP_WATTS in blender_material:
+            gltf2_material.extras = {LAMP_WATTS: blender_material[LAMP_WATTS]}
         for name, value in found.items():
             if "content" in value:
                 value = {**value, "content": self.texture_info(value["content"])}
@@ -429,6 +500,10 @@ class glTF2ExportUserExtension:
 
     def gather_node_hook(self, gltf2_node, blender_object, _export_settings):
         self.clean(gltf2_node)
+        if blender_object and blender_object.type == "LIGHT" and (
+                blender_object.data.type == "AREA"):
+            gltf2_node.extras = {**(gltf2_node.extras or {}),
+                                 LAMP_WATTS: blender_object.data.energy}
         if not blender_object or blender_object.type != "EMPTY" or (
                 not blender_object.parhelion.is_eye):
             return
@@ -464,6 +539,7 @@ def export_scene(path):
         raise Wrong((_export["faults"] or [str(error).strip()])[0]) from error
     finally:
         _export["is_ours"] = False
+        take_sheets()
     return lost(read_document(path), _export["wanted"])
 
 

@@ -8,12 +8,14 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "base/machine.h"
 #include "cli/cmd_help.h"
 #include "cli/commands.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "openimageio/image_file.h"
+#include "text/name_hint.h"
 
 static bool run_command(int argc, char **argv, Error *err)
 {
@@ -64,8 +66,34 @@ static bool check_stdout(Error *err)
                     strerror(errno ? errno : EIO));
 }
 
-static int report(const Error *err, bool json)
+/* The path of a table that OpenColorIO did not find, of its message; else the error's file. */
+static const char *missing_file(const Error *err, char *buffer, size_t size)
 {
+    static const char words[] = "The following attempts were made: '";
+    const char *tried = strstr(err->text, words);
+    if (!tried) return err->file;
+    tried += sizeof words - 1;
+    snprintf(buffer, size, "%.*s", (int)strcspn(tried, "'"), tried);
+    return buffer;
+}
+
+/* Of an input that is not there, the one that may be meant. */
+static void add_hint(Error *err)
+{
+    char        buffer[sizeof err->text];
+    const char *path = missing_file(err, buffer, sizeof buffer);
+    if (err->code != ERROR_INPUT || !path[0] || file_exists(path)) return;
+    Arena       arena = arena_reserve((size_t)1 << 30);
+    const Error was = *err;
+    const char *hint = name_hint(path, &arena);
+    if (*hint && !strstr(err->text, hint))
+        error_at(err, was.code, was.file, was.path, "%s%s", was.text, hint);
+    arena_release(&arena);
+}
+
+static int report(Error *err, bool json)
+{
+    add_hint(err);
     if (err->text[0]) cli_report_error(err, json);
     return error_exit_status(err->code);
 }

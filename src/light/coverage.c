@@ -4,23 +4,15 @@
 void coverage_texel(const Scene *scene, const Material *material, const Hit *hit,
                     const TrianglePoint *point, float texel[4])
 {
-    const VertexColor *colors = scene_part(scene, hit->triangle)->colors;
     const TextureSlot *slot = &material->base_color_texture;
-    const float weight[3] = {1 - hit->u - hit->v, hit->u, hit->v};
+    float color[4];
     texel[0] = texel[1] = texel[2] = texel[3] = 1;
     if (slot->texture_id != NO_ID) {
         Vec2 uv = slot_uv(slot, point);
         texture_colour(&scene->textures[slot->texture_id], uv.x, uv.y, texel);
     }
-    if (!colors) return;
-    for (int i = 0; i < 4; i++) {
-        float colour = 0;
-        for (int k = 0; k < 3; k++) {
-            uint32_t place = scene_corner_place(scene, hit->triangle, k);
-            colour += weight[k] * (float)colors[place].linear[i];
-        }
-        texel[i] *= colour * (1.0f / 65535);
-    }
+    if (!vertex_color(scene, hit->triangle, point, color)) return;
+    for (int i = 0; i < 4; i++) texel[i] *= color[i];
 }
 
 float coverage_alpha(const Material *material, float texel_alpha)

@@ -45,17 +45,38 @@ void display_codes(const Scene *scene, const Display *display, const TrianglePoi
     texture_codes(&scene->textures[display->content.texture_id], uv.x, uv.y, codes);
 }
 
-void emitted_rgb(const Scene *scene, const Material *material, const TrianglePoint *point,
+bool vertex_color(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
+                  float rgba[4])
+{
+    const VertexColor *colors = scene_part(scene, triangle)->colors;
+    const float weight[3] = {1 - point->u - point->v, point->u, point->v};
+    if (!colors) return false;
+    for (int i = 0; i < 4; i++) {
+        float colour = 0;
+        for (int k = 0; k < 3; k++)
+            colour +=
+                weight[k] * (float)colors[scene_corner_place(scene, triangle, k)].linear[i];
+        rgba[i] = colour * (1.0f / 65535);
+    }
+    return true;
+}
+
+/* KHR_materials_unlit: base colour, its texture and the vertices' colour, multiplied. */
+void emitted_rgb(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
                  float rgb[3])
 {
+    const Material *material = &scene->materials[scene_part(scene, triangle)->material_id];
+    float           texel[4];
     const float *factor = material->unlit ? material->base_color : material->emissive_cd_m2;
     const TextureSlot *slot =
         material->unlit ? &material->base_color_texture : &material->emissive_texture;
     for (int i = 0; i < 3; i++) rgb[i] = factor[i];
-    if (slot->texture_id == NO_ID) return;
-    float texel[4];
-    Vec2  uv = slot_uv(slot, point);
-    texture_colour(&scene->textures[slot->texture_id], uv.x, uv.y, texel);
+    if (slot->texture_id != NO_ID) {
+        Vec2 uv = slot_uv(slot, point);
+        texture_colour(&scene->textures[slot->texture_id], uv.x, uv.y, texel);
+        for (int i = 0; i < 3; i++) rgb[i] *= texel[i];
+    }
+    if (!material->unlit || !vertex_color(scene, triangle, point, texel)) return;
     for (int i = 0; i < 3; i++) rgb[i] *= texel[i];
 }
 
@@ -112,11 +133,12 @@ static Spectrum display_emission(const Scene *scene, const Display *display, uin
 }
 
 /* A measured spectrum is stored with a luminance of 1 cd m^-2; the colour gives how much. */
-static Spectrum material_emission(const Scene *scene, const Material *material,
+static Spectrum material_emission(const Scene *scene, uint32_t triangle,
                                   const TrianglePoint *point, const Wavelengths *wavelengths)
 {
-    float rgb[3];
-    emitted_rgb(scene, material, point, rgb);
+    const Material *material = &scene->materials[scene_part(scene, triangle)->material_id];
+    float           rgb[3];
+    emitted_rgb(scene, triangle, point, rgb);
     if (material->emission_curve_id == NO_ID)
         return spectrum_from_rgb_emission(wavelengths, rgb);
     float luminance = luminance_from_rgb(rgb);
@@ -177,6 +199,6 @@ Spectrum triangle_emission(const Scene *scene, uint32_t triangle, const Triangle
     if (material->display_id != NO_ID)
         return display_emission(scene, &scene->displays[material->display_id], triangle, point,
                                 direction, wavelengths);
-    return material_emission(scene, material, point, wavelengths) *
+    return material_emission(scene, triangle, point, wavelengths) *
            spectrum_all(coat_lets_out(scene, material, triangle, point, direction));
 }

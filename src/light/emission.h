@@ -32,9 +32,13 @@ void display_codes(const Scene *scene, const Display *display, const TrianglePoi
 void display_emission_xyz(const Scene *scene, const Display *display, uint32_t triangle,
                           const TrianglePoint *point, Vec3 direction, float xyz[3]);
 
+/* COLOR_0 at the point, linear; false: the part has none. */
+bool vertex_color(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
+                  float rgba[4]);
+
 /* Emitted colour of a material that is no display, linear Rec.709, cd m^-2; front side, below
  * any coat. */
-void emitted_rgb(const Scene *scene, const Material *material, const TrianglePoint *point,
+void emitted_rgb(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
                  float rgb[3]);
 
 /* Can anything leave the point along `direction` (unit, world)? The back of a display is its

@@ -37,7 +37,7 @@ bool point_tangent(const Scene *scene, uint32_t triangle, const TrianglePoint *p
     return vec3_dot(*along, *along) > 0.5f;
 }
 
-Vec3 mapped_normal(const Scene *scene, const TextureSlot *slot, float scale, uint32_t triangle,
+Vec3 mapped_normal(const Scene *scene, const TextureSlot *slot, Vec2 scale, uint32_t triangle,
                    const TrianglePoint *point)
 {
     float texel[4];
@@ -46,8 +46,8 @@ Vec3 mapped_normal(const Scene *scene, const TextureSlot *slot, float scale, uin
         return n;
     Vec2 uv = slot_uv(slot, point);
     texture_data(&scene->textures[slot->texture_id], uv.x, uv.y, texel);
-    Vec3 bent = vec3_along(vec3_scale(along, scale * (2 * texel[0] - 1)), across,
-                           scale * (2 * texel[1] - 1));
+    Vec3 bent = vec3_along(vec3_scale(along, scale.x * (2 * texel[0] - 1)), across,
+                           scale.y * (2 * texel[1] - 1));
     bent = vec3_normalize(vec3_along(bent, n, 2 * texel[2] - 1));
     return vec3_dot(bent, bent) > 0.5f ? bent : n;
 }

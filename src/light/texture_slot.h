@@ -16,7 +16,7 @@ bool point_tangent(const Scene *scene, uint32_t triangle, const TrianglePoint *p
                    Vec3 *along, Vec3 *across);
 
 /* ns as the slot's texture bends it, times `scale` along the surface; ns without a texture. */
-Vec3 mapped_normal(const Scene *scene, const TextureSlot *slot, float scale, uint32_t triangle,
+Vec3 mapped_normal(const Scene *scene, const TextureSlot *slot, Vec2 scale, uint32_t triangle,
                    const TrianglePoint *point);
 
 /* The clear coat's own normal, on ns's side. */

@@ -114,7 +114,7 @@ typedef struct Material {
     float metallic, roughness; /* roughness: glTF's; GGX alpha is its square */
     TextureSlot metallic_roughness_texture; /* G roughness, B metallic */
     TextureSlot normal_texture;
-    float normal_scale;
+    Vec2  normal_scale; /* along the tangent and the bitangent */
     float emissive_cd_m2[3]; /* factor * KHR_materials_emissive_strength, linear Rec.709 */
     TextureSlot emissive_texture;
     AlphaMode alpha_mode; /* OPAQUE also where the file states another but alpha is always 1 */
@@ -137,7 +137,7 @@ typedef struct Material {
     float clearcoat_roughness;
     TextureSlot clearcoat_roughness_texture; /* G */
     TextureSlot clearcoat_normal_texture;
-    float clearcoat_normal_scale;
+    Vec2  clearcoat_normal_scale;
     bool  is_solid;            /* KHR_materials_volume with thickness > 0: refracts where there
                                   is transmission, or light goes in and out diffusely */
     float attenuation_color[3]; /* after attenuation_distance_m (infinite: none) */

@@ -207,6 +207,25 @@ def cancel():
     found["stopped"] = run.process.returncode
 
 
+def export_lamps():
+    """An area lamp of each shape, one of a narrow spread; what stood for them is gone."""
+    scene = bpy.context.scene
+    for i, shape in enumerate(("SQUARE", "RECTANGLE", "DISK", "ELLIPSE")):
+        lamp = bpy.data.lights.new("Area", "AREA")
+        lamp.shape, lamp.size, lamp.size_y, lamp.energy = shape, 0.5, 0.25, 10
+        item = bpy.data.objects.new(f"Area.{i:03}", lamp)
+        item.location, item.scale = (i, 0, 2), (2, 3, 1) if i == 1 else (1, 1, 1)
+        scene.collection.objects.link(item)
+    point = bpy.data.objects.new("point", bpy.data.lights.new("point", "POINT"))
+    scene.collection.objects.link(point)
+    before = [len(kind) for kind in (bpy.data.objects, bpy.data.meshes, bpy.data.materials)]
+    found["lamps"] = [attempt(bpy.ops.parhelion.export, filepath=here("out", "lamps.gltf"))]
+    found["left"] = [len(kind) - was for kind, was in zip(
+        (bpy.data.objects, bpy.data.meshes, bpy.data.materials), before)]
+    lamp.spread = 1
+    found["lamps"].append(attempt(bpy.ops.parhelion.export, filepath=here("out", "no.gltf")))
+
+
 def main():
     cluster = build()
     export_whole()
@@ -216,6 +235,7 @@ def main():
     write_extras(cluster)
     render()
     cancel()
+    export_lamps()
     with open(here("found.json"), "w", encoding="utf-8") as file:
         json.dump(found, file)
 

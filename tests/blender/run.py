@@ -6,6 +6,7 @@ by name.
 Skipped where blender is not installed. glTF-Validator is asked too where node finds it.
 """
 import json
+import math
 import os
 import re
 import shutil
@@ -177,6 +178,28 @@ def check_extras(report, program, folder):
                      f"extras as {name}: {said['problems']}")
 
 
+# Of square, rectangle (scaled by 2 and 3), circle and ellipse, each a polygon of 32 corners.
+LAMP_AREAS_M2 = (0.25, 0.5 * 0.25 * 6, 16 * math.sin(math.tau / 32) * 0.25 ** 2,
+                 16 * math.sin(math.tau / 32) * 0.25 * 0.125)
+
+
+def check_lamps(report, program, found, folder):
+    """An area lamp of 10 W is a sheet of 683 * 10 / (4 area) cd/m2, which looks as it did."""
+    path = os.path.join(folder, "out", "lamps.gltf")
+    document, said = read(path), answer(program, "check", path)
+    strengths = [m["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"]
+                 for m in document["materials"] if "(area lamp)" in m["name"]]
+    wanted = [683 * 10 / (4 * area) for area in LAMP_AREAS_M2]
+    report.claim(len(strengths) == 4 and all(abs(s / w - 1) < 1e-5 for s, w in
+                                             zip(strengths, wanted)), f"{strengths} {wanted}")
+    told = [p["message"] for p in said["problems"] if "area lamp" in p["message"].lower()]
+    report.claim(said["ok"] and not told, f"check of area lamps: {told}")
+    report.claim(found["left"] == [0, 0, 0], f"left over in Blender: {found['left']}")
+    report.claim('area lamp "Area.003": its spread is 57.2958 degrees' in found["lamps"][1][1]
+                 and not os.path.exists(os.path.join(folder, "out", "no.gltf")),
+                 f"a narrow lamp: {found['lamps'][1]}")
+
+
 def check_program(report, found):
     report.claim(found["render"][1] == "" and found["picture"] == [[80, 40]],
                  f"render: {found['render']}, {found['picture']}")
@@ -233,6 +256,7 @@ def main():
             check_broken(report, found, folder)
             check_extras(report, program, folder)
             check_program(report, found)
+            check_lamps(report, program, found, folder)
             check_emission(report, program, os.path.join(folder, "render", "scene.exr"))
             check_guide(report, folder)
             node = shutil.which("node")

@@ -306,6 +306,38 @@ def check_inputs(report, program):
                  f"check --json of an absent file says {done.stdout[:200]}")
 
 
+OCIO = """ocio_profile_version: 2
+search_path: .
+roles: {scene_linear: lin, aces_interchange: lin, default: lin}
+displays: {screen: [!<View> {name: v, colorspace: out}]}
+colorspaces:
+  - !<ColorSpace> {name: lin}
+  - !<ColorSpace> {name: out, from_reference: !<FileTransform> {src: LOOK.spi1d}}
+"""
+
+
+def check_almost(report, program):
+    """Whatever is named in another letter case is hinted at, once."""
+    for name, text in (("config.ocio", OCIO), ("look.spi1d", ""), ("sky.hdr", ""),
+                       ("weather.epw", ""), ("one.panel", "")):
+        with open(program.file(name), "w", encoding="utf-8") as file:
+            file.write(text)
+    for there, words in (
+            ("scene.gltf", ("render", "SCENE.gltf", "-o", "x.exr")),
+            ("look.spi1d", ("develop", "f.exr", "--config", "config.ocio", "-o", "x.png")),
+            ("config.ocio", ("develop", "f.exr", "--config", "Config.ocio", "-o", "x.png")),
+            ("sky.hdr", ("sky", "--environment", "hdri:Sky.hdr")),
+            ("weather.epw", ("sky", "--weather", "weather.EPW", "--when",
+                             "2001-06-21T10:30+01:00")),
+            ("one.panel", ("panel", "info", "One.Panel")),
+            ("f.exr", ("measure", "F.EXR"))):
+        if there == "look.spi1d":
+            program.render(out="f.exr")
+        moved = [f"hdri:{program.file(w[5:])}" if w.startswith("hdri:") else
+                 program.file(w) if "." in w and ":" not in w else w for w in words]
+        claim_status(report, program.run(*moved), 3, f'"{there}" is there: its letter case')
+
+
 def check_outputs(report, program):
     done = program.run("render", program.file("scene.gltf"), "-o",
                        program.file("no/such/frame.exr"), "--size", "8x8", "--spp", "1")
@@ -537,7 +569,7 @@ def main():
         quick_scene().write(program.file("scene.gltf"))
         for check in (check_usage, check_help, check_help_words, check_names,
                       check_answers_lost, check_terminals, check_hang_up, check_inputs,
-                      check_outputs, check_answers, check_pictures, check_sky,
+                      check_almost, check_outputs, check_answers, check_pictures, check_sky,
                       check_night):
             try:
                 check(report, program)

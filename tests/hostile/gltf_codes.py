@@ -93,7 +93,7 @@ class Trial:
         self.whole = status == 0 and all(
             any(word in p[1] for word in ("is not supported", "animation skipped",
                                           "makes the solid clear", "has no effect",
-                                          "clear as a whole"))
+                                          "clear as a whole", "the range of"))
             for p in self.usual)
 
     def write(self, model):

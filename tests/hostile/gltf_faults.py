@@ -86,7 +86,8 @@ SCHEMA = [
 
 SCHEMA += [
     ("VALUE_NOT_IN_LIST!", "VEC3 is wanted", put("accessors/0/type", "TENSOR")),
-    ("VALUE_NOT_IN_LIST!", "SCALAR of 5121", put("accessors/7/componentType", 5124)),
+    ("VALUE_NOT_IN_LIST!", "SCALAR of UNSIGNED_BYTE (5121)",
+     put("accessors/7/componentType", 5124)),
 ]
 
 
@@ -243,7 +244,7 @@ LINK = [
      put(CHANNELS + "1/target/path", "translation")),
     ("ANIMATION_SAMPLER_ACCESSOR_WITH_BYTESTRIDE", "of an animation has a byteStride",
      view_of(TIMES, "byteStride", 4)),
-    ("ANIMATION_SAMPLER_INPUT_ACCESSOR_INVALID_FORMAT", "no SCALAR floats",
+    ("ANIMATION_SAMPLER_INPUT_ACCESSOR_INVALID_FORMAT", "SCALAR of FLOAT (5126)",
      put(SAMPLERS + "0/input", SHIFTS)),
     ("ANIMATION_SAMPLER_INPUT_ACCESSOR_TOO_FEW_ELEMENTS", "at least 2 are wanted",
      put(SAMPLERS + "0/interpolation", "CUBICSPLINE"), put("accessors/10/count", 1)),
@@ -285,7 +286,7 @@ LINK = [
      put("accessors/14/componentType", 5125)),
     ("MESH_PRIMITIVE_INCOMPATIBLE_MODE", "do not make whole primitives",
      put("accessors/7/count", 5)),
-    ("MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT", "SCALAR of 5121, 5123 or 5125",
+    ("MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT", "SCALAR of UNSIGNED_BYTE (5121)",
      put(PRIMITIVE + "indices", BLENDS)),
     ("MESH_PRIMITIVE_INDICES_ACCESSOR_WITH_BYTESTRIDE", "of indices has a byteStride",
      view_of(INDICES, "byteStride", 4), put("accessors/7/count", 3)),
@@ -312,7 +313,8 @@ LINK = [
     ("SCENE_NON_ROOT_NODE", "a scene lists roots only", put("scenes/0/nodes/2", 3)),
     ("SKIN_IBM_ACCESSOR_WITH_BYTESTRIDE", "inverse bind matrices has a byteStride",
      view_of(BINDS, "byteStride", 64)),
-    ("SKIN_IBM_INVALID_FORMAT", "MAT4 of floats", put("skins/0/inverseBindMatrices", TURNS)),
+    ("SKIN_IBM_INVALID_FORMAT", "MAT4 of FLOAT (5126)",
+     put("skins/0/inverseBindMatrices", TURNS)),
     ("TEXTURE_INVALID_IMAGE_MIME_TYPE", "image/png or image/jpeg is wanted",
      image(data_uri("image/webp", PICTURE), "image/webp")),
     ("UNDECLARED_EXTENSION", "not listed in extensionsUsed",

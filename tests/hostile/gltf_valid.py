@@ -22,10 +22,11 @@ VALID = [
      put("asset/minVersion", "2.1")),
     ("an early minimum", "", put("asset/minVersion", "1.0")),
     ("an accessor of an extension's type", "one of SCALAR", unknown_accessor(type="TENSOR")),
-    ("an accessor of an extension's component", "one of 5120",
+    ("an accessor of an extension's component", "one of BYTE (5120)",
      unknown_accessor(componentType=5131)),
-    ("an accessor of 32-bit integers", "one of 5120", unknown_accessor(componentType=5124)),
-    ("the same of a sparse index", "one of 5121", put(
+    ("an accessor of 32-bit integers", "one of BYTE (5120)",
+     unknown_accessor(componentType=5124)),
+    ("the same of a sparse index", "one of UNSIGNED_BYTE (5121)", put(
         "accessors/14/sparse/indices/componentType", 5120)),
     ("a drawing mode of an extension", "one of 0", put("meshes/1/primitives/0/mode", 7)),
     ("a camera of an extension", "one of perspective",

@@ -322,7 +322,7 @@ ARENA_TEST(bright_texels_are_chosen_more_often)
         random3(&random, u);
         EmitterPoint  at = emitters_sample(&emitters, scene, &LIT[0], u, &density);
         TrianglePoint point = triangle_point(scene, at.triangle, at.u, at.v);
-        emitted_rgb(scene, &scene->materials[0], &point, rgb);
+        emitted_rgb(scene, at.triangle, &point, rgb);
         lit += rgb[1] > 500;
     }
     print_message("texels with 81%% of the light take %.0f%% of the samples, 1.6%% by area\n",

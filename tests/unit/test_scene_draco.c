@@ -4,6 +4,7 @@
 #include "check.h"
 #include "draco_fixture.h"
 #include "gltf_maker.h"
+#include "scene/gltf/document.h"
 
 enum { SIDE = 5, VERTICES = SIDE * SIDE, TRIANGLES = 2 * (SIDE - 1) * (SIDE - 1) };
 
@@ -15,15 +16,22 @@ typedef struct Sheet {
     size_t size;
     int vertices, corners;
     const char *ids, *mode, *indices;
+    const char *more, *nodes; /* accessors; of the document */
 } Sheet;
 
 static Sheet sheet_of(const unsigned char *bytes, size_t size)
 {
-    return (Sheet){bytes, size, VERTICES, 3 * TRIANGLES, IDS, "", ",'indices':4"};
+    return (Sheet){bytes, size, VERTICES, 3 * TRIANGLES, IDS, "", ",'indices':4", "", ""};
 }
 
 static const Sheet WHOLE = {SEQUENTIAL, sizeof SEQUENTIAL, VERTICES, 3 * TRIANGLES, IDS, "",
-                            ",'indices':4"};
+                            ",'indices':4", "", ""};
+
+static const char *nodes_of(const Sheet *sheet)
+{
+    bool has_own = strstr(sheet->nodes, "'nodes'") != NULL;
+    return maker_format("%s%s", has_own ? "" : ",'nodes':[{'mesh':0}]", sheet->nodes);
+}
 
 static const char *write_sheet(const Sheet *sheet)
 {
@@ -35,16 +43,17 @@ static const char *write_sheet(const Sheet *sheet)
             "'accessors':[{'componentType':5126,'count':%d,'type':'VEC3'},"
             "{'componentType':5126,'count':%d,'type':'VEC3'},{'componentType':5126,"
             "'count':%d,'type':'VEC2'},{'componentType':5121,'count':%d,'type':'VEC4',"
-            "'normalized':true},{'componentType':5123,'count':%d,'type':'SCALAR'}],"
+            "'normalized':true},{'componentType':5123,'count':%d,'type':'SCALAR'}%s],"
             "'materials':[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}],"
             "'textures':[{}],'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1,"
             "'TEXCOORD_0':2,'COLOR_0':3}%s%s,"
             "'extensions':{'KHR_draco_mesh_compression':{'bufferView':0,"
-            "'attributes':{%s}}}}]}],'scene':0," ONE_NODE ","
+            "'attributes':{%s}}}}]}],'scene':0,'scenes':[{'nodes':[0]}]%s,"
             "'extensionsUsed':['KHR_draco_mesh_compression'],"
             "'extensionsRequired':['KHR_draco_mesh_compression']",
             sheet->size, sheet->vertices, sheet->vertices, sheet->vertices, sheet->vertices,
-            sheet->corners, sheet->indices, sheet->mode, sheet->ids));
+            sheet->corners, sheet->more, sheet->indices, sheet->mode,
+            sheet->ids, nodes_of(sheet)));
 }
 
 /* ---- what is packed is unpacked ---------------------------------------------------------- */
@@ -113,8 +122,6 @@ TEST_WITH(packed_strips_are_triangles, maker_reset, NULL)
     assert_whole(write_sheet(&strip));
 }
 
-/* ---- what is wrong ----------------------------------------------------------------------- */
-
 static bool tells(const char *path, const char *text)
 {
     Found found = maker_survey_file(path);
@@ -132,18 +139,70 @@ static void assert_told(const Sheet *sheet, const char *text)
     if (!tells(write_sheet(sheet), text)) fail_msg("not told: %s", text);
 }
 
+/* Exporters write the counts from before the packing: the packed mesh is whole. */
+TEST_WITH(other_counts_are_told_and_the_packed_mesh_is_shown, maker_reset, NULL)
+{
+    static const int POINTS[] = {1, 22, 24, 26, 100, 1 << 22};
+    static const int CORNERS[] = {3, 93, 99, 300};
+    for (int i = 0; i < 10; i++) {
+        maker_reset(NULL);
+        Sheet s = i % 2 ? WHOLE : sheet_of(EDGEBREAKER, sizeof EDGEBREAKER);
+        *(i < 6 ? &s.vertices : &s.corners) = i < 6 ? POINTS[i] : CORNERS[i - 6];
+        const char *path = write_sheet(&s);
+        assert_whole(path);
+        Found found = maker_survey_file(path);
+        const char *place = "/meshes/0/primitives/0/extensions/" DRACO_EXTENSION;
+        const char *text = maker_format("the accessors have %d vertices and %d indices, the "
+                                        "packed mesh has 25 and 96: the packed mesh is shown",
+                                        s.vertices, s.corners);
+        assert_non_null(maker_find(&found, place, text));
+    }
+}
+
+/* What is not packed keeps the accessors' counts, and must fit. */
+TEST_WITH(what_is_read_beside_a_packed_mesh_has_its_count, maker_reset, NULL)
+{
+    Sheet s = WHOLE;
+    s.vertices = 24, s.ids = "'POSITION':0,'NORMAL':1,'TEXCOORD_0':2";
+    assert_told(&s, "COLOR_0 has 24 elements, the packed mesh has 25 vertices");
+    s.vertices = 26;
+    assert_told(&s, "COLOR_0 has 26 elements, the packed mesh has 25 vertices");
+    s = WHOLE, s.vertices = 24;
+    s.mode = ",'targets':[{'POSITION':5}]";
+    s.more = ",{'componentType':5126,'count':24,'type':'VEC3'}";
+    assert_told(&s, "POSITION has 24 elements, the packed mesh has 25 vertices");
+    s.mode = "";
+    s.nodes = ",'animations':[{'channels':[{'sampler':0,'target':{'node':0,'path':"
+              "'translation'}}],'samplers':[{'input':6,'output':0}]}]";
+    s.more = ",{'componentType':5126,'count':24,'type':'VEC3'},"
+             "{'componentType':5126,'count':24,'type':'SCALAR'}";
+    assert_told(&s, "is read as part of a packed mesh too");
+    s.nodes = ",'nodes':[{'mesh':0,'extensions':{'EXT_mesh_gpu_instancing':{'attributes':{"
+              "'TRANSLATION':0}}}}]";
+    assert_told(&s, "is read as part of a packed mesh too");
+}
+
+/* The packed bytes are few: what they claim to hold is not believed. */
+TEST_WITH(few_bytes_do_not_take_gigabytes, maker_reset, NULL)
+{
+    unsigned char changed[sizeof EDGEBREAKER + 8];
+    /* vertices 12,000, triangles 40 million, as variable lengths of seven bits */
+    static const unsigned char CLAIM[] = {0xe0, 0x5d, 0x80, 0xb4, 0x89, 0x13};
+    memcpy(changed, EDGEBREAKER, 30);
+    memcpy(changed + 30, CLAIM, sizeof CLAIM);
+    memcpy(changed + 30 + sizeof CLAIM, EDGEBREAKER + 32, sizeof EDGEBREAKER - 32);
+    Sheet s = sheet_of(changed, sizeof EDGEBREAKER + sizeof CLAIM - 2);
+    s.vertices = 12000;
+    s.corners = 120000000;
+    assert_told(&s, "40000000 triangles and 12000 vertices are packed, at most 4194304 and");
+}
+
+/* ---- what is wrong ----------------------------------------------------------------------- */
+
 TEST_WITH(members_that_do_not_fit_are_told, maker_reset, NULL)
 {
     Sheet s = WHOLE;
-    s.vertices = 26;
-    assert_told(&s, "has 26 elements, the packed mesh has 25 vertices");
-    s.vertices = 24;
-    assert_told(&s, "32 triangles and 25 vertices are packed, at most 32 and 24 are wanted");
-    s = WHOLE, s.corners = 99;
-    assert_told(&s, "has 99 indices, the packed mesh has 96");
-    s = WHOLE, s.corners = 93;
-    assert_told(&s, "32 triangles and 25 vertices are packed, at most 31 and 25 are wanted");
-    s = WHOLE, s.ids = "'POSITION':7";
+    s.ids = "'POSITION':7";
     assert_told(&s, "the packed mesh has no attribute 7");
     s = WHOLE, s.ids = "'POSITION':2";
     assert_told(&s, "attribute 2 of the packed mesh has 2 components, 3 are wanted");
@@ -167,9 +226,7 @@ TEST_WITH(headers_are_refused_before_anything_is_unpacked, maker_reset, NULL)
         const char *text;
     } CHANGES[] = {{0, 'd', "are no Draco mesh"},
                    {6, 1, "bitstream is 2.1, 2.2 is wanted"},
-                   {7, 0, "are no mesh, but points"},
-                   {11, 0x7f, "127 triangles and 25 vertices are packed"},
-                   {12, 0x7f, "32 triangles and 127 vertices are packed"}};
+                   {7, 0, "are no mesh, but points"}};
     for (size_t i = 0; i < sizeof CHANGES / sizeof *CHANGES; i++) {
         unsigned char changed[sizeof SEQUENTIAL];
         memcpy(changed, SEQUENTIAL, sizeof changed);

@@ -46,7 +46,7 @@ static const FaultCase FAULTS[] = {
     {"'materials':[{'alphaMode':'CUTOUT'}]", "/materials/0/alphaMode",
      "is \"CUTOUT\", one of OPAQUE|MASK|BLEND is wanted"},
     {"'accessors':[{'componentType':5124,'count':1,'type':'SCALAR'}]",
-     "/accessors/0/componentType", "is 5124, one of 5120|5121"},
+     "/accessors/0/componentType", "is INT (5124), one of BYTE (5120)|UNSIGNED_BYTE (5121)|"},
     {"'accessors':[{'componentType':5126,'count':-1,'type':'SCALAR'}]", "/accessors/0/count",
      "is -1, an integer from 1 to"},
     {"'accessors':[{'componentType':5126,'count':1.5,'type':'SCALAR'}]", "/accessors/0/count",
@@ -97,7 +97,7 @@ static const FaultCase FAULTS[] = {
     {"'buffers ':0", "/buffers ", "is skipped; is \"buffers\" meant?"},
     /* shapes */
     {PRIMITIVE("'attributes':{'POSITION':0,'NORMAL':0},'indices':0"),
-     "/meshes/0/primitives/0/indices", "VEC3 of component type 5126, SCALAR"},
+     "/meshes/0/primitives/0/indices", "VEC3 of component type FLOAT (5126), SCALAR"},
     {VIEWS
      "'accessors':[" POINTS ",{'bufferView':1,'componentType':5123,'count':3,"
      "'type':'SCALAR'}],'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':1}]}]",

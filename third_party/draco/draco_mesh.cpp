@@ -143,8 +143,8 @@ extern "C" bool draco_mesh_values(const DracoMesh *mesh, uint32_t id, int compon
                              id, attribute->num_components(), components);
         return convert_to(component_type, *mesh->mesh, *attribute, components, out) ||
                error_set(err, ERROR_INPUT,
-                         "attribute %u of the packed mesh has values that the component type "
-                         "%d cannot hold", id, component_type);
+                         "attribute %u of the packed mesh has values that the accessor cannot "
+                         "hold", id);
     });
 }
 

@@ -5,6 +5,7 @@
 
 #include <string.h>
 
+#include "scene/gltf/accessor.h"
 #include "scene/gltf/animation_target.h"
 
 #define BYTE_CODE 5121
@@ -44,7 +45,11 @@ static void check_sampler(const DocumentCheck *check, const GltfValue *sampler)
         check_warns(check, sampler, "the accessor of the times has no min and max");
     if (input && (strcmp(tree_text(input, "type", ""), "SCALAR") != 0 ||
                   tree_int(input, "componentType", 0) != FLOAT_CODE))
-        check_fails(check, sampler, "the times are no SCALAR floats");
+        check_fails(check, sampler,
+                    "the times are %s of component type %s, SCALAR of %s is wanted",
+                    tree_text(input, "type", "?"),
+                    component_name(tree_int(input, "componentType", 0)),
+                    component_name(FLOAT_CODE));
     if (input && is_cubic && tree_number(input, "count", 2) < 2)
         check_warns(check, sampler, "a cubic spline has %g key frame, at least 2 are wanted",
                     tree_number(input, "count", 2));
@@ -80,9 +85,9 @@ static void check_output(const DocumentCheck *check, const GltfValue *channel,
     if (strcmp(tree_text(output, "type", ""), type) != 0 ||
         !is_component(output, path, is_pointed))
         check_fails(check, channel,
-                    "the values of a %s are %s of component type %d, %s is wanted", name,
+                    "the values of a %s are %s of component type %s, %s is wanted", name,
                     tree_text(output, "type", "?"),
-                    tree_int(output, "componentType", FLOAT_CODE), type);
+                    component_name(tree_int(output, "componentType", FLOAT_CODE)), type);
     if (path == MOVES_VISIBLE && strcmp(how, "STEP") != 0)
         check_fails(check, channel, "the interpolation of visible is %.20s, STEP is wanted",
                     how);

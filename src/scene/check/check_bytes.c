@@ -149,8 +149,8 @@ static void check_bounds(const DocumentCheck *check, const GltfValue *accessor)
         for (int i = 0; i < bounds->count; i++)
             if (!can_hold(component, bounds->items[i].number))
                 check_warns(check, &bounds->items[i],
-                            "is %.9g, which component type %d cannot be",
-                            bounds->items[i].number, component);
+                            "is %.9g, which component type %s cannot be",
+                            bounds->items[i].number, component_name(component));
     }
 }
 

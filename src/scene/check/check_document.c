@@ -191,6 +191,15 @@ void check_light(const DocumentCheck *check, const GltfValue *light)
                     type->text);
     if (type && strcmp(type->text, "spot") == 0 && !cone)
         check_fails(check, light, "\"spot\" is missing");
+    if (tree_member(light, "range"))
+        check_warns(check, tree_member(light, "range"),
+                    "the range of \"%.80s\" (%g m) is not used: %s",
+                    tree_text(light, "name", "a lamp without a name"),
+                    tree_number(light, "range", 0),
+                    type && strcmp(type->text, "directional") == 0
+                        ? "a directional light has none"
+                        : "its light falls off with the square of the distance, without an "
+                          "end");
     if (cone && inner >= outer)
         check_fails(check, cone, "the inner cone angle %g is not below the outer one %g", inner,
                     outer);

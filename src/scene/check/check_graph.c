@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "scene/gltf/accessor.h"
+
 /* A unit quaternion rounded to signed bytes is off by at most sqrt(4) * 0.5/127 in length;
  * decimals of four digits by 1e-4. */
 #define BYTE_ROUNDING 0.00788f
@@ -120,8 +122,8 @@ static void check_instance_format(const DocumentCheck *check, const GltfValue *a
     bool is_integer = (code == 5120 || code == 5122) && wanted->may_be_integer &&
                       tree_boolean(accessor, "normalized", false);
     if (accessor && (strcmp(type, wanted->type) != 0 || (code != 5126 && !is_integer)))
-        check_fails(check, at, "%s is %s of component type %d, %s of floats is wanted",
-                    at->key, type, code, wanted->type);
+        check_fails(check, at, "%s is %s of component type %s, %s of %s is wanted", at->key,
+                    type, component_name(code), wanted->type, component_name(5126));
 }
 
 void check_instancing(const DocumentCheck *check, const GltfValue *extension)
@@ -169,8 +171,11 @@ void check_skin(const DocumentCheck *check, const GltfValue *skin)
     if (!accessor) return;
     if (strcmp(tree_text(accessor, "type", ""), "MAT4") != 0 ||
         tree_int(accessor, "componentType", 0) != 5126)
-        check_fails(check, value, "refers to an accessor of %s, MAT4 of floats is wanted",
-                    tree_text(accessor, "type", "nothing"));
+        check_fails(check, value,
+                    "refers to an accessor of %s of component type %s, MAT4 of %s is wanted",
+                    tree_text(accessor, "type", "nothing"),
+                    component_name(tree_int(accessor, "componentType", 0)),
+                    component_name(5126));
     if (tree_number(accessor, "count", 0) < joints)
         check_fails(check, value, "has %g matrices for %d joints",
                     tree_number(accessor, "count", 0), joints);

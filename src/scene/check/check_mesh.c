@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "scene/check/check_material.h"
+#include "scene/gltf/accessor.h"
 #include "scene/gltf/document.h"
 
 /* The formats that an attribute may have. Component types as bits: 1 << (code - 5120). */
@@ -79,9 +80,9 @@ static void check_format(const DocumentCheck *check, const GltfValue *attribute,
     if (is_target) allowed |= BYTE | SHORT;
     if (!is_type(types, type) || !(bit & allowed))
         check_fails(check, attribute,
-                    "%s is %s of component type %d, which glTF does not allow "
+                    "%s is %s of component type %s, which glTF does not allow "
                     "(%s is wanted)",
-                    attribute->key, type, code, types);
+                    attribute->key, type, component_name(code), types);
     else if (format->is_normalized && bit != FLOATS &&
              !tree_boolean(accessor, "normalized", false))
         check_fails(check, attribute, "%s is made of integers that are not normalised",
@@ -164,9 +165,9 @@ static void check_indices(const DocumentCheck *check, const GltfValue *indices)
     if (!accessor) return;
     if (strcmp(tree_text(accessor, "type", ""), "SCALAR") != 0 || !is_unsigned)
         check_fails(check, indices,
-                    "are %s of component type %d, SCALAR of 5121, 5123 or 5125 is "
-                    "wanted",
-                    tree_text(accessor, "type", "?"), code);
+                    "are %s of component type %s, SCALAR of %s, %s or %s is wanted",
+                    tree_text(accessor, "type", "?"), component_name(code),
+                    component_name(5121), component_name(5123), component_name(5125));
     else if (tree_boolean(accessor, "normalized", false))
         check_fails(check, indices, "are normalised, which indices cannot be");
     if (tree_member(view_of(accessor), "byteStride"))
@@ -228,6 +229,21 @@ static void check_mode(const DocumentCheck *check, const GltfValue *primitive, d
                     count, mode);
 }
 
+/* Microsoft Flight Simulator's packing: a mesh's primitives share all vertices and indices. */
+static void check_slice(const DocumentCheck *check, const GltfValue *primitive)
+{
+    const GltfValue *slice = tree_member(tree_member(primitive, "extras"), "ASOBO_primitive");
+    const GltfValue *indices = tree_referred(tree_member(primitive, "indices"), "accessors");
+    double corners = tree_number(indices, "count", 0);
+    if (slice && (tree_number(slice, "StartIndex", 0) != 0 ||
+                  tree_number(slice, "BaseVertexIndex", 0) != 0 ||
+                  3 * tree_number(slice, "PrimitiveCount", corners / 3) != corners))
+        check_warns(check, slice,
+                    "is a slice of shared vertices and indices, as Microsoft Flight Simulator "
+                    "packs them, which is not read: all of them are shown, and the picture is "
+                    "not the simulator's; take the model as it was before packing");
+}
+
 void check_primitive(const DocumentCheck *check, const GltfValue *primitive)
 {
     const GltfValue *attributes = tree_member(primitive, "attributes");
@@ -250,6 +266,7 @@ void check_primitive(const DocumentCheck *check, const GltfValue *primitive)
         check_warns(check, attributes, "has TANGENT without NORMAL: both are made anew");
     check_numbering(check, attributes);
     check_position_bounds(check, position);
+    check_slice(check, primitive);
     check_material_fits(check, primitive);
     if (indices) check_indices(check, indices);
     check_mode(check, primitive, count);

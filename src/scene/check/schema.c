@@ -4,14 +4,21 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "scene/check/schema_extensions.h"
+#include "scene/gltf/accessor.h"
 #include "scene/gltf/document.h"
 #include "scene/gltf/extras.h"
 #include "text/nearest_word.h"
 
 #define MEMBERS_MAX 64 /* of one object that are compared with an unknown one */
+
+static bool is_component_type(const char *key)
+{
+    return key && strcmp(key, "componentType") == 0;
+}
 
 /* The value found, for "is ..., ... is wanted". */
 static const char *describe(const GltfValue *value, char *buffer, size_t size)
@@ -19,7 +26,12 @@ static const char *describe(const GltfValue *value, char *buffer, size_t size)
     switch (value->kind) {
     case GLTF_NULL: return "null";
     case GLTF_BOOLEAN: return value->number != 0 ? "true" : "false";
-    case GLTF_NUMBER: snprintf(buffer, size, "%.16g", value->number); return buffer;
+    case GLTF_NUMBER:
+        if (is_component_type(value->key) && tree_is_integer(value) && value->number >= 5120 &&
+            value->number <= 5126)
+            return component_name((int)value->number);
+        snprintf(buffer, size, "%.16g", value->number);
+        return buffer;
     case GLTF_STRING: snprintf(buffer, size, "\"%.80s\"", value->text); return buffer;
     case GLTF_ARRAY: snprintf(buffer, size, "an array of %d", value->count); return buffer;
     case GLTF_OBJECT: return "an object";
@@ -89,6 +101,19 @@ static bool is_among(const char *words, const char *text)
     return false;
 }
 
+/* "a|b|c"; component types by their names as well. */
+static void list_choices(const Rule *rule, char *out, size_t size)
+{
+    size_t used = (size_t)snprintf(out, size, "one of ");
+    if (!is_component_type(rule->name)) {
+        snprintf(out + used, size - used, "%s", rule->of);
+        return;
+    }
+    for (const char *word = rule->of; *word; word += 4 + (word[4] == '|'))
+        used += (size_t)snprintf(out + used, size - used, "%s%s", word == rule->of ? "" : "|",
+                                 component_name(atoi(word)));
+}
+
 static void check_choice(const DocumentCheck *check, const GltfValue *value, const Rule *rule)
 {
     char text[32], wanted[160];
@@ -98,7 +123,7 @@ static void check_choice(const DocumentCheck *check, const GltfValue *value, con
         if (is_among(rule->of, text)) return;
     }
     if (!is_code && value->kind == GLTF_STRING && is_among(rule->of, value->text)) return;
-    snprintf(wanted, sizeof wanted, "one of %s", rule->of);
+    list_choices(rule, wanted, sizeof wanted);
     DocumentCheck milder = *check;
     bool is_kind = is_code ? tree_is_integer(value) : value->kind == GLTF_STRING;
     if (is_kind && !(rule->flags & RULE_CLOSED)) milder.severity = SEVERITY_WARNING;

@@ -3,6 +3,7 @@
 #include "scene/check/schema_core.h"
 
 #include "scene/check/check_animation.h"
+#include "scene/check/check_blender.h"
 #include "scene/check/check_bytes.h"
 #include "scene/check/check_document.h"
 #include "scene/check/check_graph.h"
@@ -174,7 +175,7 @@ static const Schema SCHEMA_ASSET = {"asset", false, check_asset, RULES(
     {"version", RULE_TEXT, .flags = RULE_REQUIRED},
     {"minVersion", .kind = RULE_TEXT})};
 
-const Schema SCHEMA_ROOT = {"document", false, NULL, RULES(
+const Schema SCHEMA_ROOT = {"document", false, check_blender, RULES(
     {"extensionsUsed", .kind = RULE_TEXTS},
     {"extensionsRequired", RULE_TEXTS, .needs = "extensionsUsed"},
     {"accessors", RULE_OBJECTS, .schema = &SCHEMA_ACCESSOR},

@@ -9,6 +9,7 @@
 #include "scene/check/check_graph.h"
 #include "scene/check/check_material.h"
 #include "scene/check/check_optics.h"
+#include "scene/check/foreign_extensions.h"
 #include "scene/check/schema_core.h"
 #include "scene/gltf/document.h"
 
@@ -354,6 +355,11 @@ static const Schema SCHEMA_DRACO = {DRACO_EXTENSION, false, check_draco, RULES(
     {"bufferView", RULE_INDEX, .flags = RULE_REQUIRED, .of = "bufferViews"},
     {"attributes", RULE_ANY, .flags = RULE_REQUIRED})};
 
+/* ---- Microsoft Flight Simulator's ------------------------------------------------------- */
+
+static const Schema SCHEMA_NORMAL_CONVENTION = {NORMAL_CONVENTION_EXTENSION, false, NULL, RULES(
+    {"tangent_space_convention", RULE_CHOICE, .flags = RULE_REQUIRED, .of = "DirectX|OpenGL"})};
+
 /* ---- where they stand ------------------------------------------------------------------ */
 
 static const ExtensionRule EXTENSIONS[] = {
@@ -388,6 +394,8 @@ static const ExtensionRule EXTENSIONS[] = {
     {"PARHELION_spectrum", "material", &SCHEMA_SPECTRUM},
     {"PARHELION_glazing", "material", &SCHEMA_GLAZING},
     {"PARHELION_coating", "material", &SCHEMA_COATING},
+    {NORMAL_CONVENTION_EXTENSION, "asset", &SCHEMA_NORMAL_CONVENTION},
+    {NORMAL_CONVENTION_EXTENSION, "document", &SCHEMA_NORMAL_CONVENTION},
     {"OpenMaterial_material_parameters", "material", NULL}, /* check_optics.c looks into it */
     {"OpenMaterial_asset_info", NULL, NULL},
     /* Without effect on the picture: who made it, what a hand may do with a node. */
@@ -428,13 +436,13 @@ void check_extensions(const DocumentCheck *check, const GltfValue *root)
     const GltfValue *used = tree_member(root, "extensionsUsed");
     const GltfValue *required = tree_member(root, "extensionsRequired");
     const GltfValue *name = tree_items(root, "extensionsRequired");
+    char note[FOREIGN_NOTE_SIZE];
     for (; name; name = tree_next(name)) {
         if (name->kind != GLTF_STRING) continue;
         if (!extension_is_supported(name->text))
             check_fails(check, name,
-                        "the file requires the extension \"%.80s\", which is not "
-                        "supported",
-                        name->text);
+                        "the file requires the extension \"%.80s\"%s, which is not supported",
+                        name->text, foreign_extension_note(name->text, note));
         if (!tree_lists(used, name->text))
             check_warns(check, name, "\"%.80s\" is required but not listed in extensionsUsed",
                         name->text);
@@ -443,9 +451,8 @@ void check_extensions(const DocumentCheck *check, const GltfValue *root)
         if (name->kind != GLTF_STRING || tree_lists(required, name->text)) continue;
         if (!extension_is_supported(name->text))
             check_warns(check, name,
-                        "the extension \"%.80s\" is not supported: what it adds is "
-                        "not shown",
-                        name->text);
+                        "the extension \"%.80s\"%s is not supported: what it adds is not shown",
+                        name->text, foreign_extension_note(name->text, note));
         else if (strcmp(name->text, "KHR_mesh_quantization") == 0)
             check_warns(check, name,
                         "KHR_mesh_quantization must be listed in extensionsRequired");

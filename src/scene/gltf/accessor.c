@@ -20,6 +20,15 @@ size_t component_size(int component_type)
     }
 }
 
+const char *component_name(int component_type)
+{
+    static const char *const NAMES[] = {
+        "BYTE (5120)", "UNSIGNED_BYTE (5121)", "SHORT (5122)", "UNSIGNED_SHORT (5123)",
+        "INT (5124)", "UNSIGNED_INT (5125)", "FLOAT (5126)"};
+    bool is_known = component_type >= TYPE_BYTE && component_type <= TYPE_FLOAT;
+    return is_known ? NAMES[component_type - TYPE_BYTE] : "unknown";
+}
+
 /* Bytes from one column of a matrix to the next: columns start at multiples of four. */
 static size_t column_stride(const GltfAccessor *accessor)
 {

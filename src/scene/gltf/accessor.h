@@ -21,6 +21,9 @@ size_t accessor_element_size(const GltfAccessor *accessor);
 /* The same without the padding behind the last column, which a buffer need not have. */
 size_t accessor_element_extent(const GltfAccessor *accessor);
 size_t component_size(int component_type); /* 0: no such type */
+
+/* For messages: "FLOAT (5126)"; "unknown" where glTF and its extensions have no such type. */
+const char *component_name(int component_type);
 double accessor_numbers(const GltfAccessor *accessor); /* how many it has */
 bool accessor_is_float(const GltfAccessor *accessor); /* else its numbers are integers */
 

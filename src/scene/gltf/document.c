@@ -10,6 +10,7 @@
 #include <xxhash.h>
 
 #include "base/reference.h"
+#include "text/name_hint.h"
 #include "text/uri.h"
 
 /* ---- problems -------------------------------------------------------------------------- */
@@ -109,6 +110,14 @@ static void report_read(void *user, size_t done, size_t size)
     load_progress_add(load, (double)done - load->progress_done);
 }
 
+/* Adds the name that may be meant, of a file that is not there. Always false. */
+static bool hint_name(Loader *load, const char *path, Error *err)
+{
+    const char *hint = file_exists(path) ? "" : name_hint(path, &load->scratch);
+    const Error was = *err;
+    return *hint ? error_at(err, was.code, was.file, was.path, "%s%s", was.text, hint) : false;
+}
+
 bool load_read(Loader *load, const char *path, Arena *arena, FileBytes *out, Error *err)
 {
     bool is_step = !load->has_step; /* not within another one */
@@ -117,7 +126,7 @@ bool load_read(Loader *load, const char *path, Arena *arena, FileBytes *out, Err
     if (is_step) load_progress_begin(load, "read", "bytes", 0);
     bool is_read = file_read_pieces(path, &how, arena, out, err);
     if (is_step) load_progress_end(load);
-    if (!is_read) return false;
+    if (!is_read) return hint_name(load, path, err);
     note_input(load, path, *out);
     return true;
 }

@@ -9,6 +9,7 @@
 
 #define MESHOPT_EXTENSION "EXT_meshopt_compression" /* packed views (gltf/buffer_view.h) */
 #define INSTANCING_EXTENSION "EXT_mesh_gpu_instancing" /* meshes in many places */
+#define NORMAL_CONVENTION_EXTENSION "ASOBO_normal_map_convention"
 #define DRACO_EXTENSION "KHR_draco_mesh_compression" /* packed meshes (gltf/packed_mesh.h) */
 
 /* A fault or warning at a place of the document (NULL: the file as a whole). file_error is

@@ -22,8 +22,6 @@ static void add_camera(GltfFile *file, const GltfValue *node, const Transform *w
     const GltfValue *flat = tree_member(camera, "orthographic");
     if (!eye && !flat) return; /* of a type that an extension adds */
     float xmag = fabsf(tree_float(flat, "xmag", 1)), ymag = fabsf(tree_float(flat, "ymag", 1));
-    /* a mirrored node's camera takes no mirrored picture (glTF 2.0, 3.10.2) */
-    float side = transform_determinant(world) < 0 ? -1.0f : 1.0f;
     *(SceneCamera *)list_add(&file->load->cameras, &file->load->scratch) =
         (SceneCamera){.node_name = load_keep(file->load, tree_text(node, "name", "")),
                       .camera_name = load_keep(file->load, tree_text(camera, "name", "")),
@@ -33,9 +31,7 @@ static void add_camera(GltfFile *file, const GltfValue *node, const Transform *w
                       .aspect = eye ? tree_float(eye, "aspectRatio", 0) : xmag / ymag,
                       .znear = tree_float(eye ? eye : flat, "znear", 0),
                       .zfar = tree_float(eye ? eye : flat, "zfar", INFINITY),
-                      .world_from_camera = {vec3_scale(vec3_normalize(world->x), side),
-                                            vec3_normalize(world->y),
-                                            vec3_normalize(world->z), world->origin}};
+                      .world_from_camera = nodes_camera_place(file, node, world)};
 }
 
 static void add_light(GltfFile *file, const GltfValue *node, const Transform *world)

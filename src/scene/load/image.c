@@ -116,8 +116,9 @@ static bool image_bytes(GltfFile *file, const GltfValue *image, FileBytes *bytes
                file_error(file, uri, "%s", err.text);
     if (document_is_elsewhere(file, uri, severity)) return false;
     if (!document_resolve(file, uri, name)) return false;
-    return load_read(file->load, *name, scratch, bytes, &err) ||
-           file_error(file, uri, "%s: %s", *name, err.text);
+    bool is_read = load_read(file->load, *name, scratch, bytes, &err);
+    if (!is_read) file_problem(file, severity, uri, "%s: %s", *name, err.text);
+    return is_read;
 }
 
 /* What a file of codes says that they mean, and which way up; "" when that is usual. */

@@ -40,8 +40,8 @@ static Material default_material(const char *name)
                       .clearcoat_texture = none,
                       .clearcoat_roughness_texture = none,
                       .clearcoat_normal_texture = none,
-                      .normal_scale = 1,
-                      .clearcoat_normal_scale = 1,
+                      .normal_scale = {1, 1},
+                      .clearcoat_normal_scale = {1, 1},
                       .alpha_cutoff = 0.5f,
                       .ior = 1.5f,
                       .specular = 1,
@@ -62,6 +62,19 @@ static AlphaMode alpha_mode(const char *text)
                                         : ALPHA_OPAQUE;
 }
 
+/* glTF's normal maps are green where they lean up; those of DirectX where they lean down, which
+ * Microsoft Flight Simulator's extension says of all of a file. */
+static Vec2 normal_scale(const GltfFile *file, const GltfValue *info)
+{
+    const GltfValue *asset = tree_member(file->root, "asset");
+    const GltfValue *of_asset = tree_extension(asset, NORMAL_CONVENTION_EXTENSION);
+    const GltfValue *told =
+        of_asset ? of_asset : tree_extension(file->root, NORMAL_CONVENTION_EXTENSION);
+    bool  is_down = strcmp(tree_text(told, "tangent_space_convention", ""), "DirectX") == 0;
+    float scale = tree_float(info, "scale", 1);
+    return (Vec2){scale, is_down ? -scale : scale};
+}
+
 static void read_core(GltfFile *file, const GltfValue *value, Material *m)
 {
     const GltfValue *pbr = tree_member(value, "pbrMetallicRoughness");
@@ -73,7 +86,7 @@ static void read_core(GltfFile *file, const GltfValue *value, Material *m)
     m->metallic_roughness_texture =
         texture_slot(file, tree_member(pbr, "metallicRoughnessTexture"));
     m->normal_texture = texture_slot(file, normal);
-    m->normal_scale = tree_float(normal, "scale", 1);
+    m->normal_scale = normal_scale(file, normal);
     m->emissive_texture = texture_slot(file, tree_member(value, "emissiveTexture"));
     tree_floats(value, "emissiveFactor", 3, m->emissive_cd_m2);
     m->alpha_mode = alpha_mode(tree_text(value, "alphaMode", "OPAQUE"));
@@ -93,7 +106,7 @@ static void read_clearcoat(GltfFile *file, const GltfValue *coat, Material *m)
     m->clearcoat_roughness_texture =
         texture_slot(file, tree_member(coat, "clearcoatRoughnessTexture"));
     m->clearcoat_normal_texture = texture_slot(file, normal);
-    m->clearcoat_normal_scale = tree_float(normal, "scale", 1);
+    m->clearcoat_normal_scale = normal_scale(file, normal);
 }
 
 static void read_diffuse_transmission(GltfFile *file, const GltfValue *across, Material *m)

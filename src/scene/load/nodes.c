@@ -64,6 +64,72 @@ static NodePlace place_in_parent(const GltfValue *node, const NodePose *pose)
     return place_from_trs(t, q, s);
 }
 
+/* ---- cameras --------------------------------------------------------------------------- */
+
+/* The turn in a matrix: of the mirrors that it may hold the one that leaves the smallest. */
+static Transform unscaled_matrix(const Transform *m)
+{
+    Transform turn = {vec3_normalize(m->x), vec3_normalize(m->y), vec3_normalize(m->z),
+                      vec3(0, 0, 0)};
+    Vec3 *column[3] = {&turn.x, &turn.y, &turn.z};
+    float own[3] = {turn.x.x, turn.y.y, turn.z.z}, trace = own[0] + own[1] + own[2];
+    int   least = own[1] < own[0] ? 1 : 0;
+    if (!(transform_determinant(m) < 0)) return turn;
+    if (own[2] < own[least]) least = 2;
+    bool is_all = -trace > trace - 2 * own[least];
+    for (int i = 0; i < 3; i++)
+        if (is_all || i == least) *column[i] = vec3_neg(*column[i]);
+    return turn;
+}
+
+/* The node in its parent, and what is left of it without a scale. */
+static void camera_step(const GltfFile *file, const GltfValue *node, Transform *place,
+                        Transform *unscaled)
+{
+    static const float one[3] = {1, 1, 1};
+    NodePose pose = file->poses ? file->poses[node->index] : (NodePose){0};
+    *place = parent_from_node(node, &pose);
+    pose.scale = one;
+    *unscaled = tree_member(node, "matrix") ? unscaled_matrix(place)
+                                            : parent_from_node(node, &pose);
+}
+
+/* The column's direction; against `turn`, where a scale below 0 has turned it, the other one.
+ * False: a shear has bent it away from there, or a scale of 0 has left none. */
+static bool unscale_axis(Vec3 turn, Vec3 own, Vec3 now, Vec3 *out)
+{
+    float along = vec3_dot(vec3_normalize(own), turn);
+    *out = vec3_normalize(along < 0 ? vec3_neg(now) : now);
+    return fabsf(along) > 0.9999f;
+}
+
+static bool is_moved(Vec3 own, Vec3 now)
+{
+    return vec3_length(vec3_sub(own, now)) > 1e-4f * vec3_length(own);
+}
+
+Transform nodes_camera_place(const GltfFile *file, const GltfValue *node,
+                             const Transform *world)
+{
+    const GltfValue *nodes = node->parent;
+    Transform own, turn, place, step, out = *world;
+    camera_step(file, node, &own, &turn);
+    for (int p = file->parents[node->index]; p != NO_ID; p = file->parents[p]) {
+        camera_step(file, &nodes->items[p], &place, &step);
+        own = transform_compose(&place, &own);
+        turn = transform_compose(&step, &turn);
+    }
+    bool is_square = unscale_axis(turn.x, own.x, world->x, &out.x);
+    is_square &= unscale_axis(turn.y, own.y, world->y, &out.y);
+    is_square &= unscale_axis(turn.z, own.z, world->z, &out.z);
+    if (!is_square && !is_moved(own.x, world->x) && !is_moved(own.y, world->y) &&
+        !is_moved(own.z, world->z))
+        out = (Transform){turn.x, turn.y, turn.z, world->origin};
+    /* a change mirrors the scene: the picture stays the right way round */
+    if (transform_determinant(&out) < 0) out.x = vec3_neg(out.x);
+    return out;
+}
+
 /* ---- the order of nodes ---------------------------------------------------------------- */
 
 /* Parents before children, siblings in the file's order, below the nodes of `roots` (an array

@@ -22,5 +22,10 @@ void nodes_place(GltfFile *file);
 /* From the world to the scene, whose origin is known now: sets world_from_node. */
 void nodes_enter_scene(GltfFile *file);
 
+/* The place of a camera's node, unit axes: the scaling of it and of its parents is ignored
+ * (glTF 2.0, 3.10.2). world: where the node stands, after changes of the scene. */
+Transform nodes_camera_place(const GltfFile *file, const GltfValue *node,
+                             const Transform *world);
+
 /* The place of an instance in the frame that the nodes' are in. */
 NodePlace nodes_instance_place(const GltfFile *file, int node, int instance);

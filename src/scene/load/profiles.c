@@ -6,6 +6,7 @@
 #include "import/luminaire/ies.h"
 #include "import/luminaire/luminaire_read.h"
 #include "scene/gltf/document.h"
+#include "text/name_hint.h"
 #include "text/uri.h"
 
 #define EXTENSION "EXT_lights_ies"
@@ -33,7 +34,9 @@ static const char *read_tilt_file(Loader *load, const LightProfile *profile, boo
     if (!has_folder) return "nothing stands beside a file inside a scene";
     if (strpbrk(name, "/\\:")) return "only a file in the same folder is read";
     const char *path = path_beside(profile->file, name, &load->scratch);
-    if (!file_exists(path)) return "there is no such file beside it";
+    if (!file_exists(path))
+        return arena_format(&load->scratch, "there is no such file beside it%s",
+                            name_hint(path, &load->scratch));
     luminaire->tilt.file = NULL;
     if (load_read(load, path, &load->scratch, &bytes, err))
         ies_read_tilt(path, &bytes, &notes, &luminaire->tilt, err);
