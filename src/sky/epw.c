@@ -31,7 +31,7 @@ enum {
 #define LUX_MISSING 999900.0
 #define MISSING_MOST 9999999.0 /* nines that stand for a missing value, in any number */
 
-/* A quoted field may hold commas: its text without the quotes, or NULL. *behind: what follows. */
+/* A quoted field may hold commas: its text without the quotes, or NULL; *behind: the rest. */
 static char *quoted_field(char *at, char **behind)
 {
     if (*at != '"') return NULL;
@@ -209,8 +209,8 @@ static bool read_hour(EpwReader *reader, char *field[], int count, Weather *weat
     return true;
 }
 
-/* Reads PVGIS's comment from the header. True at its last line (DATA PERIODS, number of periods,
- * rows in an hour). */
+/* Reads PVGIS's comment from the header. True at its last line (DATA PERIODS, number of
+ * periods, rows in an hour). */
 static bool read_header(char *field[], int count, Weather *out)
 {
     static const char offset[] = "Irradiance Time Offset (h):";

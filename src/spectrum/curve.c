@@ -32,21 +32,16 @@ void curve_from_points(const double *nm, const double *value, int count, Curve *
 double curve_held_share(const double *nm, const double *value, int count)
 {
     Curve  curve;
-    double all[3] = {0, 0, 0}, held[3] = {0, 0, 0}, most = 0;
+    double all = 0, held = 0;
     curve_from_points(nm, value, count, &curve);
     for (int i = 0; i < CURVE_COUNT; i++) {
         const SpectralRow *row = &spectral_table[CURVE_FIRST_NM + i - SPECTRAL_FIRST_NM];
-        double weight[3] = {(double)row->x, (double)row->y, (double)row->z};
         bool   is_held = CURVE_FIRST_NM + i < nm[0] || CURVE_FIRST_NM + i > nm[count - 1];
-        for (int c = 0; c < 3; c++) {
-            double seen = weight[c] * fabs((double)curve.value[i]);
-            all[c] += seen;
-            if (is_held) held[c] += seen;
-        }
+        double seen = (double)(row->x + row->y + row->z) * fabs((double)curve.value[i]);
+        all += seen;
+        if (is_held) held += seen;
     }
-    for (int c = 0; c < 3; c++)
-        if (all[c] > 0) most = fmax(most, held[c] / all[c]);
-    return most;
+    return all > 0 ? held / all : 0;
 }
 
 #define COLUMNS_MAX 2 /* beside the wavelength */
@@ -64,8 +59,8 @@ static bool is_blank(const char *text)
     return *text == '\0';
 }
 
-/* The wavelength and `columns` numbers, with a comma, semicolon or white space between, the same
- * in all of the row. */
+/* The wavelength and `columns` numbers, with a comma, semicolon or white space between, the
+ * same in all of the row. */
 static bool parse_row(const char *line, int columns, double number[1 + COLUMNS_MAX])
 {
     char between[1 + COLUMNS_MAX] = {0};

@@ -34,10 +34,10 @@ typedef enum CurveRange {
 #define CURVE_SEEN_FIRST_NM 400
 #define CURVE_SEEN_LAST_NM 700
 
-#define CURVE_HELD_MOST 0.05 /* more is worth a warning */
+#define CURVE_HELD_MOST 0.02 /* more is worth a warning */
 
-/* Under even light, the largest share of X, Y or Z that stands for wavelengths outside the
- * measured ones, where the end values hold. */
+/* Under even light, the share of X + Y + Z at wavelengths outside the measured ones, if the end
+ * values hold there. */
 double curve_held_share(const double *nm, const double *value, int count);
 
 /* A CSV of `nm,value` rows (header line and # comments allowed) in memory, terminated; path: of

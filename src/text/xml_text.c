@@ -45,7 +45,11 @@ typedef struct XmlBytes {
 
 static XmlBytes find_encoding(const char *file, const FileBytes *bytes)
 {
-    static const struct { const char *bytes; size_t size, mark; XmlEncoding encoding; } heads[] = {
+    static const struct {
+        const char *bytes;
+        size_t      size, mark;
+        XmlEncoding encoding;
+    } heads[] = {
         {"\xFF\xFE\0\0", 4, 4, XML_UTF32}, {"\0\0\xFE\xFF", 4, 4, XML_UTF32},
         {"<\0\0\0", 4, 0, XML_UTF32},      {"\0\0\0<", 4, 0, XML_UTF32},
         {"\xEF\xBB\xBF", 3, 3, XML_UTF8},  {"\xFF\xFE", 2, 2, XML_UTF16LE},

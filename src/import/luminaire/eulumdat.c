@@ -11,7 +11,7 @@
 #include "import/luminaire/luminaire_opening.h"
 #include "import/luminaire/luminaire_scan.h"
 
-#define OUTPUT_RATIO_MOST 120.0 /* per cent: a fluorescent lamp may give more in its luminaire */
+#define OUTPUT_RATIO_MOST 120.0 /* per cent: fluorescent lamps may give more in a luminaire */
 
 static bool next_line(LuminaireScan *in, const char *what, TextLine *out)
 {
@@ -178,8 +178,8 @@ static bool check_symmetry(LuminaireScan *in, const EulumdatHead *head, const Lu
     const double *wanted = ends[head->symmetry];
     double first = out->c_deg[0], last = out->c_deg[out->planes - 1];
     return head->symmetry < 2 || (first == wanted[0] && last == wanted[1]) ||
-           luminaire_scan_fail(in, "C-planes of symmetry %d go from %g to %g, required %g to %g "
-                               "degrees", head->symmetry, first, last, wanted[0], wanted[1]);
+           luminaire_scan_fail(in, "C-planes of symmetry %d go from %g to %g, required %g to "
+                               "%g degrees", head->symmetry, first, last, wanted[0], wanted[1]);
 }
 
 static bool read_planes(LuminaireScan *in, const EulumdatHead *head, Luminaire *out)

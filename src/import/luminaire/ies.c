@@ -107,7 +107,7 @@ static bool hint_at_comma(const LuminaireScan *in)
         if (!has_decimal_comma(in->text.line[i], &word)) continue;
         size_t length = strlen(in->err->text);
         snprintf(in->err->text + length, sizeof in->err->text - length,
-                 " — line %d has '%.*s': if that is a decimal comma, required is a decimal point",
+                 " — line %d has '%.*s': if that is a decimal comma, required is a point",
                  i + 1, word.length < 40 ? word.length : 40, word.text);
         return false;
     }
@@ -194,8 +194,8 @@ static bool read_factors(LuminaireScan *in, LuminaireTilt *out)
         if (!next_number(in, "a tilt factor", 0, 1e3, &tilt.factor[i])) return false;
     double first = tilt.angle_deg[0], last = tilt.angle_deg[tilt.count - 1];
     if (first != 0 || (last != 90 && last != 180))
-        return luminaire_scan_fail(in, "the tilt angles go from %g to %g, required 0 to 90 or 0 "
-                                   "to 180 degrees", first, last);
+        return luminaire_scan_fail(in, "the tilt angles go from %g to %g, required 0 to 90 or "
+                                   "0 to 180 degrees", first, last);
     *out = tilt;
     return true;
 }

@@ -45,9 +45,9 @@ static bool read_curve(RequestReading *reading, const JsonView *view, ReviewGlas
     if (!lets_some)
         return field_fails(view, "transmittance", err, "lets no light through, wanted some");
     if (held > CURVE_HELD_MOST)
-        problems_add(reading->problems, SEVERITY_WARNING, path, "", "measured wavelengths leave "
-                     "out %.0f %% of what is seen, required %d to %d nm: its end values are "
-                     "held there", 100 * held, CURVE_SEEN_FIRST_NM, CURVE_SEEN_LAST_NM);
+        problems_add(reading->problems, SEVERITY_WARNING, path, "", "measured wavelengths "
+                     "leave out %.0f %% of what is seen, required %d to %d nm: its end values "
+                     "are held there", 100 * held, CURVE_SEEN_FIRST_NM, CURVE_SEEN_LAST_NM);
     out->curve = curve;
     out->words = arena_format(arena, "sunglasses as %s has them", path_name(path));
     return true;

@@ -178,7 +178,8 @@ static const char *rows_note(const ReviewWeather *weather, Arena *arena)
     int            count = 0, line = 0;
     for (int i = 0; i < of->count; i++) {
         Arena       scratch = *arena;
-        const char *doubt = weather_clock_row_doubt(of, &weather->clock, &of->hour[i], &scratch);
+        const char *doubt =
+            weather_clock_row_doubt(of, &weather->clock, &of->hour[i], &scratch);
         if (!doubt || count++) continue;
         *arena = scratch;
         first = doubt, line = of->hour[i].line;
