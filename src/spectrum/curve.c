@@ -76,9 +76,11 @@ static bool parse_row(const char *line, int columns, double number[1 + COLUMNS_M
     return is_blank(line);
 }
 
-/* Of a line that is no row: a comma between digits may be the reason. */
+/* Of a line that is no row: a comma between digits may be the reason, unless commas part
+ * numbers with points. */
 static const char *comma_hint(const char *line)
 {
+    if (strchr(line, '.') && !strchr(line, ';')) return "";
     for (const char *at = strchr(line, ','); at; at = strchr(at + 1, ','))
         if (at > line && isdigit((unsigned char)at[-1]) && isdigit((unsigned char)at[1]))
             return " — a decimal comma? Required are decimal points";

@@ -32,9 +32,10 @@ static char find_separator(const char *text, const char *stop)
     return ',';
 }
 
-/* Is a comma between digits the reason that a row does not fit? */
+/* Is a comma between digits, without a point, the reason that a row does not fit? */
 static const char *comma_hint(const char *text, const char *stop)
 {
+    if (memchr(text, '.', (size_t)(stop - text))) return "";
     for (const char *at = text + 1; at + 1 < stop; at++)
         if (*at == ',' && isdigit((unsigned char)at[-1]) && isdigit((unsigned char)at[1]))
             return " — a decimal comma? Required are decimal points";

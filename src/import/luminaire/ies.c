@@ -80,7 +80,8 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-/* A word of a line that has one comma, between digits: a list has more, or blanks behind. */
+/* A word of a line that has one comma, between digits, and no point: a list has more, or blanks
+ * behind. */
 static bool has_decimal_comma(TextLine line, TextCell *word)
 {
     const char *at = line.text, *end = at + line.length;
@@ -88,7 +89,7 @@ static bool has_decimal_comma(TextLine line, TextCell *word)
         const char *begin = at, *comma = NULL;
         int         commas = 0;
         for (; at < end && !is_blank(*at); at++)
-            if (*at == ',') commas++, comma = at;
+            if (*at == ',' || *at == '.') commas++, comma = *at == ',' ? at : comma;
         *word = (TextCell){begin, (int)(at - begin)};
         if (commas == 1 && comma > begin && comma + 1 < at &&
             isdigit((unsigned char)comma[-1]) && isdigit((unsigned char)comma[1]))
