@@ -10,7 +10,6 @@
 
 #include "text/nearest_word.h"
 
-#define HEAD_BYTES 4096
 #define FORMATS_MAX 64
 
 const Importer *const importers[] = {
@@ -47,7 +46,7 @@ static bool read_head(const char *file, char *head, size_t *size, Error *err)
     FILE *stream = fopen(file, "rb");
     if (!stream)
         return error_at(err, ERROR_INPUT, file, "", "cannot be opened: %s", strerror(errno));
-    *size = fread(head, 1, HEAD_BYTES, stream);
+    *size = fread(head, 1, IMPORT_HEAD_BYTES, stream);
     head[*size] = 0;
     bool ok = !ferror(stream);
     fclose(stream);
@@ -56,7 +55,7 @@ static bool read_head(const char *file, char *head, size_t *size, Error *err)
 
 bool import_file(const char *file, const ImportOptions *options, ImportSet *set, Error *err)
 {
-    char   head[HEAD_BYTES + 1];
+    char   head[IMPORT_HEAD_BYTES + 1];
     size_t size = 0;
     if (!read_head(file, head, &size, err)) return false;
     if (!size) return error_at(err, ERROR_INPUT, file, "", "is empty");

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "import/primaries.h"
 
+#include <math.h>
 #include <string.h>
 
+#define VALUE_MOST 1e12
 #define COLUMNS 5 /* wavelength, red, green, blue, black */
 
 typedef struct PrimariesFile {
@@ -61,7 +63,8 @@ static bool read_row(PrimariesFile *in, int at)
     for (int c = 0; c < COLUMNS; c++) {
         if (in->column[c] < 0) continue;
         TextCell cell = in->cell[in->column[c]];
-        if (!text_number(cell, in->dialect.decimal, &in->value[c][in->rows]))
+        double *value = &in->value[c][in->rows];
+        if (!text_number(cell, in->dialect.decimal, value) || fabs(*value) > VALUE_MOST)
             return error_at(in->err, ERROR_INPUT, in->text->file, place,
                             "holds '%.*s', wanted a number",
                             cell.length < 40 ? cell.length : 40, cell.text);

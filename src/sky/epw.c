@@ -21,14 +21,28 @@ typedef struct EpwReader {
 
 /* Fields of the data dictionary, counted from 0. */
 enum {
-    FIELD_MINUTE = 4, FIELD_DRY_BULB = 6, FIELD_DEW_POINT = 7, FIELD_PRESSURE = 9,
-    FIELD_GLOBAL = 13, FIELD_DIRECT = 14, FIELD_DIFFUSE = 15, FIELD_DIRECT_LUX = 17,
-    FIELD_DIFFUSE_LUX = 18, FIELD_WATER = 28, FIELD_AEROSOL = 29, FIELDS_LEAST = 16
+    FIELD_MINUTE = 4, FIELD_DEW_POINT = 7, FIELD_GLOBAL = 13, FIELD_DIRECT = 14,
+    FIELD_DIFFUSE = 15, FIELD_DIRECT_LUX = 17, FIELD_DIFFUSE_LUX = 18, FIELDS_LEAST = 16,
+    FIELDS_MOST = 35, LOCATION_FIELDS = 10
 };
 
 #define DEW_POINT_MISSING 99.9
-#define DEW_POINT_MOST 70.0 /* of the data dictionary */
+#define W_M2_MISSING 9999.0
 #define LUX_MISSING 999900.0
+#define MISSING_MOST 9999999.0 /* nines that stand for a missing value, in any number */
+
+/* A quoted field may hold commas: its text without the quotes, or NULL; *behind: the rest. */
+static char *quoted_field(char *at, char **behind)
+{
+    if (*at != '"') return NULL;
+    for (char *quote = at + 1; (quote = strchr(quote, '"')); quote++) {
+        if (quote[1] && quote[1] != ',') continue;
+        *quote = 0;
+        *behind = quote + 1;
+        return at + 1;
+    }
+    return NULL;
+}
 
 /* Cuts the next line off and into fields; false at the end. */
 static bool next_line(EpwReader *reader, char *field[FIELDS_MAX], int *count)
@@ -43,7 +57,8 @@ static bool next_line(EpwReader *reader, char *field[FIELDS_MAX], int *count)
     reader->line++;
     *count = 0;
     for (char *at = line; at && *count < FIELDS_MAX;) {
-        field[(*count)++] = at;
+        char *quoted = quoted_field(at, &at);
+        field[(*count)++] = quoted ? quoted : at;
         at = strchr(at, ',');
         if (at) *at++ = 0;
     }
@@ -57,15 +72,35 @@ static bool bad_line(const EpwReader *reader, Error *err, const char *found, con
                     "found '%.40s', wanted %s", found, wanted);
 }
 
-static bool number(const EpwReader *reader, const char *text, double range[2], double *out,
+/* A field, what may stand in it, and from where on a value is none. */
+typedef struct EpwField {
+    const char *name;
+    double      low, high, missing; /* missing: above high; 0: every row has it */
+    bool        is_whole;
+} EpwField;
+
+static bool bad_field(const EpwReader *reader, EpwField field, const char *text, Error *err)
+{
+    const char *or_none = field.missing > 0 ? arena_format(reader->arena, ", or %g: none",
+                                                           field.missing) : "";
+    return bad_line(reader, err, text, arena_format(reader->arena, "%s, a %snumber from %g to "
+                                                    "%g%s", field.name,
+                                                    field.is_whole ? "whole " : "", field.low,
+                                                    field.high, or_none));
+}
+
+/* *out: the number; of a missing one field.missing or more. */
+static bool number(const EpwReader *reader, EpwField field, const char *text, double *out,
                    Error *err)
 {
     char  *after;
     double value = strtod(text, &after);
-    if (after == text || !isfinite(value) || value < range[0] || value > range[1])
-        return bad_line(
-            reader, err, text,
-            arena_format(reader->arena, "a number from %g to %g", range[0], range[1]));
+    bool   is_number = after != text && !after[strspn(after, " \t")] && isfinite(value) &&
+                     !strpbrk(text, "xX");
+    bool is_none = field.missing > 0 && value >= field.missing && value <= MISSING_MOST;
+    bool is_within = value >= field.low && value <= field.high;
+    if (!is_number || (!is_none && !is_within) || (field.is_whole && value != floor(value)))
+        return bad_field(reader, field, text, err);
     *out = value;
     return true;
 }
@@ -74,77 +109,108 @@ static bool read_location(EpwReader *reader, char *field[], int count, Weather *
 {
     double *const target[4] = {&out->place.latitude_deg, &out->place.longitude_deg,
                                &out->zone_h, &out->place.altitude_m};
-    double range[4][2] = {{-90, 90}, {-180, 180}, {-14, 14}, {-500, 9000}};
-    if (count < 10 || strcmp(field[0], "LOCATION"))
+    static const EpwField place[4] = {{"the latitude", -90, 90, 0, false},
+                                      {"the longitude", -180, 180, 0, false},
+                                      {"the zone", -14, 14, 0, false},
+                                      {"the elevation", -500, 9000, 0, false}};
+    while (count > LOCATION_FIELDS && !field[count - 1][0]) count--;
+    if (count < LOCATION_FIELDS || strcmp(field[0], "LOCATION"))
         return bad_line(reader, err, count ? field[0] : "",
                         "LOCATION,city,...,latitude,longitude,zone,elevation");
+    if (count > LOCATION_FIELDS)
+        return bad_line(reader, err, arena_format(reader->arena, "%d fields", count),
+                        "the 10 of LOCATION: a name that holds a comma stands in quotes");
     for (int i = 0; i < 4; i++)
-        if (!number(reader, field[6 + i], range[i], target[i], err)) return false;
+        if (!number(reader, place[i], field[6 + i], target[i], err)) return false;
     out->city = arena_string(reader->arena, field[1], strlen(field[1]));
     return true;
 }
 
-/* 9999 and more stand for a missing value. */
-static double or_missing(const char *text, double missing)
+/* An amount of light: negative where it is missing. At the row's end files may leave it out. */
+static bool read_light(const EpwReader *reader, EpwField field, const char *text, double *out,
+                       Error *err)
 {
-    double value = strtod(text, NULL);
-    return isfinite(value) && value < missing ? value : -1;
+    *out = -1;
+    if (!text || !*text) return true;
+    if (!number(reader, field, text, out, err)) return false;
+    if (*out >= field.missing) *out = -1;
+    return true;
 }
 
-/* A field of the row's end, which files may leave out. */
-static double last_field(char *const field[], int count, int at, double missing)
+static bool read_lights(const EpwReader *reader, char *const field[], int count,
+                        WeatherHour *out, Error *err)
 {
-    return count > at && field[at][0] ? or_missing(field[at], missing) : -1;
+    static const EpwField fields[5] = {
+        {"global irradiance", 0, W_M2_MISSING, W_M2_MISSING, false},
+        {"direct normal irradiance", 0, W_M2_MISSING, W_M2_MISSING, false},
+        {"diffuse irradiance", 0, W_M2_MISSING, W_M2_MISSING, false},
+        {"direct normal illuminance", 0, LUX_MISSING, LUX_MISSING, false},
+        {"diffuse illuminance", 0, LUX_MISSING, LUX_MISSING, false}};
+    static const int at[5] = {FIELD_GLOBAL, FIELD_DIRECT, FIELD_DIFFUSE, FIELD_DIRECT_LUX,
+                              FIELD_DIFFUSE_LUX};
+    double *const target[5] = {&out->global_horizontal_w_m2, &out->direct_normal_w_m2,
+                               &out->diffuse_horizontal_w_m2, &out->direct_normal_lx,
+                               &out->diffuse_horizontal_lx};
+    for (int i = 0; i < 5; i++)
+        if (!read_light(reader, fields[i], at[i] < count ? field[at[i]] : NULL, target[i], err))
+            return false;
+    out->has_light = out->direct_normal_w_m2 >= 0 && out->diffuse_horizontal_w_m2 >= 0;
+    return true;
 }
 
 static bool read_dew_point(const EpwReader *reader, const char *text, WeatherHour *out,
                            Error *err)
 {
-    double any[2] = {-99, 999900};
-    if (!number(reader, text, any, &out->dew_point_c, err)) return false;
+    static const EpwField field = {"the dew point in degrees C", -99, 70, DEW_POINT_MISSING,
+                                   false};
+    if (!number(reader, field, text, &out->dew_point_c, err)) return false;
     out->has_dew_point = out->dew_point_c < DEW_POINT_MISSING;
-    return !out->has_dew_point || out->dew_point_c <= DEW_POINT_MOST ||
-           bad_line(reader, err, text, "a dew point from -99 to 70 degrees C, or 99.9: none");
-}
-
-/* The minute counts where an hour has several rows only: hourly files write 0 or 60 alike. */
-static double label_hour(double hour, const char *minute, int rows_per_hour)
-{
-    if (rows_per_hour == 1) return hour;
-    double value = strtod(minute, NULL);
-    return hour - 1 + (value > 0 && value <= 60 ? value : 60) / 60;
-}
-
-static bool read_hour(EpwReader *reader, char *field[], int count, const Weather *weather,
-                      WeatherHour *out, Error *err)
-{
-    double when[4], range[4][2] = {{-2000, 6000}, {1, 12}, {1, 31}, {1, 24}};
-    double direct[2] = {0, 9999}, any[2] = {-99, 999900};
-    if (count < FIELDS_LEAST)
-        return bad_line(reader, err, field[0], "a row of at least 16 fields");
-    for (int i = 0; i < 4; i++)
-        if (!number(reader, field[i], range[i], &when[i], err)) return false;
-    if (!number(reader, field[FIELD_DIRECT], direct, &out->direct_normal_w_m2, err) ||
-        !number(reader, field[FIELD_DIFFUSE], direct, &out->diffuse_horizontal_w_m2, err) ||
-        !number(reader, field[FIELD_DRY_BULB], any, &out->dry_bulb_c, err) ||
-        !read_dew_point(reader, field[FIELD_DEW_POINT], out, err) ||
-        !number(reader, field[FIELD_PRESSURE], any, &out->pressure_mbar, err))
-        return false;
-    out->pressure_mbar /= 100;
-    out->line = reader->line;
-    out->year = (int)when[0], out->month = (int)when[1], out->day = (int)when[2];
-    out->label_h = label_hour(when[3], field[FIELD_MINUTE], weather->rows_per_hour);
-    out->global_horizontal_w_m2 = or_missing(field[FIELD_GLOBAL], 9999);
-    out->has_light = out->direct_normal_w_m2 < 9999 && out->diffuse_horizontal_w_m2 < 9999;
-    out->direct_normal_lx = last_field(field, count, FIELD_DIRECT_LUX, LUX_MISSING);
-    out->diffuse_horizontal_lx = last_field(field, count, FIELD_DIFFUSE_LUX, LUX_MISSING);
-    out->precipitable_water_cm = last_field(field, count, FIELD_WATER, 999) / 10;
-    out->aerosol_depth = last_field(field, count, FIELD_AEROSOL, 0.999);
     return true;
 }
 
-/* Reads from the header PVGIS's comment and the number of rows an hour has (DATA PERIODS,
- * number of periods, rows in an hour). True at the last header line. */
+/* The minute counts where an hour has several rows only: hourly files write 0 or 60 alike. */
+static double label_hour(double hour, double minute, int rows_per_hour)
+{
+    if (rows_per_hour == 1) return hour;
+    return hour - 1 + (minute > 0 ? minute : 60) / 60;
+}
+
+/* As many fields as the first row: a comma too many or a field too few would shift them. */
+static bool check_count(const EpwReader *reader, int count, const Weather *weather, Error *err)
+{
+    const char *found = arena_format(reader->arena, "%d fields", count);
+    if (count < FIELDS_LEAST || count > FIELDS_MOST)
+        return bad_line(reader, err, found, "a row of 16 to 35 fields, with decimal points");
+    if (!weather->fields || count == weather->fields) return true;
+    return bad_line(reader, err, found, arena_format(reader->arena, "the %d of the rows before "
+                                                     "it, with decimal points",
+                                                     weather->fields));
+}
+
+static bool read_hour(EpwReader *reader, char *field[], int count, Weather *weather,
+                      WeatherHour *out, Error *err)
+{
+    static const EpwField time[5] = {{"the year", -2000, 6000, 0, true},
+                                     {"the month", 1, 12, 0, true},
+                                     {"the day", 1, 31, 0, true},
+                                     {"the hour", 1, 24, 0, true},
+                                     {"the minute", 0, 60, 0, false}};
+    double when[5];
+    if (!check_count(reader, count, weather, err)) return false;
+    weather->fields = count;
+    for (int i = 0; i < 5; i++)
+        if (!number(reader, time[i], field[i], &when[i], err)) return false;
+    if (!read_dew_point(reader, field[FIELD_DEW_POINT], out, err) ||
+        !read_lights(reader, field, count, out, err))
+        return false;
+    out->line = reader->line;
+    out->year = (int)when[0], out->month = (int)when[1], out->day = (int)when[2];
+    out->label_h = label_hour(when[3], when[FIELD_MINUTE], weather->rows_per_hour);
+    return true;
+}
+
+/* Reads PVGIS's comment from the header. True at its last line (DATA PERIODS, number of
+ * periods, rows in an hour). */
 static bool read_header(char *field[], int count, Weather *out)
 {
     static const char offset[] = "Irradiance Time Offset (h):";
@@ -155,9 +221,16 @@ static bool read_header(char *field[], int count, Weather *out)
         out->has_comment_offset = true;
         out->comment_offset_h = value;
     }
-    if (strcmp(field[0], "DATA PERIODS")) return false;
-    int rows = count > 2 ? atoi(field[2]) : 1;
-    out->rows_per_hour = rows > 1 && rows <= 60 ? rows : 1;
+    return !strcmp(field[0], "DATA PERIODS");
+}
+
+static bool read_rows_per_hour(const EpwReader *reader, char *field[], int count, Weather *out,
+                               Error *err)
+{
+    static const EpwField rows = {"the rows of an hour", 1, 60, 0, true};
+    double value = 1;
+    if (count > 2 && !number(reader, rows, field[2], &value, err)) return false;
+    out->rows_per_hour = (int)value;
     return true;
 }
 
@@ -181,6 +254,8 @@ bool weather_read(const char *file, Arena *arena, Weather *out, Error *err)
         bool is_blank = count == 1 && !field[0][0];
         if (!in_data) {
             in_data = read_header(field, count, &weather);
+            if (in_data && !read_rows_per_hour(&reader, field, count, &weather, err))
+                return false;
             continue;
         }
         if (is_blank) continue;

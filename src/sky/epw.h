@@ -6,8 +6,8 @@
  *           label is the end of its hour. Which instant its light belongs to is
  *           weather_clock.h's question.
  * Memory    the arena's. Threads: const once read.
- * Fails     with file and line, what was found and what was required. Missing values (9999 of
- *           an irradiance) are marked by has_light = false, a dew point (99.9) by
+ * Fails     with file and line, what was found and what was required. Missing values (9999 or
+ *           more nines of an irradiance) are marked by has_light = false, a dew point (99.9) by
  *           has_dew_point.
  */
 #pragma once
@@ -18,12 +18,10 @@
 typedef struct WeatherHour {
     int    line, year, month, day;
     double label_h; /* end of its span, hours after midnight of the zone, above 0 to 24 */
-    double direct_normal_w_m2, diffuse_horizontal_w_m2;
+    double direct_normal_w_m2, diffuse_horizontal_w_m2; /* negative: missing */
     double global_horizontal_w_m2; /* negative: missing */
     double direct_normal_lx, diffuse_horizontal_lx; /* negative: missing */
-    double dry_bulb_c, dew_point_c, pressure_mbar;
-    double precipitable_water_cm; /* negative: missing */
-    double aerosol_depth;         /* broadband; negative: missing */
+    double dew_point_c;
     bool   has_light, has_dew_point;
 } WeatherHour;
 
@@ -31,7 +29,7 @@ typedef struct Weather {
     const char  *file, *city;
     SkyPlace     place;
     double       zone_h;
-    int          rows_per_hour;
+    int          rows_per_hour, fields; /* fields: of every row */
     bool         has_comment_offset; /* a comment "Irradiance Time Offset (h):" (PVGIS) */
     double       comment_offset_h;
     WeatherHour *hour;

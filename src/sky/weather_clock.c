@@ -12,6 +12,8 @@
 #define NEAR_H (5 / 60.0) /* closure's own uncertainty: instruments, sky around the sun */
 #define CLOSES_SHARE 0.1
 #define DIRECT_LEAST_W_M2 1.0
+#define ROW_SHARE 0.2     /* a row's three irradiances agree within: instruments, a sunrise */
+#define ROW_W_M2 50.0
 #define HALF_HOUR_MIN 30.5 /* and a little */
 
 /* The closure of one row: sin(elevation) at an offset turned into an angle w is
@@ -41,6 +43,13 @@ static ClosureRow closure_row(const Weather *weather, const WeatherHour *hour)
     return (ClosureRow){sin_d(latitude) * sin_d(declination), across * cos_d(angle),
                         across * sin_d(angle), hour->direct_normal_w_m2,
                         hour->global_horizontal_w_m2 - hour->diffuse_horizontal_w_m2};
+}
+
+/* Direct light on the horizontal at an offset. */
+static double direct_at(const ClosureRow *row, double offset_h)
+{
+    double sine = sin_d(offset_h * PI / 12), cosine = cos_d(offset_h * PI / 12);
+    return row->direct * fmax(0, row->a + row->b * cosine - row->c * sine);
 }
 
 /* Mean absolute difference: single rows that are wrong do not move its minimum much, and rows
@@ -166,6 +175,19 @@ const WeatherHour *weather_clock_row(const Weather *weather, const WeatherClock 
         *apart_min = apart;
     }
     return nearest;
+}
+
+const char *weather_clock_row_doubt(const Weather *weather, const WeatherClock *clock,
+                                    const WeatherHour *hour, Arena *arena)
+{
+    double global = hour->global_horizontal_w_m2, diffuse = hour->diffuse_horizontal_w_m2;
+    if (!hour->has_light || global < 0 || (clock->rows && !clock->closes)) return NULL;
+    ClosureRow row = closure_row(weather, hour);
+    double     direct = direct_at(&row, clock->offset_h), sum = diffuse + direct;
+    if (fabs(global - sum) <= ROW_SHARE * fmax(global, sum) + ROW_W_M2) return NULL;
+    return arena_format(arena, "has %g W/m2 of global light, but %g of diffuse and %.0f of "
+                        "direct light on the horizontal (%g on its normal): required is their "
+                        "sum", global, diffuse, direct, hour->direct_normal_w_m2);
 }
 
 const char *weather_clock_source_text(WeatherClockSource source)

@@ -43,5 +43,10 @@ WeatherClock weather_clock_find(const Weather *weather, const double *given_h, A
 const WeatherHour *weather_clock_row(const Weather *weather, const WeatherClock *clock,
                                      const SkyTime *time, double *apart_min);
 
+/* How a row's global irradiance differs from its diffuse and direct light at its instant; NULL:
+ * not by more than instruments do, or there is no telling. */
+const char *weather_clock_row_doubt(const Weather *weather, const WeatherClock *clock,
+                                    const WeatherHour *hour, Arena *arena);
+
 /* "hour means", ...: for people and scripts. */
 const char *weather_clock_source_text(WeatherClockSource source);

@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "spectrum/curve.h"
 
+#include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "spectrum/spectral_table.h"
+
 #define MAX_POINTS 4096 /* 0.1 nm over the visible range */
-#define VALUE_MAX 1e30
+#define VALUE_MAX 1e12
 
 void curve_from_points(const double *nm, const double *value, int count, Curve *out)
 {
@@ -25,6 +29,21 @@ void curve_from_points(const double *nm, const double *value, int count, Curve *
     }
 }
 
+double curve_held_share(const double *nm, const double *value, int count)
+{
+    Curve  curve;
+    double all = 0, held = 0;
+    curve_from_points(nm, value, count, &curve);
+    for (int i = 0; i < CURVE_COUNT; i++) {
+        const SpectralRow *row = &spectral_table[CURVE_FIRST_NM + i - SPECTRAL_FIRST_NM];
+        bool   is_held = CURVE_FIRST_NM + i < nm[0] || CURVE_FIRST_NM + i > nm[count - 1];
+        double seen = (double)(row->x + row->y + row->z) * fabs((double)curve.value[i]);
+        all += seen;
+        if (is_held) held += seen;
+    }
+    return all > 0 ? held / all : 0;
+}
+
 #define COLUMNS_MAX 2 /* beside the wavelength */
 
 typedef struct Points {
@@ -40,18 +59,32 @@ static bool is_blank(const char *text)
     return *text == '\0';
 }
 
-/* The wavelength and `columns` numbers, with a comma, semicolon or white space between. */
+/* The wavelength and `columns` numbers, with a comma, semicolon or white space between, the
+ * same in all of the row. */
 static bool parse_row(const char *line, int columns, double number[1 + COLUMNS_MAX])
 {
+    char between[1 + COLUMNS_MAX] = {0};
     for (int i = 0; i <= columns; i++) {
         char *end;
         number[i] = strtod(line, &end);
         if (end == line) return false;
         while (*end == ' ' || *end == '\t') end++;
-        if (i < columns && (*end == ',' || *end == ';')) end++;
+        if (i < columns && (*end == ',' || *end == ';')) between[i] = *end++;
+        if (i && i < columns && between[i] != between[i - 1]) return false;
         line = end;
     }
     return is_blank(line);
+}
+
+/* Of a line that is no row: a comma between digits may be the reason, unless commas part
+ * numbers with points. */
+static const char *comma_hint(const char *line)
+{
+    if (strchr(line, '.') && !strchr(line, ';')) return "";
+    for (const char *at = strchr(line, ','); at; at = strchr(at + 1, ','))
+        if (at > line && isdigit((unsigned char)at[-1]) && isdigit((unsigned char)at[1]))
+            return " — a decimal comma? Required are decimal points";
+    return "";
 }
 
 static bool check_value(const Points *points, const char *path, const char *place,
@@ -111,9 +144,19 @@ static const char *next_line(const char *text, char *line, size_t size)
 static bool check_visible(const Points *points, const char *path, Error *err)
 {
     double first = points->nm[0], last = points->nm[points->count - 1];
-    return (first <= CURVE_LAST_NM && last >= CURVE_FIRST_NM) ||
+    const char *unit = first > 0.1 && last < 20 ? " — in micrometres? Required are nm" : "";
+    return (first <= CURVE_SEEN_LAST_NM && last >= CURVE_SEEN_FIRST_NM) ||
            error_at(err, ERROR_INPUT, path, NULL, "holds wavelengths from %g to %g nm, none "
-                    "from %d to %d is among them", first, last, CURVE_FIRST_NM, CURVE_LAST_NM);
+                    "from %d to %d is among them%s", first, last, CURVE_SEEN_FIRST_NM,
+                    CURVE_SEEN_LAST_NM, unit);
+}
+
+static double held_share(const Points *points)
+{
+    double most = 0;
+    for (int i = 0; i < points->columns; i++)
+        most = fmax(most, curve_held_share(points->nm, points->value[i], points->count));
+    return most;
 }
 
 /* Numbers that are too few or too many are no names of columns. */
@@ -139,8 +182,8 @@ static bool read_points(const char *text, const char *path, Points *points, Erro
             if (!add_row(points, path, place, number, err)) return false;
         } else if (!may_be_header || !is_header(line)) {
             line[strcspn(line, "\r\n")] = '\0';
-            return error_at(err, ERROR_INPUT, path, place, "found \"%.60s\", wanted %s", line,
-                            names);
+            return error_at(err, ERROR_INPUT, path, place, "found \"%.60s\", wanted %s%s", line,
+                            names, comma_hint(line));
         }
         may_be_header = false;
     }
@@ -154,7 +197,8 @@ static bool no_memory(const char *path, Error *err)
     return error_at(err, ERROR_MEMORY, path, NULL, "no memory to read it");
 }
 
-bool curve_parse(const char *text, const char *path, CurveRange range, Curve *out, Error *err)
+bool curve_parse(const char *text, const char *path, CurveRange range, Curve *out,
+                 double *held, Error *err)
 {
     Points *points = calloc(1, sizeof *points);
     if (!points) return no_memory(path, err);
@@ -162,11 +206,13 @@ bool curve_parse(const char *text, const char *path, CurveRange range, Curve *ou
     points->range = range;
     bool ok = read_points(text, path, points, err);
     if (ok) curve_from_points(points->nm, points->value[0], points->count, out);
+    if (ok && held) *held = held_share(points);
     free(points);
     return ok;
 }
 
-bool curve_parse_index(const char *text, const char *path, Curve *n, Curve *k, Error *err)
+bool curve_parse_index(const char *text, const char *path, Curve *n, Curve *k, double *held,
+                       Error *err)
 {
     Points *points = calloc(1, sizeof *points);
     if (!points) return no_memory(path, err);
@@ -174,6 +220,7 @@ bool curve_parse_index(const char *text, const char *path, Curve *n, Curve *k, E
     bool ok = read_points(text, path, points, err);
     if (ok) curve_from_points(points->nm, points->value[0], points->count, n);
     if (ok) curve_from_points(points->nm, points->value[1], points->count, k);
+    if (ok && held) *held = held_share(points);
     free(points);
     return ok;
 }

@@ -30,15 +30,28 @@ typedef enum CurveRange {
     CURVE_SHARES   /* 0 to 1 */
 } CurveRange;
 
+/* What is seen of a curve lies between, all but a thousandth. */
+#define CURVE_SEEN_FIRST_NM 400
+#define CURVE_SEEN_LAST_NM 700
+
+#define CURVE_HELD_MOST 0.02 /* more is worth a warning */
+
+/* Under even light, the share of X + Y + Z at wavelengths outside the measured ones, if the end
+ * values hold there. */
+double curve_held_share(const double *nm, const double *value, int count);
+
 /* A CSV of `nm,value` rows (header line and # comments allowed) in memory, terminated; path: of
  * the file, for messages, which name the line of a value that is out of range. Without any
- * wavelength from CURVE_FIRST_NM to CURVE_LAST_NM it is refused. */
-bool curve_parse(const char *text, const char *path, CurveRange range, Curve *out, Error *err);
+ * wavelength from CURVE_SEEN_FIRST_NM to CURVE_SEEN_LAST_NM it is refused. *held (or NULL): its
+ * held share. */
+bool curve_parse(const char *text, const char *path, CurveRange range, Curve *out,
+                 double *held, Error *err);
 
 #define INDEX_MAX 100.0
 
 /* The same of a refractive index n + ik, rows `nm,n,k`; both 0 to INDEX_MAX, never both 0. */
-bool curve_parse_index(const char *text, const char *path, Curve *n, Curve *k, Error *err);
+bool curve_parse_index(const char *text, const char *path, Curve *n, Curve *k, double *held,
+                       Error *err);
 
 /* Value of every lane's wavelength. */
 Spectrum curve_lookup(const Curve *curve, const Wavelengths *wavelengths);

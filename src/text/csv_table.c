@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "text/csv_table.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +14,7 @@
 typedef struct Scan {
     const char *next, *end; /* of the text */
     int         line;
+    char        separator; /* that of the header line */
     Arena      *arena;
     Error      *err;
 } Scan;
@@ -22,9 +24,22 @@ static bool is_blank(char c)
     return c == ' ' || c == '\r';
 }
 
-static bool is_separator(char c)
+/* The first of these that the header line has: behind a semicolon or tab a comma is none. */
+static char find_separator(const char *text, const char *stop)
 {
-    return c == ',' || c == ';' || c == '\t';
+    for (const char *one = ";\t"; *one; one++)
+        if (memchr(text, *one, (size_t)(stop - text))) return *one;
+    return ',';
+}
+
+/* Is a comma between digits, without a point, the reason that a row does not fit? */
+static const char *comma_hint(const char *text, const char *stop)
+{
+    if (memchr(text, '.', (size_t)(stop - text))) return "";
+    for (const char *at = text + 1; at + 1 < stop; at++)
+        if (*at == ',' && isdigit((unsigned char)at[-1]) && isdigit((unsigned char)at[1]))
+            return " — a decimal comma? Required are decimal points";
+    return "";
 }
 
 static const char *place_of(const Scan *scan)
@@ -63,10 +78,11 @@ static bool read_names(Scan *scan, CsvTable *table, Error *err)
         return error_at(err, ERROR_INPUT, table->file, "",
                         "is empty, wanted a header line and rows of numbers");
     text = skip_mark(text, stop);
+    scan->separator = find_separator(text, stop);
     table->name = ARENA_NEW(scan->arena, const char *, CSV_COLUMNS_MAX);
     while (table->columns < CSV_COLUMNS_MAX) {
         const char *cell = text;
-        while (text < stop && !is_separator(*text)) text++;
+        while (text < stop && *text != scan->separator) text++;
         const char *last = text;
         while (cell < last && is_blank(*cell)) cell++;
         while (last > cell && is_blank(last[-1])) last--;
@@ -93,31 +109,36 @@ static bool bad_cell(const Scan *scan, const CsvTable *table, int column, const 
                      const char *stop)
 {
     int length = 0;
-    while (text + length < stop && !is_separator(text[length]) && length < 40) length++;
+    while (text + length < stop && text[length] != scan->separator && length < 40) length++;
     return error_at(scan->err, ERROR_INPUT, table->file, place_of(scan),
-                    "column '%s' holds '%.*s', wanted a finite number", table->name[column],
-                    length, text);
+                    "column '%s' holds '%.*s', wanted a finite number%s", table->name[column],
+                    length, text, comma_hint(text, text + length));
 }
 
 static bool read_row(Scan *scan, const CsvTable *table, const char *text, const char *stop,
                      float *cell)
 {
+    const char *line = text;
     for (int c = 0; c < table->columns; c++) {
         char *after;
         while (text < stop && is_blank(*text)) text++;
-        if (text >= stop || is_separator(*text))
+        if (text >= stop || *text == scan->separator)
             return bad_cell(scan, table, c, text, stop);
         cell[c] = strtof(text, &after);
         if (after == text || after > stop || !isfinite(cell[c]))
             return bad_cell(scan, table, c, text, stop);
+        const char *begin = text;
         text = after;
         while (text < stop && is_blank(*text)) text++;
         bool is_last = c == table->columns - 1;
+        if (is_last && text < stop && *text != scan->separator)
+            return bad_cell(scan, table, c, begin, stop);
         if (is_last ? text != stop : text == stop)
             return error_at(scan->err, ERROR_INPUT, table->file, place_of(scan),
-                            "has %s cells than the header's %d columns",
-                            is_last ? "more" : "fewer", table->columns);
-        if (!is_last && !is_separator(*text)) return bad_cell(scan, table, c, text, stop);
+                            "has %s cells than the header's %d columns%s",
+                            is_last ? "more" : "fewer", table->columns,
+                            is_last ? comma_hint(line, stop) : "");
+        if (!is_last && *text != scan->separator) return bad_cell(scan, table, c, begin, stop);
         text++;
     }
     return true;
@@ -138,7 +159,7 @@ bool csv_table_read(const char *file, Arena *arena, CsvTable *out, Error *err)
     FileBytes bytes;
     if (!file_read(file, FILE_BYTES_MAX, arena, &bytes, err)) return false;
     const char *text = (const char *)bytes.data;
-    Scan     scan = {text, text + bytes.size, 0, arena, err};
+    Scan     scan = {text, text + bytes.size, 0, ',', arena, err};
     CsvTable table = {.file = file, .bytes = bytes.size};
     if (!read_names(&scan, &table, err) || !check_names(&scan, &table, err)) return false;
     int    most = count_lines(scan.next, scan.end);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* csv_table.h -- a table of finite numbers from a text file, with the line of every row.
  *
- * A header line of column names, then one row a line; commas (or semicolons or tabs) between
- * cells, # comments and empty lines allowed. Every cell must be a finite number, every name
- * another one.
+ * A header line of column names, then one row a line; commas (or semicolons or tabs, as in the
+ * header line) between cells, # comments and empty lines allowed. Every cell must be a finite
+ * number, every name another one.
  *
  * Memory   the arena's.
  * Fails    with the file, the line, the column's name, what was found and what was wanted.

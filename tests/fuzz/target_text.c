@@ -18,7 +18,7 @@ void fuzz_curve(const uint8_t *data, size_t size, Arena *arena)
     Error       err = {0};
     Curve       curve;
     const char *text = arena_string(arena, (const char *)data, size);
-    if (!curve_parse(text, "curve.csv", CURVE_SHARES, &curve, &err)) {
+    if (!curve_parse(text, "curve.csv", CURVE_SHARES, &curve, NULL, &err)) {
         fuzz_claim_refusal(&err);
         return;
     }

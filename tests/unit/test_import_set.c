@@ -414,8 +414,8 @@ LAB_TEST(spectra_go_into_the_set)
     write_primaries(lab);
     lab_write(lab, "black.csv", TABLE);
     int count = lab->count;
-    lab_write(lab, "s.csv", "# relative\nWavelength_nm;B;G;R\n400;0,5;0;0\n550;0;1;0\n"
-                            "620;0;0;0,25\n");
+    lab_write(lab, "s.csv", "# relative\nWavelength_nm;B;G;R\n380;0;0;0\n400;0,5;0;0\n"
+                            "550;0;1;0\n620;0;0;0,25\n700;0;0;0\n");
     lab->count = count;
     lab->request->primaries = arena_format(&lab->arena, "%s/s.csv", lab->folder);
     lab_import(lab);

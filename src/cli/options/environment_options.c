@@ -284,6 +284,11 @@ static bool apply_weather(const WeatherAsk *ask, Environment *environment, Arena
     if (!ask->has_place) environment->daylight.where = weather.place;
     warn_of_clock(&environment->weather, problems);
     warn_of_water(ask, hour, arena, problems);
+    const char *doubt = weather_clock_row_doubt(&weather, &clock, hour, arena);
+    if (doubt)
+        problems_add(problems, SEVERITY_WARNING, ask->file,
+                     arena_format(arena, "line %d", hour->line),
+                     "%s; the direct and diffuse light are taken", doubt);
     return true;
 }
 

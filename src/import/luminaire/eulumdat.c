@@ -7,8 +7,11 @@
 #include <strings.h>
 
 #include "base/file.h"
+#include "import/luminaire/luminaire_doubts.h"
 #include "import/luminaire/luminaire_opening.h"
 #include "import/luminaire/luminaire_scan.h"
+
+#define OUTPUT_RATIO_MOST 120.0 /* per cent: fluorescent lamps may give more in a luminaire */
 
 static bool next_line(LuminaireScan *in, const char *what, TextLine *out)
 {
@@ -17,15 +20,30 @@ static bool next_line(LuminaireScan *in, const char *what, TextLine *out)
     return is_there || luminaire_scan_fail(in, "the file ends before %s", what);
 }
 
-/* The number at the beginning of a line; some writers put a decimal comma or a unit behind.
- * False: there is none, *out is 0. */
-static bool number_of(TextLine line, double *out)
+static TextCell trimmed(const char *begin, const char *end)
 {
-    char digits[40] = {0}, *after;
-    for (int i = 0; i < line.length && i < 39; i++)
-        digits[i] = line.text[i] == ',' ? '.' : line.text[i];
-    *out = strtod(digits, &after);
-    return after != digits;
+    while (begin < end && (*begin == ' ' || *begin == '\t')) begin++;
+    while (end > begin && (end[-1] == ' ' || end[-1] == '\t')) end--;
+    return (TextCell){begin, (int)(end - begin)};
+}
+
+/* The number of a line; some writers put a decimal comma, or a unit behind, which are told.
+ * False: it is none, or another number stands behind. */
+static bool number_of(LuminaireScan *in, TextLine line, double *out)
+{
+    const char *end = line.text + line.length;
+    TextCell    word = trimmed(line.text, end);
+    int         digits = 0;
+    while (digits < word.length && strchr("0123456789+-.,eE", word.text[digits])) digits++;
+    TextCell behind = trimmed(word.text + digits, end);
+    word = (TextCell){word.text, digits};
+    bool is_unit = behind.length && !strchr("0123456789+-.,", *behind.text);
+    if (behind.length && !is_unit) return false;
+    if (is_unit && in->unit < 0) in->unit = in->line;
+    if (text_number(word, '.', out)) return true;
+    if (!text_number(word, ',', out)) return false;
+    if (in->comma < 0) in->comma = in->line;
+    return true;
 }
 
 static bool next_number(LuminaireScan *in, const char *what, double low, double high,
@@ -33,7 +51,7 @@ static bool next_number(LuminaireScan *in, const char *what, double low, double 
 {
     TextLine line;
     if (!next_line(in, what, &line)) return false;
-    if (!number_of(line, out) || !(*out >= low && *out <= high))
+    if (!number_of(in, line, out) || !(*out >= low && *out <= high))
         return luminaire_scan_fail(in, "%s is '%.*s', wanted a number from %g to %g", what,
                                    line.length < 40 ? line.length : 40, line.text, low, high);
     return true;
@@ -47,15 +65,18 @@ static bool skip_lines(LuminaireScan *in, const char *what, int count)
     return true;
 }
 
-/* The largest at C0, C90, C180, C270; a line without a number is 0. */
+/* The largest at C0, C90, C180, C270; an empty line is 0. */
 static bool read_heights(LuminaireScan *in, double *largest)
 {
+    static const char what[] = "the height of the luminous area";
     for (int i = 0; i < 4; i++) {
-        TextLine line;
-        double   height;
-        if (!next_line(in, "the heights of the luminous area", &line)) return false;
-        number_of(line, &height);
-        if (height > *largest && height <= 1e6) *largest = height;
+        double   height = 0;
+        TextLine line = {0};
+        if (in->line + 1 < in->text.count) line = in->text.line[in->line + 1];
+        bool is_empty = !trimmed(line.text, line.text + line.length).length;
+        if (is_empty ? !skip_lines(in, what, 1) : !next_number(in, what, 0, 1e6, &height))
+            return false;
+        if (height > *largest) *largest = height;
     }
     return true;
 }
@@ -89,8 +110,9 @@ static bool read_head(LuminaireScan *in, EulumdatHead *head, const char **name)
         next_number(in, "the length of the luminous area", 0, 1e6, &head->length_mm) &&
         next_number(in, "the width of the luminous area", 0, 1e6, &head->width_mm) &&
         read_heights(in, &head->height_mm) &&
-        next_number(in, "the downward flux fraction", -1, 1000, &ignored) &&
-        next_number(in, "the light output ratio", 0, 1000, &head->output_ratio) &&
+        next_number(in, "the downward flux fraction", -1, 101, &ignored) &&
+        next_number(in, "the light output ratio", 0, OUTPUT_RATIO_MOST,
+                    &head->output_ratio) &&
         next_number(in, "the conversion factor", 0, 1e6, &head->factor) &&
         next_number(in, "the tilt", -360, 360, &ignored) &&
         luminaire_scan_count(in, "the number of lamp sets", 0, 20, &head->lamp_sets);
@@ -149,6 +171,17 @@ static bool stored_planes(LuminaireScan *in, const EulumdatHead *head, int *firs
                             head->planes, head->symmetry == 2 ? 2 : 4, head->symmetry);
 }
 
+/* Planes about which the rest is mirrored begin and end the stored ones. */
+static bool check_symmetry(LuminaireScan *in, const EulumdatHead *head, const Luminaire *out)
+{
+    static const double ends[5][2] = {{0, 0}, {0, 0}, {0, 180}, {270, 90}, {0, 90}};
+    const double *wanted = ends[head->symmetry];
+    double first = out->c_deg[0], last = out->c_deg[out->planes - 1];
+    return head->symmetry < 2 || (first == wanted[0] && last == wanted[1]) ||
+           luminaire_scan_fail(in, "C-planes of symmetry %d go from %g to %g, required %g to "
+                               "%g degrees", head->symmetry, first, last, wanted[0], wanted[1]);
+}
+
 static bool read_planes(LuminaireScan *in, const EulumdatHead *head, Luminaire *out)
 {
     static const double to_180[2] = {0, 180}, to_360[2] = {0, 360};
@@ -162,8 +195,40 @@ static bool read_planes(LuminaireScan *in, const EulumdatHead *head, Luminaire *
         return false;
     out->c_deg = ARENA_NEW(in->arena, double, out->planes);
     for (int i = 0; i < out->planes; i++) out->c_deg[i] = c[(first + i) % head->planes];
+    if (!check_symmetry(in, head, out)) return false;
     double scale = head->flux_lm / 1000 * (head->factor > 0 ? head->factor : 1);
     return luminaire_scan_intensities(in, scale, out);
+}
+
+/* Numbers behind the last one belong nowhere; words are left out, and told. */
+static bool check_end(LuminaireScan *in, Luminaire *out)
+{
+    TextLine line;
+    while (in->line + 1 < in->text.count && next_line(in, "", &line)) {
+        TextCell rest = trimmed(line.text, line.text + line.length);
+        int      shown = rest.length < 40 ? rest.length : 40;
+        if (!rest.length) continue;
+        if (strchr("0123456789+-.,", *rest.text))
+            return luminaire_scan_fail(in, "'%.*s' is left over behind the table of %d x %d "
+                                       "intensities, required nothing more", shown, rest.text,
+                                       out->planes, out->gammas);
+        luminaire_doubt(out, in->arena, "line %d: the text behind its table is left out "
+                        "('%.*s')", in->line + 1, shown, rest.text);
+        break;
+    }
+    return true;
+}
+
+static void tell_reading(const LuminaireScan *in, Luminaire *out)
+{
+    if (in->comma >= 0)
+        luminaire_doubt(out, in->arena, "line %d: the decimal comma of '%.*s' is read as a "
+                        "point, and so of all its numbers", in->comma + 1,
+                        in->text.line[in->comma].length, in->text.line[in->comma].text);
+    if (in->unit >= 0)
+        luminaire_doubt(out, in->arena, "line %d: of '%.*s' the number is read, required "
+                        "nothing behind it", in->unit + 1,
+                        in->text.line[in->unit].length, in->text.line[in->unit].text);
 }
 
 bool eulumdat_read_luminaire(const char *file, const FileBytes *bytes, ImportSet *set,
@@ -174,14 +239,18 @@ bool eulumdat_read_luminaire(const char *file, const FileBytes *bytes, ImportSet
     Luminaire     luminaire = {.file = file};
     if (!luminaire_scan_open(file, bytes, next_number, set, &in, err) ||
         !read_head(&in, &head, &luminaire.name) || !read_lamps(&in, &head, &luminaire) ||
-        !skip_lines(&in, "the direct ratios", 10) || !read_planes(&in, &head, &luminaire))
+        !skip_lines(&in, "the direct ratios", 10) || !read_planes(&in, &head, &luminaire) ||
+        !check_end(&in, &luminaire))
         return false;
     luminaire.opening = opening_of_eulumdat(head.length_mm * 1e-3, head.width_mm * 1e-3,
                                             head.height_mm * 1e-3);
     luminaire.area_m2 = (double)opening_area(&luminaire.opening, vec3(0, 0, -1));
-    luminaire.stated_lm = head.flux_lm * (head.is_absolute ? 1 : head.output_ratio / 100);
-    luminaire.stated_as =
-        head.is_absolute ? "absolute" : "lamps' flux times light output ratio";
+    bool has_ratio = !head.is_absolute && head.output_ratio > 0;
+    luminaire.stated_lm = head.flux_lm * (has_ratio ? head.output_ratio / 100 : 1);
+    luminaire.stated_as = head.is_absolute ? "absolute"
+                          : has_ratio ? "lamps' flux times light output ratio" : "lamps' flux";
+    tell_reading(&in, &luminaire);
+    luminaire_doubts_find(&luminaire, set->arena);
     if (head.lamp_sets > 1)
         import_note(set, "%s: the first of %d lamp sets is taken", path_name(file),
                     head.lamp_sets);

@@ -3,17 +3,22 @@
  * with blanks or commas between them. */
 #include "import/luminaire/ies.h"
 
+#include <ctype.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "base/count.h"
 #include "base/file.h"
+#include "import/luminaire/luminaire_doubts.h"
 #include "import/luminaire/luminaire_opening.h"
 #include "import/luminaire/luminaire_scan.h"
 #include "import/text/text_names.h"
 
 #define METRES_A_FOOT 0.3048
+#define SIZE_MOST 1000.0   /* feet or metres */
+#define FACTOR_MOST 10.0   /* of the ballast: a share */
 
 static bool is_gap(char c)
 {
@@ -28,8 +33,8 @@ static void begin_line(LuminaireScan *in, int line)
     in->end = in->next + in->text.line[line].length;
 }
 
-/* The next word of this or a later line. */
-static bool next_word(LuminaireScan *in, const char *what, TextCell *word)
+/* The next word of this or a later line; false at the end. */
+static bool find_word(LuminaireScan *in, TextCell *word)
 {
     for (; in->line < in->text.count; begin_line(in, in->line + 1)) {
         while (in->next < in->end && is_gap(*in->next)) in->next++;
@@ -39,17 +44,75 @@ static bool next_word(LuminaireScan *in, const char *what, TextCell *word)
         *word = (TextCell){begin, (int)(in->next - begin)};
         return true;
     }
-    return luminaire_scan_fail(in, "the file ends before %s", what);
+    return false;
 }
 
 static bool next_number(LuminaireScan *in, const char *what, double low, double high,
                         double *out)
 {
     TextCell word;
-    if (!next_word(in, what, &word)) return false;
+    if (!find_word(in, &word))
+        return luminaire_scan_fail(in, "the file ends before %s", what);
     if (text_number(word, '.', out) && *out >= low && *out <= high) return true;
     return luminaire_scan_fail(in, "%s is '%.*s', wanted a number from %g to %g", what,
                                word.length < 40 ? word.length : 40, word.text, low, high);
+}
+
+/* Numbers behind the last one belong nowhere; words are left out, and told (unless NULL). */
+static bool check_end(LuminaireScan *in, const char *table, Luminaire *out)
+{
+    TextCell word;
+    if (!find_word(in, &word)) return true;
+    int shown = word.length < 40 ? word.length : 40;
+    if (!isalpha((unsigned char)*word.text) && *word.text != '[')
+        return luminaire_scan_fail(in, "'%.*s' is left over behind %s, required nothing more",
+                                   shown, word.text, table);
+    if (out)
+        luminaire_doubt(out, in->arena, "line %d: the text behind %s is left out ('%.*s')",
+                        in->line + 1, table, shown, word.text);
+    return true;
+}
+
+/* ---- decimal commas ---------------------------------------------------------------------- */
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+/* A word of a line that has one comma, between digits, and no point: a list has more, or blanks
+ * behind. */
+static bool has_decimal_comma(TextLine line, TextCell *word)
+{
+    const char *at = line.text, *end = at + line.length;
+    while (at < end) {
+        const char *begin = at, *comma = NULL;
+        int         commas = 0;
+        for (; at < end && !is_blank(*at); at++)
+            if (*at == ',' || *at == '.') commas++, comma = *at == ',' ? at : comma;
+        *word = (TextCell){begin, (int)(at - begin)};
+        if (commas == 1 && comma > begin && comma + 1 < at &&
+            isdigit((unsigned char)comma[-1]) && isdigit((unsigned char)comma[1]))
+            return true;
+        at += at < end;
+    }
+    return false;
+}
+
+/* A comma parts numbers. Where they do not come out even, it may have been meant otherwise: the
+ * error says so. Always false. */
+static bool hint_at_comma(const LuminaireScan *in)
+{
+    TextCell word;
+    for (int i = in->first; i <= in->line && i < in->text.count; i++) {
+        if (!has_decimal_comma(in->text.line[i], &word)) continue;
+        size_t length = strlen(in->err->text);
+        snprintf(in->err->text + length, sizeof in->err->text - length,
+                 " — line %d has '%.*s': if that is a decimal comma, required is a point",
+                 i + 1, word.length < 40 ? word.length : 40, word.text);
+        return false;
+    }
+    return false;
 }
 
 /* ---- head -------------------------------------------------------------------------------- */
@@ -110,6 +173,7 @@ static bool read_keywords(LuminaireScan *in, Luminaire *out, const char **tilt)
         for (int k = 0; k < i; k++) find_cct(in, in->text.line[k], CCT_OF_LAMP, out);
         *tilt = arena_string(in->arena, line.text + 5, (size_t)line.length - 5);
         begin_line(in, i + 1);
+        in->first = i + 1;
         return true;
     }
     return error_at(in->err, ERROR_INPUT, in->text.file, "", "has no line TILT=");
@@ -129,6 +193,10 @@ static bool read_factors(LuminaireScan *in, LuminaireTilt *out)
         return false;
     for (int i = 0; i < tilt.count; i++)
         if (!next_number(in, "a tilt factor", 0, 1e3, &tilt.factor[i])) return false;
+    double first = tilt.angle_deg[0], last = tilt.angle_deg[tilt.count - 1];
+    if (first != 0 || (last != 90 && last != 180))
+        return luminaire_scan_fail(in, "the tilt angles go from %g to %g, required 0 to 90 or "
+                                   "0 to 180 degrees", first, last);
     *out = tilt;
     return true;
 }
@@ -151,7 +219,8 @@ bool ies_read_tilt(const char *file, const FileBytes *bytes, ImportSet *set,
     LuminaireScan in;
     if (!luminaire_scan_open(file, bytes, next_number, set, &in, err)) return false;
     begin_line(&in, 0);
-    return read_factors(&in, out);
+    return (read_factors(&in, out) && check_end(&in, "the tilt factors", NULL)) ||
+           hint_at_comma(&in);
 }
 
 typedef struct IesHead {
@@ -159,10 +228,18 @@ typedef struct IesHead {
     double lumens, multiplier, size[3], ballast, lamp_factor, watts;
 } IesHead;
 
+static bool check_lumens(LuminaireScan *in, const IesHead *head)
+{
+    return head->lumens >= 0 || head->lumens == -1 ||
+           luminaire_scan_fail(in, "the lumens a lamp are %g, required 0 or more, or -1 "
+                               "(absolute)", head->lumens);
+}
+
 static bool read_head(LuminaireScan *in, IesHead *head)
 {
     return luminaire_scan_count(in, "the number of lamps", 0, 1000000, &head->lamps) &&
            next_number(in, "the lumens a lamp", -1, 1e9, &head->lumens) &&
+           check_lumens(in, head) &&
            next_number(in, "the candela multiplier", 1e-12, 1e9, &head->multiplier) &&
            luminaire_scan_count(in, "the number of vertical angles", 2, LUMINAIRE_ANGLES_MAX,
                                 &head->gammas) &&
@@ -170,12 +247,13 @@ static bool read_head(LuminaireScan *in, IesHead *head)
                                 LUMINAIRE_ANGLES_MAX, &head->planes) &&
            luminaire_scan_count(in, "the photometric type", 1, 3, &head->type) &&
            luminaire_scan_count(in, "the units of length", 1, 2, &head->units) &&
-           next_number(in, "the width", -1e5, 1e5, &head->size[0]) &&
-           next_number(in, "the length", -1e5, 1e5, &head->size[1]) &&
-           next_number(in, "the height", -1e5, 1e5, &head->size[2]) &&
-           next_number(in, "the ballast factor", 1e-6, 1e6, &head->ballast) &&
-           next_number(in, "the ballast-lamp factor", 1e-6, 1e6, &head->lamp_factor) &&
-           next_number(in, "the watts", -1e9, 1e9, &head->watts);
+           next_number(in, "the width", -SIZE_MOST, SIZE_MOST, &head->size[0]) &&
+           next_number(in, "the length", -SIZE_MOST, SIZE_MOST, &head->size[1]) &&
+           next_number(in, "the height", -SIZE_MOST, SIZE_MOST, &head->size[2]) &&
+           next_number(in, "the ballast factor", 1e-6, FACTOR_MOST, &head->ballast) &&
+           next_number(in, "the ballast-lamp factor", 1e-6, FACTOR_MOST,
+                       &head->lamp_factor) &&
+           next_number(in, "the watts", -1, 1e9, &head->watts);
 }
 
 /* ---- angles and intensities -------------------------------------------------------------- */
@@ -292,10 +370,16 @@ static void find_opening(const IesHead *head, int year, Luminaire *out, ImportSe
     const char *fault = opening_of_ies(year, out->type, size, &out->opening);
     out->area_m2 = (double)opening_area(&out->opening, vec3(0, 0, -1));
     if (!fault) return;
-    out->opening_fault = arena_format(set->arena, "its opening of width %g, length %g, height "
-                                      "%g is taken for a point: %s", head->size[0],
-                                      head->size[1], head->size[2], fault);
-    import_note(set, "%s: %s", path_name(out->file), out->opening_fault);
+    luminaire_doubt(out, set->arena, "its opening of width %g, length %g, height %g is taken "
+                    "for a point: %s", head->size[0], head->size[1], head->size[2], fault);
+}
+
+static bool read_table(LuminaireScan *in, const IesHead *head, double scale, Luminaire *out)
+{
+    const char *table = arena_format(in->arena, "the table of %d x %d intensities",
+                                     head->planes, head->gammas);
+    return (out->type == WEB_C ? read_type_c : read_tipped)(in, head, scale, out) &&
+           check_end(in, table, out);
 }
 
 bool ies_read_luminaire(const char *file, const FileBytes *bytes, ImportSet *set,
@@ -307,17 +391,18 @@ bool ies_read_luminaire(const char *file, const FileBytes *bytes, ImportSet *set
     Luminaire     out = {.file = file};
     const char   *tilt = "";
     if (!luminaire_scan_open(file, bytes, next_number, set, &in, err) ||
-        !read_keywords(&in, &out, &tilt) || !read_tilt(&in, tilt, &out.tilt) ||
-        !read_head(&in, &head))
+        !read_keywords(&in, &out, &tilt))
         return false;
+    if (!read_tilt(&in, tilt, &out.tilt) || !read_head(&in, &head)) return hint_at_comma(&in);
     int    year = find_year(&in);
     double scale = intensity_scale(&head, year);
     out.type = types[head.type];
-    if (!(out.type == WEB_C ? read_type_c : read_tipped)(&in, &head, scale, &out)) return false;
+    if (!read_table(&in, &head, scale, &out)) return hint_at_comma(&in);
     find_opening(&head, year, &out, set);
     out.stated_lm = head.lumens > 0 ? head.lamps * head.lumens * scale / head.multiplier : 0;
     out.stated_as = "of its lamps; the ratio is the luminaire's efficiency";
-    if (head.size[2] != 0 && !out.opening_fault)
+    luminaire_doubts_find(&out, set->arena);
+    if (head.size[2] != 0 && out.opening.shape != OPENING_POINT)
         import_note(set, "%s: luminous sides (height %g) are taken into the flat opening",
                     path_name(file), head.size[2]);
     *result = out;

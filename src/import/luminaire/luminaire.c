@@ -2,6 +2,7 @@
 #include "import/luminaire/luminaire.h"
 
 #include <math.h>
+#include <stdarg.h>
 
 #include "base/file.h"
 #include "base/mathd.h"
@@ -10,11 +11,21 @@
 #include "import/text/text_options.h"
 
 #define ROUND_PLANES 36
+#define DOUBT_BYTES 400
 
 typedef struct Plane {
     double c_deg;
     int    source; /* index of the stored plane */
 } Plane;
+
+void luminaire_doubt(Luminaire *luminaire, Arena *arena, const char *format, ...)
+{
+    va_list list;
+    if (luminaire->doubts == LUMINAIRE_DOUBTS_MAX) return;
+    va_start(list, format);
+    luminaire->doubt[luminaire->doubts++] = arena_format_list(arena, DOUBT_BYTES, format, list);
+    va_end(list);
+}
 
 /* ---- all planes -------------------------------------------------------------------------- */
 
@@ -227,6 +238,8 @@ bool luminaire_add(const Luminaire *in, const ImportOptions *options, ImportSet 
     fill(in, plane, count, options, area_m2, &rows);
     import_rows_give_measured(&rows, &table);
     note_azimuths(in, options, area_m2, set);
+    for (int i = 0; i < in->doubts; i++)
+        import_note(set, "%s: %s", path_name(in->file), in->doubt[i]);
     if (in->name && !set->panel) set->panel = in->name;
     return import_add(set, &table, err);
 }
@@ -244,13 +257,19 @@ static void fill_web(const Luminaire *in, const Plane *plane, float *c, float *r
         double turns = closes && i == web->planes ? 2 * PI : 0;
         c[i] = (float)(radians_from_degrees(at->c_deg) + turns);
         for (int k = 0; k < in->gammas; k++) {
-            float cd = (float)fmax(row[k], 0);
+            float cd = (float)row[k];
             relative[i * in->gammas + k] = cd;
             if (!(cd > web->largest_cd)) continue;
             web->largest_cd = cd;
             web->brightest = direction_at(in->type, (double)c[i], (double)web->gamma[k]);
         }
     }
+}
+
+double luminaire_flux(const Luminaire *in, Arena scratch)
+{
+    Plane *plane = ARENA_NEW(&scratch, Plane, 4 * (size_t)in->planes + ROUND_PLANES);
+    return total_flux(in, plane, expand_planes(in, plane), 180);
 }
 
 bool luminaire_web(const Luminaire *in, Arena *arena, IntensityWeb *out, Error *err)

@@ -20,6 +20,7 @@
 #include "spectrum/luminous_opening.h"
 
 #define LUMINAIRE_ANGLES_MAX 4096
+#define LUMINAIRE_DOUBTS_MAX 12
 
 /* Factors on the lamps' light when they are tilted (LM-63). */
 typedef struct LuminaireTilt {
@@ -41,14 +42,20 @@ typedef struct Luminaire {
     bool    is_round;          /* one plane that serves every azimuth */
     double  mirror_deg[2];     /* planes about which the rest is mirrored; < 0: none */
     LuminousOpening opening;   /* a point where the file has none */
-    const char *opening_fault; /* why the file's is taken for a point; else NULL */
     double  area_m2;           /* that it shows to the front; 0: not in the file */
     double  stated_lm;         /* light of the luminaire that the file states; 0: none */
     const char *stated_as;     /* "lamp flux x light output ratio" */
     double  cct_k;             /* colour temperature; 0: the file states no clear one */
     const char *cct_text;      /* the file's text about colour; "": none */
     LuminaireTilt tilt;
+    const char *doubt[LUMINAIRE_DOUBTS_MAX]; /* what cannot be as the file has it, and what is
+                                                assumed: for the user */
+    int     doubts;
 } Luminaire;
+
+/* Adds a doubt; beyond LUMINAIRE_DOUBTS_MAX it is left out. */
+void luminaire_doubt(Luminaire *luminaire, Arena *arena, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 
 /* Share of the intensities that are left where `down`, a unit vector, is vertical in the
  * luminaire's frame: the factor at the angle between each lamp's own axis and where that is in
@@ -57,7 +64,10 @@ typedef struct Luminaire {
 double luminaire_tilt_factor(const LuminaireTilt *tilt, WebType type, Vec3 down,
                              double *angle_deg);
 
-/* All directions, negative intensities as 0. Refuses a luminaire that sends out nothing. */
+/* Light in all directions, lm. */
+double luminaire_flux(const Luminaire *luminaire, Arena scratch);
+
+/* All directions. Refuses a luminaire that sends out nothing. */
 bool luminaire_web(const Luminaire *luminaire, Arena *arena, IntensityWeb *out, Error *err);
 
 /* Adds the luminaire as a white table, with notes on its flux. */

@@ -10,10 +10,13 @@
 #include "base/count.h"
 #include "spectrum/illuminant.h"
 
+#define INTENSITY_MOST_CD 1e12
+
 bool luminaire_scan_open(const char *file, const FileBytes *bytes, LuminaireNumber *number,
                          ImportSet *set, LuminaireScan *out, Error *err)
 {
-    *out = (LuminaireScan){.number = number, .line = -1, .arena = set->arena, .err = err};
+    *out = (LuminaireScan){.number = number, .line = -1, .arena = set->arena, .err = err,
+                           .comma = -1, .unit = -1};
     if (bytes)
         return text_file_decode(file, *bytes, ENCODING_AUTO, set->arena, &out->text, err);
     return text_file_read(file, ENCODING_AUTO, set->arena, &out->text, err);
@@ -45,8 +48,12 @@ bool luminaire_scan_intensities(LuminaireScan *scan, double scale, Luminaire *ou
     size_t total = (size_t)out->planes * (size_t)out->gammas;
     out->intensity_cd = ARENA_NEW(scan->arena, double, total);
     for (size_t i = 0; i < total; i++) {
-        if (!scan->number(scan, "an intensity", -1e9, 1e9, &out->intensity_cd[i])) return false;
-        out->intensity_cd[i] *= scale;
+        double *cd = &out->intensity_cd[i];
+        if (!scan->number(scan, "an intensity", 0, 1e9, cd)) return false;
+        *cd *= scale;
+        if (*cd > INTENSITY_MOST_CD)
+            return luminaire_scan_fail(scan, "an intensity is %g cd with the factors of the "
+                                       "head, required at most %g", *cd, INTENSITY_MOST_CD);
     }
     return true;
 }

@@ -20,6 +20,9 @@ struct LuminaireScan {
     TextFile         text;
     int              line;       /* index of the line that is read; -1: none yet */
     const char      *next, *end; /* in it: for a format whose numbers share lines */
+    int              first;      /* index of the line where its numbers begin */
+    int              comma, unit; /* first line that has a decimal comma, words behind its
+                                    number, which are read on over; -1: none */
     Arena           *arena;
     Error           *err;
 };

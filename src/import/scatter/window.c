@@ -167,9 +167,13 @@ static bool read_window(const char *file, const ImportOptions *options, ImportSe
 
 static bool is_window(const char *file, const char *head, size_t head_size)
 {
+    char   text[IMPORT_HEAD_BYTES + 1]; /* without the zeros of UTF-16 */
+    size_t count = 0;
     (void)file;
-    (void)head_size;
-    return strstr(head, "<WindowElement") != NULL;
+    for (size_t i = 0; i < head_size && i < IMPORT_HEAD_BYTES; i++)
+        if (head[i]) text[count++] = head[i];
+    text[count] = 0;
+    return strstr(text, "<WindowElement") != NULL;
 }
 
 const Importer importer_window = {

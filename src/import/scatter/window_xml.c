@@ -14,6 +14,7 @@
 
 #include "base/file.h"
 #include "text/xml_tags.h"
+#include "text/xml_text.h"
 
 #define BASES_MAX 16
 
@@ -67,13 +68,10 @@ static bool fail_at(const Document *in, const xmlNode *node, Error *err, const c
 
 /* ---- opening ----------------------------------------------------------------------------- */
 
-/* Text in UTF-8 without a document type: nothing can be fetched, and nothing expands. */
-static bool check_bytes(const char *file, const FileBytes *bytes, Error *err)
+/* Without a document type nothing can be fetched, and nothing expands. */
+static bool check_type(const char *file, const char *text, Error *err)
 {
-    if (memchr(bytes->data, 0, bytes->size))
-        return error_at(err, ERROR_INPUT, file, "", "has zero bytes, wanted XML in UTF-8");
-    if (strstr((const char *)bytes->data, "<!DOCTYPE") ||
-        strstr((const char *)bytes->data, "<!ENTITY"))
+    if (strstr(text, "<!DOCTYPE") || strstr(text, "<!ENTITY"))
         return error_at(err, ERROR_INPUT, file, "", "has a document type (<!DOCTYPE), which is "
                         "not taken");
     return true;
@@ -81,24 +79,24 @@ static bool check_bytes(const char *file, const FileBytes *bytes, Error *err)
 
 static bool parse(Document *in, Error *err)
 {
-    FileBytes bytes;
+    FileBytes   bytes;
+    const char *text;
     if (!file_read(in->file, IMPORT_FILE_BYTES_MAX, in->arena, &bytes, err) ||
-        !check_bytes(in->file, &bytes, err) ||
-        !xml_tags_check((const char *)bytes.data, in->file, err))
+        !xml_text_read(in->file, &bytes, in->arena, &text, err) ||
+        !check_type(in->file, text, err) || !xml_tags_check(text, in->file, err))
         return false;
     int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | XML_PARSE_HUGE |
-                  XML_PARSE_NOCDATA;
+                  XML_PARSE_NOCDATA | XML_PARSE_IGNORE_ENC;
     xmlParserCtxt *context = xmlNewParserCtxt();
     if (!context) return error_at(err, ERROR_MEMORY, in->file, "", "out of memory");
-    in->tree = xmlCtxtReadMemory(context, (const char *)bytes.data, (int)bytes.size, in->file,
-                                 "UTF-8", options);
+    in->tree = xmlCtxtReadMemory(context, text, (int)strlen(text), in->file, "UTF-8", options);
     const xmlError *problem = xmlCtxtGetLastError(context);
     if (!in->tree) {
-        const char *text = problem && problem->message ? problem->message : "is not XML";
+        const char *why = problem && problem->message ? problem->message : "is not XML";
         char        place[32] = "";
         if (problem && problem->line) snprintf(place, sizeof place, "line %d", problem->line);
         error_at(err, ERROR_INPUT, in->file, place, "is no sound XML: %.*s",
-                 (int)strcspn(text, "\r\n"), text);
+                 (int)strcspn(why, "\r\n"), why);
     }
     xmlFreeParserCtxt(context);
     return in->tree != NULL;

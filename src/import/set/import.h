@@ -114,6 +114,8 @@ typedef struct ImportOptions {
     const struct TextOptions *text; /* of text tables (text_options.h); NULL: none */
 } ImportOptions;
 
+#define IMPORT_HEAD_BYTES 4096
+
 /* One importer: `recognises` looks at the first bytes and the name, `read` adds the tables. */
 typedef struct Importer {
     const char *name;    /* for --format: "zemax", "mountain", "klems", ... */

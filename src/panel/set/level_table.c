@@ -15,6 +15,8 @@
 #include "text/csv_table.h"
 #include "text/text.h"
 
+#define LUMINANCE_MOST 1e9 /* cd/m2: more than the sun's disc at noon is no display */
+
 /* Places of the columns that count; -1: none. */
 typedef enum Place { PLACE_LEVEL, PLACE_RED, PLACE_GREEN, PLACE_BLUE, PLACE_WHITE, PLACE_COUNT
 } Place;
@@ -195,6 +197,9 @@ static bool take_luminance(const CsvTable *csv, const LevelRow *row, int column,
         if (out[i] < 0)
             return bad_row(csv, row[i].row, err, "column '%s' holds %g cd/m2, wanted no "
                            "luminance below zero", name, out[i]);
+        if (out[i] > LUMINANCE_MOST)
+            return bad_row(csv, row[i].row, err, "column '%s' holds %g cd/m2, required at most "
+                           "%g", name, out[i], LUMINANCE_MOST);
         if (i && out[i] < out[i - 1])
             return bad_row(csv, row[i].row, err, "column '%s': %g cd/m2 at level %g is less "
                            "than the %g of level %g (line %d), wanted luminance that does not "

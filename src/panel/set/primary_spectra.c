@@ -1,9 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/set/primary_spectra.h"
 
+#include <math.h>
+
 #include "base/count.h"
 #include "panel/set/angle_table.h"
+#include "spectrum/curve.h"
 #include "text/csv_table.h"
+
+#define NOISE_MOST 0.02   /* below zero, of a column's largest */
+#define LEFT_OUT_MOST 0.1 /* of what is seen, beyond the measured wavelengths */
 
 /* Linear between measured wavelengths, zero outside them. */
 static void resample_spectrum(const CsvTable *csv, int nm_column, int column, float *out)
@@ -36,6 +42,34 @@ static bool check_spectra(const CsvTable *csv, int nm_column, Arena *arena, Erro
     return true;
 }
 
+/* Noise below zero is left out; more is no light. Wavelengths that are not measured count as
+ * dark, so those that are seen are required. */
+static bool check_light(const CsvTable *csv, int nm_column, int column, Arena scratch,
+                        Error *err)
+{
+    double *nm = ARENA_NEW(&scratch, double, csv->rows);
+    double *value = ARENA_NEW(&scratch, double, csv->rows), least = 0, most = 0;
+    int     darkest = 0;
+    for (int i = 0; i < csv->rows; i++) {
+        const float *row = csv->cell + (size_t)i * (size_t)csv->columns;
+        nm[i] = (double)row[nm_column];
+        value[i] = (double)row[column];
+        if (value[i] < least) least = value[i], darkest = i;
+        most = fmax(most, value[i]);
+    }
+    if (-least > NOISE_MOST * most)
+        return error_at(err, ERROR_INPUT, csv->file, csv_table_place(csv, darkest, &scratch),
+                        "column '%s' holds %g, required 0 or more (noise up to %g %% of its "
+                        "largest, %g)", csv->name[column], least, 100 * NOISE_MOST, most);
+    double left_out = curve_held_share(nm, value, csv->rows);
+    return left_out <= LEFT_OUT_MOST ||
+           error_at(err, ERROR_INPUT, csv->file, "", "column '%s' goes from %g to %g nm and "
+                    "ends in light: %.0f %% of what is seen lies beyond, required at most "
+                    "%g %%",
+                    csv->name[column], nm[0], nm[csv->rows - 1], 100 * left_out,
+                    100 * LEFT_OUT_MOST);
+}
+
 static bool spectrum_has_light(const float *spectrum)
 {
     for (int i = 0; i < SPECTRAL_COUNT; i++)
@@ -57,8 +91,9 @@ bool primary_spectra_read(const char *file, Arena *arena, float spectrum[3][SPEC
                             known[i]);
     if (!check_spectra(&csv, nm, arena, err)) return false;
     for (int p = 0; p < 3; p++) {
-        resample_spectrum(&csv, nm, csv_table_column(&csv, primary_names[p]),
-                          spectrum[p]);
+        int column = csv_table_column(&csv, primary_names[p]);
+        if (!check_light(&csv, nm, column, *arena, err)) return false;
+        resample_spectrum(&csv, nm, column, spectrum[p]);
         if (!spectrum_has_light(spectrum[p]))
             return error_at(err, ERROR_INPUT, file, "", "column '%s' holds no light between "
                             "360 and 830 nm", primary_names[p]);

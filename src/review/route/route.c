@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "review/route/route_gpx.h"
 #include "review/route/route_points.h"
+#include "text/xml_text.h"
 
 #define EARTH_M 6371008.8 /* mean radius (IUGG) */
 #define STANDING_M 1.0
@@ -77,21 +78,17 @@ static bool fill_headings(const RoutePoints *points, Error *err)
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
-static bool is_xml(const char *text)
-{
-    return text[strspn(text, " \t\r\n")] == '<';
-}
-
 bool route_read(const char *file, Arena *arena, Route *out, Error *err)
 {
     FileBytes   bytes;
     const char *text;
     RoutePoints points = {.file = arena_string(arena, file, strlen(file)), .arena = arena};
-    if (!file_read(file, ROUTE_BYTES_MAX, arena, &bytes, err) ||
-        !file_text(points.file, &bytes, &text, err))
-        return false;
-    bool ok = is_xml(text) ? route_gpx_read(text, &points, err)
-                           : route_csv_read(text, &points, err);
+    if (!file_read(file, ROUTE_BYTES_MAX, arena, &bytes, err)) return false;
+    bool ok = xml_text_is(&bytes)
+                  ? xml_text_read(points.file, &bytes, arena, &text, err) &&
+                        route_gpx_read(text, &points, err)
+                  : file_text(points.file, &bytes, &text, err) &&
+                        route_csv_read(text, &points, err);
     if (!ok || !fill_headings(&points, err)) return false;
     *out = (Route){points.file, points.list, points.count};
     return true;

@@ -94,7 +94,7 @@ static bool check_type(const char *text, const char *file, Error *err)
 static xmlDoc *parse(const char *text, const char *file, Error *err)
 {
     int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | XML_PARSE_HUGE |
-                  XML_PARSE_NOCDATA | XML_PARSE_BIG_LINES;
+                  XML_PARSE_NOCDATA | XML_PARSE_BIG_LINES | XML_PARSE_IGNORE_ENC;
     xmlParserCtxt *context = xmlNewParserCtxt();
     if (!context) {
         error_at(err, ERROR_MEMORY, file, "", "out of memory");

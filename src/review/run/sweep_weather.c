@@ -170,6 +170,24 @@ bool sweep_weather_skies(const Setup *setup, const SweepSuns *suns, Arena *arena
 
 /* ---- telling ----------------------------------------------------------------------------- */
 
+/* " 3 of its rows do not add up: the first, line 12, has ..."; "": all do. */
+static const char *rows_note(const ReviewWeather *weather, Arena *arena)
+{
+    const Weather *of = &weather->weather;
+    const char    *first = "";
+    int            count = 0, line = 0;
+    for (int i = 0; i < of->count; i++) {
+        Arena       scratch = *arena;
+        const char *doubt =
+            weather_clock_row_doubt(of, &weather->clock, &of->hour[i], &scratch);
+        if (!doubt || count++) continue;
+        *arena = scratch;
+        first = doubt, line = of->hour[i].line;
+    }
+    return !count ? "" : arena_format(arena, " %d of its rows do not add up: the first, line "
+                                      "%d, %s.", count, line, first);
+}
+
 const char *sweep_weather_note(const ReviewWeather *weather, Arena *arena)
 {
     const WeatherClock *clock = &weather->clock;
@@ -182,8 +200,9 @@ const char *sweep_weather_note(const ReviewWeather *weather, Arena *arena)
                            "best), directions may be wrong", clock->best_closure_w_m2,
                            clock->mean_global_w_m2);
     return arena_format(arena, "Weather: %s (%s); its rows are taken %+.2f h from their labels "
-                        "(%s), %s.", weather->path, weather->weather.city, clock->offset_h,
-                        weather_clock_source_text(clock->source), fit);
+                        "(%s), %s.%s", weather->path, weather->weather.city, clock->offset_h,
+                        weather_clock_source_text(clock->source), fit,
+                        rows_note(weather, arena));
 }
 
 /* Rows with light that have no dew point. */

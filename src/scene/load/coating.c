@@ -37,7 +37,8 @@ static const OpticalConstants *index_of(const LayerSource *source, const GltfVal
     if (!source->is_library) return curve_file_index(source->file, named);
     OpticalConstants *out = ARENA_NEW(source->file->load->arena, OpticalConstants, 1);
     const char *text = text_named(coating_index_table, coating_index_count, named->text);
-    return text && curve_parse_index(text, named->text, &out->n, &out->k, &err) ? out : NULL;
+    return text && curve_parse_index(text, named->text, &out->n, &out->k, NULL, &err)
+               ? out : NULL;
 }
 
 /* "n" and "k" are numbers or files; a file for n holds k as well. */

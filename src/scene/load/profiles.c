@@ -72,9 +72,8 @@ bool profile_read(Loader *load, FileBytes bytes, bool has_folder, LightProfile *
     out->tilt = luminaire.tilt;
     out->cct_k = (float)luminaire.cct_k;
     out->cct_text = load_keep(load, luminaire.cct_text);
-    if (luminaire.opening_fault)
-        problems_add(load->problems, SEVERITY_WARNING, out->file, "", "%s",
-                     luminaire.opening_fault);
+    for (int i = 0; i < luminaire.doubts; i++)
+        problems_add(load->problems, SEVERITY_WARNING, out->file, "", "%s", luminaire.doubt[i]);
     return true;
 }
 

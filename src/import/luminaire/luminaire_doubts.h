@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* luminaire_doubts.h -- what a luminaire's table leaves open or says twice, and whether its
+ * light can be: angles that leave directions out, one direction with several intensities, more
+ * light than its lamps have.
+ *
+ * Memory   the arena's. Threads: no shared state. Fails: never.
+ */
+#pragma once
+#include "import/luminaire/luminaire.h"
+
+#define LUMINAIRE_FLUX_MOST 1.05 /* times the light that the file states */
+
+/* Adds to the luminaire's doubts. */
+void luminaire_doubts_find(Luminaire *luminaire, Arena *arena);
