@@ -175,6 +175,8 @@ static bool check_declared(XmlBytes *in, const char *declared, Error *err)
 {
     XmlEncoding named = in->encoding;
     if (!find_name(in, declared, &named, err)) return false;
+    /* Programs that write text by characters declare UTF-16 and keep UTF-8 (.NET's do). */
+    if (!strcasecmp(declared, "UTF-16") && in->encoding == XML_UTF8) return true;
     bool is_either = !strcasecmp(declared, "UTF-16") && is_wide(in->encoding);
     bool has_mark = in->mark > 0 || is_wide(in->encoding);
     if (!is_either && (is_wide(named) || has_mark) && named != in->encoding)

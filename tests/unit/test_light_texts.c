@@ -480,7 +480,7 @@ ARENA_TEST(a_declared_encoding_is_read_or_refused_by_name)
         {"UTF-8", "\xFF\xFE", NULL, 1, "declares the encoding 'UTF-8', but its bytes begin as "
                                        "UTF-16LE does"},
         {"UTF-16BE", "\xFF\xFE", NULL, 1, "'UTF-16BE', but its bytes begin as UTF-16LE does"},
-        {"UTF-16", "", NULL, 0, "'UTF-16', but its bytes begin as UTF-8 does"},
+        {"UTF-16LE", "", NULL, 0, "'UTF-16LE', but its bytes begin as UTF-8 does"},
         {"ISO-8859-1", "\xEF\xBB\xBF", NULL, 0, "'ISO-8859-1', but its bytes begin as UTF-8"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const char *text = NULL;

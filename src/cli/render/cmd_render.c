@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/file_write.h"
+#include "base/machine.h"
 #include "print/print.h"
 #include "cli/job/job_isa.h"
 #include "cli/options/answer.h"
