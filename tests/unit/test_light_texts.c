@@ -473,6 +473,7 @@ ARENA_TEST(a_declared_encoding_is_read_or_refused_by_name)
         {"windows-1252", "", NULL, 0, NULL}, {"UTF-16", "\xFF\xFE", NULL, 1, NULL},
         {"UTF-16", "\xFE\xFF", NULL, 2, NULL}, {"UTF-16LE", "", NULL, 1, NULL},
         {"utf-16be", "", NULL, 2, NULL}, {NULL, "\xFE\xFF", NULL, 2, NULL},
+        {"utf-16", "", "\xC3\xBC", 0, NULL}, {"UTF-16", "\xEF\xBB\xBF", "\xC3\xBC", 0, NULL},
         {NULL, "", NULL, 0, "line 2: holds bytes (at byte 17) that are no UTF-8"},
         {"US-ASCII", "", NULL, 0, "that are no US-ASCII"},
         {"windows-1252", "", "\x81", 0, "that are no windows-1252"},
