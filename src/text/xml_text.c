@@ -70,16 +70,6 @@ static bool is_wide(XmlEncoding encoding)
     return encoding == XML_UTF16LE || encoding == XML_UTF16BE;
 }
 
-bool xml_text_is(const FileBytes *bytes)
-{
-    XmlBytes in = find_encoding("", bytes);
-    size_t   at = in.mark;
-    while (in.encoding == XML_UTF8 && at < in.size && strchr(" \t\r\n", in.data[at]) &&
-           in.data[at])
-        at++;
-    return in.encoding != XML_UTF8 || (at < in.size && in.data[at] == '<');
-}
-
 /* ---- characters -------------------------------------------------------------------------- */
 
 /* The character at `at`; returns its bytes, 0 when there is none. */
@@ -105,6 +95,18 @@ static size_t character(const XmlBytes *in, size_t at, unsigned *code)
     if (in->encoding == XML_WINDOWS && *code >= 0x80 && *code < 0xA0)
         *code = windows_codes[*code - 0x80];
     return in->encoding != XML_ASCII || *code < 0x80;
+}
+
+bool xml_text_is(const FileBytes *bytes)
+{
+    XmlBytes in = find_encoding("", bytes);
+    unsigned code = 0;
+    size_t   taken = 1;
+    for (size_t at = in.mark; at < in.size && taken; at += taken) {
+        taken = character(&in, at, &code);
+        if (code != ' ' && code != '\t' && code != '\r' && code != '\n') break;
+    }
+    return in.encoding == XML_UTF32 || (taken && code == '<');
 }
 
 static bool decode(const XmlBytes *in, Arena *arena, const char **out, Error *err)

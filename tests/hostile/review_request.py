@@ -346,7 +346,7 @@ WEATHERS = ((EPW + HOURS, None), (MARKED + (EPW + HOURS).encode(), None),
             (EPW + HOURS.replace(",12,60", ",9,60").replace(",13,60", ",9,60"), "has no row"),
             (EPW + HOURS.replace(",500,", ",1600,"), "more than the sun's own"),
             (EPW + HOURS.replace(",20,12,", ",20,99.9,"), None),
-            (EPW + HOURS.replace(",20,12,", ",20,85,"), "a dew point from -99 to 70"),
+            (EPW + HOURS.replace(",20,12,", ",20,85,"), "a number from -99 to 70"),
             (EPW + HOURS[:-40], "fields"))
 
 
