@@ -1,10 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # long.sh [--list | --changed [COMMIT]] -- what takes too long for run.sh: slow units, what one
-# room alone can break (lamps, pictures as light, --for, jobs, installing), every closed form,
-# guide and fault, two hundred pairs of frames of other noise, a hundred kills, all units and
-# thousands of broken models and panels under the address sanitizer, the thread sanitizer,
-# packages, another Debian, the second compiler, five minutes of fuzzing.
+# room alone can break (lamps, pictures as light, outputs, settings, --for, jobs, installing),
+# every closed form, guide and fault, two hundred pairs of frames of other noise, a hundred
+# kills, all units and thousands of broken models and panels under the address sanitizer, the
+# thread sanitizer, packages, another Debian, the second compiler, five minutes of fuzzing.
 # A step that passed is not run again until a file that it depends on changes: stopped, it goes
 # on where it was. --list says which steps would be run; --changed runs of them those alone that
 # a commit after COMMIT reaches (the last one, if none is named), or what is not committed.
@@ -115,6 +115,8 @@ start "a sweep through a roof blind's slit" slit-sweep \
     python3 tests/image/slit_sweep.py $program
 of "$all scenes tests/hostile tests/image"
 start 'names give a terminal no commands' printed python3 tests/hostile/printed.py $program
+start 'an output never replaces an input' outputs python3 tests/hostile/outputs.py $program
+start 'settings that cannot be meant' settings python3 tests/hostile/settings.py $program
 start 'every option given twice' options-long \
     python3 tests/hostile/options.py --all $program
 start 'a render that is watched' live-view python3 tests/hostile/live_view.py $program
@@ -127,6 +129,7 @@ start 'installed, moved, read, completed' install \
     python3 tests/install/install.py .build/release
 of "$all scenes tests/image"
 start 'same bytes, four names' names-long python3 tests/image/names.py --all $program
+start 'one light in every command' one-light python3 tests/image/one_light.py $program
 start 'a scene far off is the same' far python3 tests/image/far.py $program
 start 'displays under sun and sky' reflection python3 tests/image/reflection.py $program
 start 'half the space and its glare' fisheye python3 tests/image/fisheye.py $program

@@ -50,17 +50,13 @@ start 'variants of a review' variants python3 tests/image/variants.py $program
 start 'a matte finish tried out' finish python3 tests/image/finish.py $program
 start 'the README as written, its review met' guides guides_and_meeting
 start 'the command line' cli python3 tests/hostile/cli.py $program
-start 'options given twice' options python3 tests/hostile/options.py $program
-start 'an output never replaces an input' outputs python3 tests/hostile/outputs.py $program
 start 'what is not known is no pass' unjudged python3 tests/hostile/unjudged.py $program
 start 'one judged quantity a row' judged python3 tests/hostile/judged.py $program
-start 'settings that cannot be meant' settings python3 tests/hostile/settings.py $program
 start 'reviews that ask wrongly' review-request python3 tests/hostile/review_request.py $program
 start "a review's folder is the user's too" review-files \
     python3 tests/hostile/review_files.py $program
 start 'panel commands' panel-commands python3 tests/hostile/panel_commands.py $program
 start 'frames held against accepted ones' regression python3 tests/image/regression.py $program
-start 'same bytes, any names' names python3 tests/image/names.py $program
 start 'what a verdict rests on' rests python3 tests/image/rests.py $program
 start 'same bits, killed and resumed' resume python3 tests/hostile/resume.py --kills 1 $program
 start 'same bits, any parts' merge python3 tests/image/merge.py $program
@@ -69,7 +65,6 @@ start 'scenes moved and turned' moved python3 tests/image/moved.py $program
 start 'faults and their outcomes' faults python3 tests/hostile/faults.py $program
 start 'closed forms in frames' image python3 tests/image/run.py $program
 start 'comparisons' compare python3 tests/hostile/compare.py $program
-start 'one light in every command' one-light python3 tests/image/one_light.py $program
 start 'same bits, any threads' bits python3 tests/image/bits.py $program
 start 'golden frames' golden python3 tests/image/golden.py $program
 start 'another renderer' library-renderer \
