@@ -3,52 +3,35 @@
  *
  * Two bases stand behind one view: Haar trees (this header) and vertex trees (vertex_tree.h).
  * tree_open and tree_query.h take either; the blob's magic number distinguishes them. Here is
- * what both are made of; tree/tree_build.h and vertex/vertex_tree_build.h make them.
+ * what both are made of; haar/haar_tree.h and vertex/vertex_tree_build.h make them.
  *
- * tree_build transforms leaf values (haar.h), keeps the details that matter most, and writes
- * them as one blob: little-endian, offsets instead of pointers, to be stored in a file, mapped
- * and queried in place (tree_query.h). A row is the detail of one child: `components` numbers.
+ * A tree is one blob: little-endian, offsets instead of pointers, to be stored in a file, mapped
+ * and queried in place (tree_query.h). A Haar row is the detail of one child (haar/haar.h):
+ * `components` numbers.
  *
  * Blob      TreeHeader | octant means, float32 | scales, float32 (integer rows only) | nodes
- *           level by level | TreeRow[] (blocks only) | rows. Must lie at an address that is a
- *           multiple of 8.
+ *           level by level | rows. Must lie at an address that is a multiple of 8.
  * Accuracy  the report compares with the source after everything, quantisation included.
  * Threads   a Tree is constant.
  */
 #pragma once
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 #include "base/arena.h"
-#include "hemisphere/haar.h"
+#include "hemisphere/geodesic.h"
 
 #define TREE_MAX_COMPONENTS 256
-#define TREE_BLOCK 8 /* components */
-#define TREE_MAX_BLOCKS (TREE_MAX_COMPONENTS / TREE_BLOCK)
 #define TREE_MAGIC 0x52414148u /* "HAAR" */
 #define TREE_VERSION 1u
 
 typedef enum TreeRowFormat {
     TREE_ROWS_FLOAT = 0, /* float32 */
-    TREE_ROWS_INT16 = 1, /* 16 bits times a scale for every level and component; 8 bits on the
-                            finest levels where rounding to these is no more than 1/16 of the
-                            error that the tree has anyway */
-    TREE_ROWS_BLOCKS = 2 /* as INT16, and every 8 components are kept or dropped by themselves:
-                            for components that differ, such as slices of a reflection */
+    TREE_ROWS_INT16 = 1  /* 16 bits times a scale for every level and component; 8 bits on the
+                            finest levels where rounding to these is no more than 1/16 of what
+                            the tree leaves out anyway */
 } TreeRowFormat;
-
-/* How to compress; exactly one of keep_share and max_error is above 0. By share: the details of
- * the largest normalised magnitude stay (haar_norms). By error: triangles whose leaves all lie
- * within the bound of their mean need no details; of the others' details the least significant
- * go as long as the bound holds at every leaf. */
-typedef struct TreeOptions {
-    HaarShape     shape;
-    float         keep_share; /* stored rows (octant means included) over leaves, (0, 1]; of
-                                 TREE_ROWS_BLOCKS: stored blocks over all blocks */
-    float         max_error;  /* bound on |component_scale * (tree - source)| at every leaf */
-    const float  *component_scale; /* what a component's error is worth; NULL: all 1 */
-    TreeRowFormat rows;
-} TreeOptions;
 
 /* Errors are weighted by component_scale, over leaves. */
 typedef struct TreeReport {
@@ -82,13 +65,6 @@ typedef struct TreeNode {
     uint32_t rows;
 } TreeNode;
 
-/* A row of TREE_ROWS_BLOCKS: which blocks are stored, one bit each, and where the first one
- * starts, in bytes from the first row. Blocks are always whole, the last one padded with 0. */
-typedef struct TreeRow {
-    uint32_t blocks;
-    uint32_t offset;
-} TreeRow;
-
 typedef enum TreeBasis { TREE_HAAR = 0, TREE_VERTEX = 1 } TreeBasis;
 
 /* A checked blob, ready for queries. Plain views into the blob and the geodesic. */
@@ -116,12 +92,10 @@ typedef struct Tree {
 
     /* Haar trees only. */
     const TreeNode *nodes;
-    const float    *means;  /* octants x stride */
-    const float    *scales; /* level x stride, integer rows only; else NULL */
-    const TreeRow  *row_table; /* row_count, blocks only; else NULL */
+    const float    *means;  /* octants x components */
+    const float    *scales; /* level x components, integer rows only; else NULL */
     const void     *rows;   /* 16-bit rows before 8-bit rows */
-    int             stride; /* components; of blocks: rounded up to whole ones */
-    HaarWeights     weights;
+    bool            has_area_weights;
     TreeRowFormat   format;
     uint32_t        row_count, node_count;
     uint32_t        byte_row; /* the first row of 8 bits, row_count if there is none */
@@ -141,13 +115,6 @@ typedef struct TreeTaps {
     float    weight[TREE_MAX_TAPS];
     uint8_t  level[TREE_MAX_TAPS]; /* of the row's father, for the scales */
 } TreeTaps;
-
-/* Components with their padding: what separates octant means, and levels of scales. */
-static inline int tree_stride(TreeRowFormat format, int components)
-{
-    int blocks = (components + TREE_BLOCK - 1) / TREE_BLOCK;
-    return format == TREE_ROWS_BLOCKS ? blocks * TREE_BLOCK : components;
-}
 
 /* Where a row of TREE_ROWS_INT16 starts, in bytes from tree->rows. */
 static inline size_t tree_row_offset(const Tree *tree, uint32_t row)

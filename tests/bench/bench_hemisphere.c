@@ -20,7 +20,7 @@
 #include "hemisphere/sampling/sampling_tree.h"
 #include "hemisphere/sampling/sampling_tree_build.h"
 #include "hemisphere/specular_frame.h"
-#include "hemisphere/tree/tree_build.h"
+#include "hemisphere/haar/haar_tree.h"
 #include "hemisphere/tree/tree_open.h"
 #include "hemisphere/tree/tree_query.h"
 #include "hemisphere/vertex/vertex_tree.h"
@@ -79,7 +79,7 @@ static void direction_errors(const Tree *tree, Signal signal, double percent[2])
     for (int i = 0; i < 2; i++) percent[i] = 100 * sqrt(error[i] / sum);
 }
 
-static void print_size_row(const SignalRow *row, TreeOptions options, const float *leaves,
+static void print_size_row(const SignalRow *row, HaarTreeOptions options, const float *leaves,
                            const Geodesic *geodesic, Arena scratch)
 {
     const void *blob;
@@ -87,7 +87,7 @@ static void print_size_row(const SignalRow *row, TreeOptions options, const floa
     Tree        tree;
     Error       err;
     double      percent[2];
-    if (!tree_build(&options, leaves, &scratch, &blob, &report, &err) ||
+    if (!haar_tree_build(&options, leaves, &scratch, &blob, &report, &err) ||
         !tree_open(blob, report.bytes, geodesic, &tree, &err)) {
         printf("%s\n", err.text);
         exit(1);
@@ -118,13 +118,13 @@ static void print_sizes(const Geodesic *geodesic, Arena scratch)
             const float *leaves = leaf_values(SIGNALS[s].value, level, shape.octants, &inner);
             for (size_t i = 0; i < sizeof shares / sizeof *shares; i++)
                 print_size_row(&SIGNALS[s],
-                               (TreeOptions){.shape = shape, .keep_share = shares[i],
+                               (HaarTreeOptions){.shape = shape, .keep_share = shares[i],
                                              .rows = TREE_ROWS_INT16},
                                leaves, geodesic, inner);
-            print_size_row(&SIGNALS[s], (TreeOptions){.shape = shape, .keep_share = 0.01f},
+            print_size_row(&SIGNALS[s], (HaarTreeOptions){.shape = shape, .keep_share = 0.01f},
                            leaves, geodesic, inner);
             shape.weights = HAAR_EQUAL;
-            print_size_row(&SIGNALS[s], (TreeOptions){.shape = shape, .keep_share = 0.01f},
+            print_size_row(&SIGNALS[s], (HaarTreeOptions){.shape = shape, .keep_share = 0.01f},
                            leaves, geodesic, inner);
         }
 }
@@ -217,7 +217,7 @@ static void print_bases(const Geodesic *geodesic, Arena scratch)
         Arena            inner = scratch;
         VertexLattice    lattice = {MAX_LEVEL, row->octants};
         HaarShape        shape = {MAX_LEVEL, row->octants, 1, HAAR_AREA};
-        TreeOptions      options = {.shape = shape, .keep_share = 0.01f,
+        HaarTreeOptions      options = {.shape = shape, .keep_share = 0.01f,
                                     .rows = TREE_ROWS_INT16};
         uint32_t         stored = haar_leaf_count(&shape) / 100;
         const void      *blob;
@@ -228,7 +228,7 @@ static void print_bases(const Geodesic *geodesic, Arena scratch)
                        bound_for(row->value, lattice, stored, geodesic, inner)};
         tree = build_vertex_tree(&bound, lattice, geodesic, &inner, &report);
         print_basis(row->name, "vertex", &tree, &report, row->value);
-        if (!tree_build(&options, leaf_values(row->value, MAX_LEVEL, row->octants, &inner),
+        if (!haar_tree_build(&options, leaf_values(row->value, MAX_LEVEL, row->octants, &inner),
                         &inner, &blob, &report, &err) ||
             !tree_open(blob, report.bytes, geodesic, &tree, &err))
             exit(1);
@@ -402,7 +402,7 @@ static void fill_tree(Input *in, int components, float share, TreeRowFormat rows
                       const Geodesic *geodesic, Arena *arena)
 {
     HaarShape   shape = {MAX_LEVEL, 2, components, HAAR_AREA};
-    TreeOptions options = {.shape = shape, .keep_share = share, .rows = rows};
+    HaarTreeOptions options = {.shape = shape, .keep_share = share, .rows = rows};
     Arena       behind = *arena;
     uint32_t    count = haar_leaf_count(&shape);
     const void *blob;
@@ -416,7 +416,7 @@ static void fill_tree(Input *in, int components, float share, TreeRowFormat rows
             leaves[i * (uint32_t)components + (uint32_t)c] =
                 value * (1 + 0.1f * (float)c / (float)components);
     }
-    if (!tree_build(&options, leaves, &behind, &blob, NULL, &err) ||
+    if (!haar_tree_build(&options, leaves, &behind, &blob, NULL, &err) ||
         !tree_open(blob, tree_size(blob), geodesic, &in->tree, &err)) {
         printf("%s\n", err.text);
         exit(1);

@@ -10,7 +10,7 @@
 #include "base/mathf.h"
 #include "base/sampler.h"
 #include "base/units.h"
-#include "hemisphere/tree/tree_build.h"
+#include "hemisphere/haar/haar_tree.h"
 #include "hemisphere/tree/tree_open.h"
 #include "hemisphere/tree/tree_query.h"
 
@@ -87,27 +87,13 @@ static inline float *leaves_of_signals(const HaarShape *shape, Arena *arena)
     return leaves;
 }
 
-/* 19 components that differ in where they vary: three blocks, the last one not full. */
-static inline float *leaves_of_blocks(const HaarShape *shape, Arena *arena)
-{
-    uint32_t count = haar_leaf_count(shape), components = (uint32_t)shape->components;
-    float   *leaves = ARENA_NEW(arena, float, count * components);
-    for (uint32_t i = 0; i < count * components; i++) {
-        Vec3 d = geodesic_center(shape->level, i / components);
-        leaves[i] = i % components < 8    ? smooth_signal(d) * 0.002f
-                    : i % components < 16 ? peak_signal(d) * (0.1f + 0.001f * (float)(i % 8))
-                                          : 3 + 0.2f * d.x * d.x;
-    }
-    return leaves;
-}
-
-static inline Tree build_and_open(Fixture *f, const TreeOptions *options, const float *leaves,
+static inline Tree build_and_open(Fixture *f, const HaarTreeOptions *options, const float *leaves,
                            TreeReport *report)
 {
     const void *blob;
     Tree        tree;
     Error       err;
-    if (!tree_build(options, leaves, &f->arena, &blob, report, &err)) fail_msg("%s", err.text);
+    if (!haar_tree_build(options, leaves, &f->arena, &blob, report, &err)) fail_msg("%s", err.text);
     if (!tree_open(blob, tree_size(blob), f->geodesic, &tree, &err)) fail_msg("%s", err.text);
     return tree;
 }

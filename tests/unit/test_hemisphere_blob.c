@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* test_hemisphere_blob.c -- damaged and hostile trees are refused, or harmless. */
-#include "hemisphere/tree/tree_build.h"
+#include "hemisphere/haar/haar_tree.h"
 #include "hemisphere/tree/tree_expand.h"
 #include "hemisphere/tree/tree_open.h"
 #include "hemisphere_fixture.h"
@@ -39,15 +39,14 @@ static void try_tree(const Fixture *f, const char *blob, size_t size, int *opene
 HEMISPHERE_TEST(mutated_trees_are_refused_or_harmless)
 {
     f->geodesic = geodesic_create(3, &f->arena); /* not a level more than the tree's */
-    for (int rows = 0; rows <= TREE_ROWS_BLOCKS; rows++) {
-        HaarShape   shape = {3, 4, rows == TREE_ROWS_BLOCKS ? 19 : 2, HAAR_AREA};
-        TreeOptions options = {.shape = shape, .keep_share = 0.1f, .rows = (TreeRowFormat)rows};
+    for (int rows = 0; rows <= TREE_ROWS_INT16; rows++) {
+        HaarShape   shape = {3, 4, 2, HAAR_AREA};
+        HaarTreeOptions options = {.shape = shape, .keep_share = 0.1f, .rows = (TreeRowFormat)rows};
         const void *blob;
         uint32_t    seed = 9;
         int         opened = 0;
-        float      *source = rows == TREE_ROWS_BLOCKS ? leaves_of_blocks(&shape, &f->arena)
-                                                      : leaves_of_signals(&shape, &f->arena);
-        assert_done(tree_build(&options, source, &f->arena, &blob, NULL, &err));
+        float      *source = leaves_of_signals(&shape, &f->arena);
+        assert_done(haar_tree_build(&options, source, &f->arena, &blob, NULL, &err));
         size_t size = tree_size(blob);
         for (size_t prefix = 0; prefix < size; prefix++)
             try_tree(f, blob, prefix, &opened);
@@ -68,10 +67,10 @@ HEMISPHERE_TEST(mutated_trees_are_refused_or_harmless)
 static const void *small_tree(Fixture *f, float keep_share)
 {
     HaarShape   shape = {3, 4, 1, HAAR_AREA};
-    TreeOptions options = {.shape = shape, .keep_share = keep_share};
+    HaarTreeOptions options = {.shape = shape, .keep_share = keep_share};
     const void *blob;
     float      *source = leaves_of_signals(&shape, &f->arena);
-    assert_done(tree_build(&options, source, &f->arena, &blob, NULL, &err));
+    assert_done(haar_tree_build(&options, source, &f->arena, &blob, NULL, &err));
     return blob;
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* test_hemisphere_tree.c -- compressed trees and their queries. */
-#include "hemisphere/tree/tree_build.h"
+#include "hemisphere/haar/haar_tree.h"
 #include "hemisphere/tree/tree_expand.h"
 #include "hemisphere/tree/tree_sum.h"
 #include "hemisphere_fixture.h"
@@ -13,7 +13,7 @@ HEMISPHERE_TEST(a_query_equals_the_inverted_tree_at_every_leaf)
     for (int variant = 0; variant < 8; variant++) {
         Arena       keep = f->arena;
         HaarShape   shape = {6, variant & 1 ? 2 : 4, 3, WEIGHTS[variant >> 1 & 1]};
-        TreeOptions options = {.shape = shape, .keep_share = 0.05f,
+        HaarTreeOptions options = {.shape = shape, .keep_share = 0.05f,
                                .rows = variant & 4 ? TREE_ROWS_INT16 : TREE_ROWS_FLOAT};
         uint32_t    count = haar_leaf_count(&shape);
         TreeReport  report;
@@ -43,7 +43,7 @@ HEMISPHERE_TEST(a_query_equals_the_inverted_tree_at_every_leaf)
 HEMISPHERE_TEST(a_tree_with_everything_kept_is_its_source)
 {
     HaarShape   shape = {5, 4, 3, HAAR_AREA};
-    TreeOptions options = {.shape = shape, .keep_share = 1};
+    HaarTreeOptions options = {.shape = shape, .keep_share = 1};
     TreeReport  report;
     float      *source = leaves_of_signals(&shape, &f->arena);
     Tree        tree = build_and_open(f, &options, source, &report);
@@ -59,7 +59,7 @@ HEMISPHERE_TEST(a_tree_with_everything_kept_is_its_source)
 HEMISPHERE_TEST(quantisation_is_part_of_the_report)
 {
     HaarShape   shape = {5, 4, 1, HAAR_AREA};
-    TreeOptions options = {.shape = shape, .keep_share = 1, .rows = TREE_ROWS_INT16};
+    HaarTreeOptions options = {.shape = shape, .keep_share = 1, .rows = TREE_ROWS_INT16};
     TreeReport  report;
     float      *source = leaves_of_signals(&shape, &f->arena), largest = 0;
     Tree        tree = build_and_open(f, &options, source, &report);
@@ -74,11 +74,11 @@ HEMISPHERE_TEST(quantisation_is_part_of_the_report)
 
 /* Smooth functions have small details on fine levels: these take a byte a component, and the
  * error hardly grows. 23 components are summed in all three ways: 16, 4 and 1 at a time. */
-static void check_8_bits(Fixture *f, TreeRowFormat rows)
+HEMISPHERE_TEST(fine_details_take_8_bits)
 {
     HaarShape   shape = {6, 2, 23, HAAR_AREA};
-    TreeOptions small = {.shape = shape, .keep_share = 0.3f, .rows = rows};
-    TreeOptions wide = {.shape = shape, .keep_share = 0.3f};
+    HaarTreeOptions small = {.shape = shape, .keep_share = 0.3f, .rows = TREE_ROWS_INT16};
+    HaarTreeOptions wide = {.shape = shape, .keep_share = 0.3f};
     TreeReport  small_report, wide_report;
     uint32_t    count = haar_leaf_count(&shape);
     float      *source = ARENA_NEW(&f->arena, float, 23 * count), value[23];
@@ -98,57 +98,6 @@ static void check_8_bits(Fixture *f, TreeRowFormat rows)
             assert_near(value[c], source[23 * id + c], 1.01 * (double)small_report.max_error);
         }
     }
-}
-
-HEMISPHERE_TEST(fine_details_take_8_bits)
-{
-    check_8_bits(f, TREE_ROWS_INT16);
-    check_8_bits(f, TREE_ROWS_BLOCKS);
-}
-
-HEMISPHERE_TEST(blocks_of_components_are_kept_by_themselves)
-{
-    HaarShape   shape = {6, 2, 19, HAAR_AREA};
-    TreeOptions blocks = {.shape = shape, .max_error = 0.1f, .rows = TREE_ROWS_BLOCKS};
-    TreeOptions rows = {.shape = shape, .max_error = 0.1f, .rows = TREE_ROWS_INT16};
-    TreeReport  block_report, row_report;
-    uint32_t    count = haar_leaf_count(&shape);
-    float      *source = leaves_of_blocks(&shape, &f->arena), value[19], some[19];
-    Tree        tree = build_and_open(f, &blocks, source, &block_report);
-    float      *leaves = ARENA_NEW(&f->arena, float, 19 * count);
-    build_and_open(f, &rows, source, &row_report);
-    tree_expand(&tree, leaves, f->arena);
-    assert_true(block_report.bytes < row_report.bytes);
-    assert_true(block_report.stored_values < 0.6 * (double)row_report.stored_values);
-    assert_true(tree.byte_row > 0 && tree.byte_row < tree.row_count);
-    for (uint32_t id = 0; id < count; id++) {
-        TreeTaps taps;
-        tree_walk_mean(&tree, 6, geodesic_center(6, id), &taps);
-        tree_sum(&tree, &taps, 0, 19, value);
-        for (uint32_t c = 0; c < 19; c++) {
-            assert_near(value[c], leaves[19 * id + c], 2e-5 * (double)fabsf(value[c]));
-            assert_true(fabsf(leaves[19 * id + c] - source[19 * id + c]) <= 0.1001f);
-        }
-        int first = (int)(id % 19), part = 1 + (int)(id / 19 % (19 - id % 19));
-        tree_sum(&tree, &taps, first, part, some);
-        for (int c = 0; c < part; c++) assert_true(some[c] == value[first + c]);
-    }
-}
-
-HEMISPHERE_TEST(a_share_of_blocks_is_a_share)
-{
-    HaarShape   shape = {5, 4, 19, HAAR_EQUAL};
-    TreeOptions options = {.shape = shape, .keep_share = 0.1f, .rows = TREE_ROWS_BLOCKS};
-    TreeReport  report;
-    Tree tree = build_and_open(f, &options, leaves_of_blocks(&shape, &f->arena), &report);
-    size_t blocks = 0, wanted = (size_t)lrint(0.1 * 3 * haar_leaf_count(&shape)) - 4 * 3;
-    for (uint32_t i = 0; i < tree.row_count; i++)
-        blocks += (size_t)__builtin_popcount(tree.row_table[i].blocks);
-    assert_int_equal(blocks, wanted);
-    assert_int_equal(report.stored_values, wanted * 8 + 4 * 19);
-    options.keep_share = 1; /* 16 bits are the only error */
-    build_and_open(f, &options, leaves_of_blocks(&shape, &f->arena), &report);
-    assert_true(report.relative_l2 < 1e-4f);
 }
 
 typedef struct Detail {
@@ -189,7 +138,7 @@ HEMISPHERE_TEST(thresholding_keeps_the_l2_bound)
     haar_norms(&shape, norms, f->arena);
     Detail *details = sorted_details(coefficients, norms, count, &f->arena);
     for (float share = 0.01f; share < 0.5f; share *= 3) {
-        TreeOptions options = {.shape = shape, .keep_share = share};
+        HaarTreeOptions options = {.shape = shape, .keep_share = share};
         TreeReport  report;
         Arena       keep = f->arena;
         build_and_open(f, &options, source, &report);
@@ -211,71 +160,34 @@ HEMISPHERE_TEST(thresholding_keeps_the_l2_bound)
     }
 }
 
-/* Pruning whole triangles first needs fewer rows than a share with the same largest error. */
-HEMISPHERE_TEST(an_error_bound_costs_fewer_rows_than_significance_alone)
+HEMISPHERE_TEST(options_out_of_range_are_refused_in_words)
 {
-    HaarShape   shape = {6, 4, 3, HAAR_AREA};
-    TreeOptions bound = {.shape = shape, .max_error = 2}, share = {.shape = shape};
-    TreeReport  by_bound, by_share;
-    float      *source = leaves_of_signals(&shape, &f->arena);
-    build_and_open(f, &bound, source, &by_bound);
-    share.keep_share = (float)by_bound.stored_rows / (float)by_bound.leaves;
-    build_and_open(f, &share, source, &by_share);
-    assert_true(by_bound.max_error <= 2);
-    assert_true(by_share.max_error > 2.2f);
-}
-
-HEMISPHERE_TEST(an_error_bound_holds_at_every_leaf)
-{
-    for (int rows = 0; rows < 2; rows++) {
-        Arena       keep = f->arena;
-        HaarShape   shape = {5, 2, 2, HAAR_AREA};
-        const float scale[2] = {0.1f, 1};
-        TreeOptions options = {.shape = shape, .max_error = 0.3f, .component_scale = scale,
-                               .rows = (TreeRowFormat)rows};
-        uint32_t    count = haar_leaf_count(&shape);
-        TreeReport  report;
-        float      *source = leaves_of_signals(&shape, &f->arena);
-        Tree        tree = build_and_open(f, &options, source, &report);
-        for (uint32_t id = 0; id < count; id++) {
-            float value[2];
-            tree_value(&tree, geodesic_center(5, id), value);
-            for (uint32_t c = 0; c < 2; c++)
-                assert_true(scale[c] * fabsf(value[c] - source[2 * id + c]) <= 0.3001f);
-        }
-        assert_true(report.stored_rows < count);
-        f->arena = keep;
-    }
-}
-
-HEMISPHERE_TEST(an_unreachable_bound_is_refused_in_words)
-{
-    Arena       scratch = f->arena;
-    HaarShape   shape = {4, 4, 1, HAAR_AREA};
-    TreeOptions options = {.shape = shape, .max_error = 1e-6f, .rows = TREE_ROWS_INT16};
-    float      *source = leaves_of_signals(&shape, &scratch);
-    const void *blob;
-    assert_fails(tree_build(&options, source, &scratch, &blob, NULL, &err),
-                 "wanted at most 1e-06");
+    HaarShape       shape = {4, 4, 1, HAAR_AREA};
+    HaarTreeOptions options = {.shape = shape, .keep_share = 0.5f};
+    float          *source = leaves_of_signals(&shape, &f->arena);
+    const void     *blob;
     source[7] = NAN;
-    assert_fails(tree_build(&options, source, &scratch, &blob, NULL, &err),
+    assert_fails(haar_tree_build(&options, source, &f->arena, &blob, NULL, &err),
                  "leaf 7, component 0 is nan");
-    options.keep_share = 0.5f;
-    assert_fails(tree_build(&options, source, &scratch, &blob, NULL, &err),
-                 "wanted one of them above 0");
+    options.keep_share = 0;
+    assert_fails(haar_tree_build(&options, source, &f->arena, &blob, NULL, &err),
+                 "keep share is 0, required above 0 to 1");
     options.shape.components = 0;
-    assert_fails(tree_build(&options, source, &scratch, &blob, NULL, &err), "components are 0");
+    assert_fails(haar_tree_build(&options, source, &f->arena, &blob, NULL, &err),
+                 "components are 0");
     options.shape.octants = 3;
-    assert_fails(tree_build(&options, source, &scratch, &blob, NULL, &err), "octants are 3");
+    assert_fails(haar_tree_build(&options, source, &f->arena, &blob, NULL, &err),
+                 "octants are 3");
     options.shape.level = 11;
-    assert_fails(tree_build(&options, source, &scratch, &blob, NULL, &err), "tree level is 11");
+    assert_fails(haar_tree_build(&options, source, &f->arena, &blob, NULL, &err),
+                 "tree level is 11");
 }
 
 /* Every mean of the tree is the exact mean of its leaves. */
 HEMISPHERE_TEST(a_mean_at_any_level_is_the_mean_of_its_leaves)
 {
     HaarShape   shape = {6, 4, 1, HAAR_AREA};
-    TreeOptions options = {.shape = shape, .keep_share = 0.03f};
+    HaarTreeOptions options = {.shape = shape, .keep_share = 0.03f};
     uint32_t    count = haar_leaf_count(&shape);
     TreeReport  report;
     float      *source = leaves_of_signals(&shape, &f->arena);
@@ -330,7 +242,7 @@ static void check_interpolation(Fixture *f, int level, int directions)
     uint32_t  seed = 5, count = haar_leaf_count(&shape);
     float    *source = ARENA_NEW(&f->arena, float, count);
     for (uint32_t i = 0; i < count; i++) source[i] = random_unit(&seed);
-    TreeOptions options = {.shape = shape, .keep_share = 1};
+    HaarTreeOptions options = {.shape = shape, .keep_share = 1};
     Tree        tree = build_and_open(f, &options, source, NULL);
     for (int i = 0; i < directions; i++) {
         Vec3  d = random_direction(&seed);
@@ -353,7 +265,7 @@ HEMISPHERE_TEST(interpolation_follows_its_definition)
 HEMISPHERE_TEST(a_small_tree_interpolates_like_its_expansion)
 {
     HaarShape   shape = {5, 4, 1, HAAR_AREA};
-    TreeOptions options = {.shape = shape, .keep_share = 0.03f}, all = options;
+    HaarTreeOptions options = {.shape = shape, .keep_share = 0.03f}, all = options;
     uint32_t    count = haar_leaf_count(&shape), seed = 17;
     Tree        small = build_and_open(f, &options, leaves_of_signals(&shape, &f->arena), NULL);
     float      *leaves = ARENA_NEW(&f->arena, float, count);
@@ -377,8 +289,8 @@ HEMISPHERE_TEST(half_trees_equal_whole_trees_of_symmetric_functions)
     uint32_t    count = haar_leaf_count(&half), seed = 6;
     float      *source = ARENA_NEW(&f->arena, float, 2 * count);
     for (uint32_t i = 0; i < count; i++) source[i] = source[i + count] = random_unit(&seed);
-    TreeOptions half_options = {.shape = half, .keep_share = 1};
-    TreeOptions whole_options = {.shape = whole, .keep_share = 1};
+    HaarTreeOptions half_options = {.shape = half, .keep_share = 1};
+    HaarTreeOptions whole_options = {.shape = whole, .keep_share = 1};
     Tree        a = build_and_open(f, &half_options, source, NULL);
     Tree        b = build_and_open(f, &whole_options, source, NULL);
     for (int i = 0; i < 3000; i++) {
@@ -397,7 +309,7 @@ HEMISPHERE_TEST(half_trees_equal_whole_trees_of_symmetric_functions)
 HEMISPHERE_TEST(interpolation_keeps_centres_and_constants)
 {
     HaarShape   shape = {6, 4, 3, HAAR_AREA};
-    TreeOptions options = {.shape = shape, .keep_share = 0.05f};
+    HaarTreeOptions options = {.shape = shape, .keep_share = 0.05f};
     uint32_t    count = haar_leaf_count(&shape), seed = 7;
     float      *source = leaves_of_signals(&shape, &f->arena);
     for (uint32_t i = 0; i < count; i++) source[3 * i + 2] = 4;
@@ -430,7 +342,7 @@ static Vec3 on_half_circle(int line, float turns)
 HEMISPHERE_TEST(interpolation_is_continuous)
 {
     HaarShape   shape = {6, 4, 1, HAAR_AREA};
-    TreeOptions options = {.shape = shape, .keep_share = 0.02f};
+    HaarTreeOptions options = {.shape = shape, .keep_share = 0.02f};
     Tree        tree = build_and_open(f, &options, leaves_of_signals(&shape, &f->arena), NULL);
     const int   steps = 80000;
     for (int line = 0; line < 4; line++) {

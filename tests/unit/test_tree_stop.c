@@ -147,7 +147,7 @@ HEMISPHERE_TEST(stopping_again_is_stopping_once)
 HEMISPHERE_TEST(a_haar_level_keeps_the_means_of_its_triangles)
 {
     HaarShape   shape = {6, 4, 1, HAAR_AREA};
-    TreeOptions options = {.shape = shape, .keep_share = 0.03f};
+    HaarTreeOptions options = {.shape = shape, .keep_share = 0.03f};
     TreeReport  report;
     float      *source = leaves_of_signals(&shape, &f->arena);
     Tree        tree = build_and_open(f, &options, source, &report);

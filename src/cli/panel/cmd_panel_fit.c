@@ -29,7 +29,7 @@ static void add_usage(json_t *report)
 typedef struct FitWords {
     Cli         cli;
     const char *output, *root, *levels;
-    int         basis, wavelet, weights, incidence; /* places in the lists of the options */
+    int         basis, wavelet, incidence; /* places in the lists of the options */
     long        level;
     double      keep, max_error, error_floor, frame;
     bool        masks_outliers, lobe_is_mirror, force;
@@ -44,14 +44,13 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
         {"--levels", OPTION_TEXT, "FILE.csv", "gamma table of a set of white alone: columns "
          "level and luminance (or red, green, blue), cd/m2 on the axis", &out->levels},
         {"--basis", OPTION_CHOICE, "vertex|haar",
-         "basis on the hemisphere (default vertex)", &out->basis},
-        {"--weights", OPTION_CHOICE, "area|equal",
-         "Haar's means by area or equal (default area)", &out->weights},
+         "basis on the hemisphere (default vertex); haar: see `panel wavelets`", &out->basis},
         {"--level", OPTION_INTEGER, "N",
          "subdivision level of the trees (default: what the samples need, up to 9)",
          &out->level, 2, 9},
-        {"--keep", OPTION_NUMBER, "SHARE", "share of coefficients to keep, instead of a bound",
-         &out->keep, 1e-5, 1},
+        {"--keep", OPTION_NUMBER, "SHARE",
+         "of the Haar basis: share of its coefficients (default: what 5 % of the source have "
+         "room for)", &out->keep, 1e-5, 1},
         {"--max-error", OPTION_NUMBER, "R",
          "relative error allowed at every sample besides its noise (default: 0.0025 for "
          "emission, 0.02 for reflection, or what the noise asks for)", &out->max_error, 1e-5,
@@ -81,8 +80,12 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
     if (out->cli.help_shown) return true;
     if (!out->output) return error_set(err, ERROR_USAGE, "panel fit wants -o X.panel");
-    if (out->keep > 0 && out->max_error > 0)
-        return error_set(err, ERROR_USAGE, "--keep and --max-error exclude each other");
+    if (out->basis == FIT_HAAR && out->max_error > 0)
+        return error_set(err, ERROR_USAGE, "--max-error is for --basis vertex: --basis haar has "
+                         "--keep");
+    if (out->basis != FIT_HAAR && out->keep > 0)
+        return error_set(err, ERROR_USAGE, "--keep is for --basis haar: --basis vertex has "
+                         "--max-error");
     return true;
 }
 
@@ -92,7 +95,6 @@ static FitOptions options_of(const FitWords *words)
     fit.level = (int)words->level;
     fit.has_wavelet = words->wavelet > 0;
     fit.wavelet = (WaveletKind)(words->wavelet > 0 ? words->wavelet - 1 : 0);
-    fit.weights = words->weights ? HAAR_EQUAL : HAAR_AREA;
     fit.frame_exponent = (float)words->frame;
     fit.is_linear_in_incidence = words->incidence == 1;
     fit.progress = words->cli.progress;
@@ -103,10 +105,7 @@ static FitOptions options_of(const FitWords *words)
     fit.lobe_is_mirror = words->lobe_is_mirror;
     if (words->max_error > 0) fit.bound = (float)words->max_error;
     if (words->error_floor > 0) fit.error_floor = 0.01f * (float)words->error_floor;
-    if (words->keep > 0) {
-        fit.keep_share = (float)words->keep;
-        fit.max_error = 0;
-    }
+    fit.keep_share = (float)words->keep;
     return fit;
 }
 

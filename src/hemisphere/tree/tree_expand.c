@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "hemisphere/haar/haar.h"
 #include "hemisphere/tree/tree_query.h"
 #include "hemisphere/vertex/vertex.h"
 #include "hemisphere/vertex/vertex_open.h"
@@ -13,26 +14,12 @@ static float integer_at(const char *from, bool is_byte, size_t index)
                    : ((const int16_t *)(const void *)from)[index];
 }
 
-static void place_blocks(const Tree *tree, uint32_t row, const float *scale, float *to)
-{
-    const char *from = (const char *)tree->rows + tree->row_table[row].offset;
-    bool        is_byte = row >= tree->byte_row;
-    for (uint32_t rest = tree->row_table[row].blocks; rest; rest &= rest - 1) {
-        int first = TREE_BLOCK * __builtin_ctz(rest);
-        for (int i = 0; i < TREE_BLOCK && first + i < tree->components; i++)
-            to[first + i] = scale[first + i] * integer_at(from, is_byte, (size_t)i);
-        from += is_byte ? TREE_BLOCK : 2 * TREE_BLOCK;
-    }
-}
-
 static void place_row(const Tree *tree, uint32_t row, int level, float *to)
 {
     size_t       components = (size_t)tree->components;
-    const float *scale = tree->scales ? tree->scales + level * tree->stride : NULL;
+    const float *scale = tree->scales ? tree->scales + level * tree->components : NULL;
     if (tree->format == TREE_ROWS_FLOAT) {
         memcpy(to, (const float *)tree->rows + row * components, components * sizeof(float));
-    } else if (tree->format == TREE_ROWS_BLOCKS) {
-        place_blocks(tree, row, scale, to);
     } else {
         const char *from = (const char *)tree->rows + tree_row_offset(tree, row);
         for (size_t c = 0; c < components; c++)
@@ -63,7 +50,8 @@ static void place_rows(const Tree *tree, float *leaves, uint32_t *ids)
 
 void tree_expand(const Tree *tree, float *leaves, Arena scratch)
 {
-    HaarShape shape = {tree->level, tree->octants, tree->components, tree->weights};
+    HaarShape shape = {tree->level, tree->octants, tree->components,
+                       tree->has_area_weights ? HAAR_AREA : HAAR_EQUAL};
     size_t    components = (size_t)tree->components;
     if (tree->basis == TREE_VERTEX) {
         for (uint32_t i = 0; i < haar_leaf_count(&shape); i++)
@@ -73,8 +61,7 @@ void tree_expand(const Tree *tree, float *leaves, Arena scratch)
     memset(leaves, 0, haar_leaf_count(&shape) * components * sizeof(float));
     for (size_t q = 0; q < (size_t)tree->octants; q++)
         memcpy(leaves + (q << 2 * tree->level) * components,
-               tree->means + q * (size_t)tree->stride,
-               components * sizeof(float));
+               tree->means + q * components, components * sizeof(float));
     place_rows(tree, leaves, ARENA_NEW(&scratch, uint32_t, tree->node_count));
     haar_inverse(&shape, leaves, scratch);
 }

@@ -32,9 +32,9 @@ static bool check_header(const TreeHeader *h, size_t size, Error *err)
     if (h->level > GEODESIC_MAX_LEVEL)
         return refuse(err, "level", h->level, GEODESIC_MAX_LEVEL);
     if (h->octants != 2 && h->octants != 4) return refuse(err, "octant count", h->octants, 4);
-    if (h->weights > HAAR_AREA) return refuse(err, "weight kind", h->weights, HAAR_AREA);
-    if (h->rows > TREE_ROWS_BLOCKS)
-        return refuse(err, "row format", h->rows, TREE_ROWS_BLOCKS);
+    if (h->weights > 1) return refuse(err, "weight kind", h->weights, 1);
+    if (h->rows > TREE_ROWS_INT16)
+        return refuse(err, "row format", h->rows, TREE_ROWS_INT16);
     if (h->components < 1 || h->components > TREE_MAX_COMPONENTS)
         return refuse(err, "component count", h->components, TREE_MAX_COMPONENTS);
     if (h->byte_level != 0 && (h->byte_level >= h->level || h->rows == TREE_ROWS_FLOAT))
@@ -50,12 +50,11 @@ static bool check_offsets(const TreeHeader *h, Error *err)
     if (h->node_count < h->octants || h->node_count > 2 * leaves)
         return refuse(err, "node count", h->node_count, h->octants);
     if (h->row_count >= leaves) return refuse(err, "row count", h->row_count, (double)leaves);
-    uint64_t stride = (uint64_t)tree_stride((TreeRowFormat)h->rows, (int)h->components);
-    uint64_t scales = sizeof(TreeHeader) + 4 * h->octants * stride;
-    uint64_t scale_bytes = h->rows == TREE_ROWS_FLOAT ? 0 : 4 * h->level * stride;
+    uint64_t row = 4 * (uint64_t)h->components;
+    uint64_t scales = sizeof(TreeHeader) + h->octants * row;
+    uint64_t scale_bytes = h->rows == TREE_ROWS_FLOAT ? 0 : h->level * row;
     uint64_t nodes = (scales + scale_bytes + 7) / 8 * 8;
     uint64_t rows = nodes + sizeof(TreeNode) * (uint64_t)h->node_count;
-    if (h->rows == TREE_ROWS_BLOCKS) rows += sizeof(TreeRow) * (uint64_t)h->row_count;
     if (h->means_offset != sizeof(TreeHeader))
         return refuse(err, "offset of the means", h->means_offset, sizeof(TreeHeader));
     if (h->scales_offset != scales)
@@ -67,29 +66,11 @@ static bool check_offsets(const TreeHeader *h, Error *err)
     return true;
 }
 
-/* Bytes of the blocks, whose places must continue each other. */
-static bool check_row_table(const Tree *tree, uint64_t *bytes, Error *err)
-{
-    uint32_t unknown = ~0u << (tree->stride / TREE_BLOCK - 1) << 1;
-    *bytes = 0;
-    for (uint32_t i = 0; i < tree->row_count; i++) {
-        TreeRow row = tree->row_table[i];
-        if (row.blocks == 0 || row.blocks & unknown || row.offset != *bytes)
-            return error_set(err, ERROR_INPUT, "tree: row %u has blocks %#x at byte %u, wanted "
-                             "some of %d blocks at byte %llu", i, row.blocks, row.offset,
-                             tree->stride / TREE_BLOCK, (unsigned long long)*bytes);
-        uint64_t width = i < tree->byte_row ? 2 : 1;
-        *bytes += width * TREE_BLOCK * (uint64_t)__builtin_popcount(row.blocks);
-    }
-    return true;
-}
-
 /* The nodes determine how many rows have 8 bits, and so how long the rows are. */
 static bool check_size(const TreeHeader *h, const Tree *tree, Error *err)
 {
     uint64_t bytes = 4ull * h->components * h->row_count;
     if (tree->format == TREE_ROWS_INT16) bytes = tree_row_offset(tree, h->row_count);
-    if (tree->format == TREE_ROWS_BLOCKS && !check_row_table(tree, &bytes, err)) return false;
     uint64_t size = (h->rows_offset + bytes + 7) / 8 * 8;
     if (h->size != size) return refuse(err, "size", (double)h->size, (double)size);
     return true;
@@ -140,31 +121,27 @@ static bool check_finite(const float *values, size_t count, const char *what, Er
 
 static bool check_values(const Tree *tree, Error *err)
 {
-    size_t stride = (size_t)tree->stride;
-    if (!check_finite(tree->means, stride * (size_t)tree->octants, "mean", err)) return false;
+    size_t row = (size_t)tree->components;
+    if (!check_finite(tree->means, row * (size_t)tree->octants, "mean", err)) return false;
     if (tree->format != TREE_ROWS_FLOAT)
-        return check_finite(tree->scales, stride * (size_t)tree->level, "scale", err);
-    return check_finite(tree->rows, stride * tree->row_count, "detail", err);
+        return check_finite(tree->scales, row * (size_t)tree->level, "scale", err);
+    return check_finite(tree->rows, row * tree->row_count, "detail", err);
 }
 
 static Tree view(const char *blob, const Geodesic *geodesic)
 {
     const TreeHeader *h = (const TreeHeader *)(const void *)blob;
     const char       *rows = blob + h->rows_offset;
-    bool              blocks = h->rows == TREE_ROWS_BLOCKS;
     const char *scales = h->rows == TREE_ROWS_FLOAT ? NULL : blob + h->scales_offset;
-    const char *table = blocks ? rows - h->row_count * sizeof(TreeRow) : NULL;
     return (Tree){.geodesic = geodesic,
                   .nodes = (const TreeNode *)(const void *)(blob + h->nodes_offset),
                   .means = (const float *)(const void *)(blob + h->means_offset),
                   .scales = (const float *)(const void *)scales,
-                  .row_table = (const TreeRow *)(const void *)table,
                   .rows = rows,
                   .level = h->level,
                   .octants = h->octants,
                   .components = (int)h->components,
-                  .stride = tree_stride((TreeRowFormat)h->rows, (int)h->components),
-                  .weights = (HaarWeights)h->weights,
+                  .has_area_weights = h->weights == 1,
                   .format = (TreeRowFormat)h->rows,
                   .row_count = h->row_count,
                   .node_count = h->node_count,

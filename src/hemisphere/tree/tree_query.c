@@ -62,7 +62,7 @@ static inline void add_rows(TreeTaps *taps, TreeNode node, int level, Float4 wei
 static const float *area_ratio(const Tree *tree, int level, uint32_t place)
 {
     static const float equal[4] = {1, 1, 1, 1};
-    return tree->weights == HAAR_AREA ? tree->geodesic->ratios[level][place].of_child : equal;
+    return tree->has_area_weights ? tree->geodesic->ratios[level][place].of_child : equal;
 }
 
 static const Float4 ONE_IN_LANE[4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};

@@ -130,74 +130,11 @@ static void sum_rows(const Tree *tree, const TreeTaps *taps, int first, int coun
     for (; i < count; i++) out[i] = sum_one(tree, taps, first + i);
 }
 
-/* ---- rows of blocks ---------------------------------------------------------------------- */
-
-/* Bits that are set; the baseline instruction set cannot count them. */
-static inline uint32_t count_bits(uint32_t x)
-{
-    x -= x >> 1 & 0x55555555u;
-    x = (x & 0x33333333u) + (x >> 2 & 0x33333333u);
-    x = (x + (x >> 4)) & 0x0f0f0f0fu;
-    return x * 0x01010101u >> 24;
-}
-
-static inline Short8 load_block(const char *from, bool is_byte)
-{
-    Byte16 bytes = {0};
-    Short8 shorts;
-    memcpy(is_byte ? (void *)&bytes : (void *)&shorts, from, is_byte ? 8 : 16);
-    return is_byte ? lower_bytes(bytes) : shorts;
-}
-
-/* Adds the stored ones of `count` blocks from `first` on of a row to sum, two vectors a block.
- */
-static inline void add_blocks(const Tree *tree, uint32_t at, int level, float tap_weight,
-                              const int range[2], Float4 *sum)
-{
-    TreeRow      row = tree->row_table[at];
-    bool         is_byte = at >= tree->byte_row;
-    int          size = is_byte ? TREE_BLOCK : 2 * TREE_BLOCK, shift = is_byte ? 24 : 16;
-    uint32_t     before = row.blocks & ((1u << range[0]) - 1);
-    uint32_t     rest = row.blocks >> range[0] & (~0u >> (32 - range[1]));
-    const char *from =
-        (const char *)tree->rows + row.offset + count_bits(before) * (uint32_t)size;
-    const float *scale = tree->scales + level * tree->stride + TREE_BLOCK * range[0];
-    Float4       weight = all_lanes(tap_weight);
-    for (; rest; rest &= rest - 1, from += size) {
-        int          b = __builtin_ctz(rest);
-        const float *s = scale + TREE_BLOCK * b;
-        Short8       block = load_block(from, is_byte);
-        sum[2 * b] += weight * (load_floats(s) * lower_shorts(block, shift));
-        sum[2 * b + 1] += weight * (load_floats(s + 4) * upper_shorts(block, shift));
-    }
-}
-
-/* Sums the whole blocks that hold the components. */
-static void sum_row_blocks(const Tree *tree, const TreeTaps *taps, int first, int count,
-                           float *out)
-{
-    Float4    sum[2 * TREE_MAX_BLOCKS];
-    const int low = first / TREE_BLOCK, high = (first + count - 1) / TREE_BLOCK;
-    const int range[2] = {low, high - low + 1};
-    for (int i = 0; i < 2 * range[1]; i++) {
-        sum[i] = (Float4){0, 0, 0, 0};
-        for (int q = 0; q < tree->octants; q++)
-            sum[i] += all_lanes(taps->mean_weight[q]) *
-                      load_floats(tree->means + q * tree->stride + TREE_BLOCK * low + 4 * i);
-    }
-    for (int t = 0; t < taps->count; t++)
-        add_blocks(tree, taps->row[t], taps->level[t], taps->weight[t], range, sum);
-    memcpy(out, (const float *)(const void *)sum + (first - TREE_BLOCK * low),
-           (size_t)count * sizeof *out);
-}
-
 void tree_sum(const Tree *tree, const TreeTaps *taps, int first, int count, float *out)
 {
     if (count <= 0) return;
     if (tree->basis == TREE_VERTEX)
         vertex_tree_sum(tree, taps, first, count, out);
-    else if (tree->format == TREE_ROWS_BLOCKS)
-        sum_row_blocks(tree, taps, first, count, out);
     else
         sum_rows(tree, taps, first, count, out);
 }

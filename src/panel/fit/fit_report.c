@@ -377,9 +377,6 @@ json_t *fit_report_measure(const FitParts *parts, const Panel *panel, size_t fil
         "source", path_name(set->file), "pixels", set->pixels[0], set->pixels[1],
         "size_mm", set->size_mm[0], set->size_mm[1],
         "basis", parts->options->basis == FIT_HAAR ? "haar" : "vertex");
-    if (parts->options->basis == FIT_HAAR)
-        json_object_set_new(out, "weights", json_string(
-            parts->options->weights == HAAR_AREA ? "area" : "equal"));
     snprintf(hash, sizeof hash, "%016llx", (unsigned long long)source_hash(set));
     json_object_set_new(out, "source_hash_xxh3", json_string(hash));
     if (parts->emission) {

@@ -10,16 +10,15 @@
 
 #include "base/arena.h"
 #include "base/progress.h"
-#include "hemisphere/haar.h"
 #include "hemisphere/wavelet1d.h"
 
 typedef enum FitBasis { FIT_VERTEX = 0, FIT_HAAR = 1 } FitBasis; /* on the hemisphere */
 
-/* Exactly one of keep_share and max_error is above 0; the others have 0 for "choose". */
+/* 0 is "choose". */
 typedef struct FitOptions {
     int         level;      /* of the trees; 0: what the samples need */
-    float       keep_share; /* stored rows over leaves, (0, 1] */
-    float       max_error;  /* relative, of each tree component */
+    float       keep_share; /* Haar: stored rows over leaves, (0, 1]; 0: what FIT_HAAR_SOURCE of
+                               the source's float32 has room for */
     float       bound;      /* relative error allowed at every measured sample; 0: 2 %, and
                                2.5 % of noisy tables. Noise allows its own 5 sigma anyway */
     float       error_floor; /* share of an emission channel's largest value in a table: of what
@@ -29,7 +28,6 @@ typedef struct FitOptions {
                                    with this no error counts them either */
     bool        has_wavelet; /* along the wavelengths; else a few principal spectra */
     WaveletKind wavelet;
-    HaarWeights weights;
     bool        lobe_is_mirror; /* a peak on the haze is the instrument's image of the mirror,
                                    its width the instrument's, where that is not declared */
     float       frame_exponent; /* k of the specular-following frame; 0: choose */
@@ -41,9 +39,15 @@ typedef struct FitOptions {
 
 static inline FitOptions fit_options_default(void)
 {
-    return (FitOptions){.max_error = 0.003f, .error_floor = 0.001f, .wavelet = WAVELET_CDF53,
-                        .weights = HAAR_AREA, .threads = 1, .progress = PROGRESS_NONE};
+    return (FitOptions){.error_floor = 0.001f, .wavelet = WAVELET_CDF53, .threads = 1,
+                        .progress = PROGRESS_NONE};
 }
+
+#define FIT_HAAR_SOURCE 0.05
+
+/* The share of a Haar tree's rows to keep. numbers: measured ones; leaves, components: of the
+ * tree. A row takes two bytes a component, and eight with its node. */
+float fit_haar_share(const FitOptions *options, double numbers, double leaves, int components);
 
 #define FIT_NOTES_MAX 32
 

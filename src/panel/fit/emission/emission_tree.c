@@ -8,7 +8,7 @@
 
 #include "base/mathd.h"
 #include "base/units.h"
-#include "hemisphere/tree/tree_build.h"
+#include "hemisphere/haar/haar_tree.h"
 #include "hemisphere/tree/tree_open.h"
 #include "hemisphere/tree/tree_query.h"
 #include "hemisphere/vertex/vertex.h"
@@ -326,26 +326,6 @@ static bool code_tree(EmissionCoder *coder, Arena *arena, EmissionTree *out, Err
     return true;
 }
 
-/* The finest tolerance at which no more than a share of the vertices keeps its details. */
-static bool code_share(EmissionCoder *coder, double share, Arena *arena, EmissionTree *out,
-                       Error *err)
-{
-    double low = 1e-5, high = 1;
-    Tree   tree;
-    for (int step = 0; step < 12; step++) {
-        coder->model->tolerance = sqrt(low * high);
-        find_wanted(coder);
-        if (!code_once(coder, arena, out, &tree, err)) return false;
-        if ((double)out->report.stored_rows > share * coder->vertices)
-            low = coder->model->tolerance;
-        else
-            high = coder->model->tolerance;
-    }
-    coder->model->tolerance = high;
-    find_wanted(coder);
-    return code_once(coder, arena, out, &tree, err);
-}
-
 /* ---- Haar ------------------------------------------------------------------------------ */
 
 /* The same function as means over triangles. */
@@ -366,12 +346,11 @@ static bool code_haar(const EmissionCoder *coder, const FitOptions *options, Are
         for (int c = 0; c < model->samples->channels; c++)
             scale[k] = fmaxf(scale[k], fabsf(model->rank->loading[c * n + k]));
     }
-    TreeOptions tree = {.shape = {level, 4, n, options->weights},
-                        .keep_share = options->keep_share,
-                        .max_error = options->keep_share > 0
-                                         ? 0 : (float)(model->tolerance / sqrt((double)n)),
-                        .component_scale = scale, .rows = TREE_ROWS_INT16};
-    return tree_build(&tree, values, arena, &out->bytes, &out->report, err) ||
+    double numbers = (double)model->samples->rows * model->samples->channels;
+    HaarTreeOptions tree = {.shape = {level, 4, n, HAAR_AREA},
+                            .keep_share = fit_haar_share(options, numbers, (double)leaves, n),
+                            .component_scale = scale, .rows = TREE_ROWS_INT16};
+    return haar_tree_build(&tree, values, arena, &out->bytes, &out->report, err) ||
            error_prefix(err, "emission");
 }
 
@@ -380,8 +359,6 @@ static bool code(EmissionCoder *coder, const FitOptions *options, Arena *arena,
 {
     out->level = coder->lattice.level;
     if (options->basis == FIT_HAAR) return code_haar(coder, options, arena, out, err);
-    if (options->keep_share > 0)
-        return code_share(coder, (double)options->keep_share, arena, out, err);
     return code_tree(coder, arena, out, err);
 }
 

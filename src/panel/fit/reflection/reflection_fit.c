@@ -123,9 +123,6 @@ static bool code_levels(ReflectionModel *model, ReflectionMisses *misses, Error 
 static void note_outcome(const ReflectionModel *model, const ReflectionMisses *misses,
                          FitNotes *notes)
 {
-    if (model->options->keep_share > 0 && model->options->basis == FIT_VERTEX)
-        fit_note(notes, "reflection: the vertex basis keeps what its bound needs; a share to "
-                 "keep is for the Haar basis");
     if (model->masked)
         fit_note(notes, "%d zeros or negative values of reflection were held above a floor "
                  "(1e-6 of their table's largest value); their errors do not count",

@@ -6,7 +6,7 @@
 
 #include "base/mathd.h"
 #include "base/parallel.h"
-#include "hemisphere/tree/tree_build.h"
+#include "hemisphere/haar/haar_tree.h"
 #include "hemisphere/tree/tree_open.h"
 #include "hemisphere/tree/tree_query.h"
 #include "hemisphere/vertex/vertex.h"
@@ -114,14 +114,15 @@ static bool build_haar(ReflectionModel *model, Error *err)
             for (int c = 0; c < n; c++)
                 scale[c] = fmaxf(scale[c], fabsf(model->loading[i * n + c] *
                                                  model->basis[i % m * w_count + w]));
-    TreeOptions options = {
-        .shape = {model->lattice.level, model->lattice.octants, n, model->options->weights},
-        .keep_share = model->options->keep_share,
-        .max_error = model->options->keep_share > 0 ? 0 : (float)(PLACE_SHARE * model->bound),
+    double numbers = 0;
+    for (int t = 0; t < model->tables; t++)
+        numbers += (double)model->parts->kept[t].rows * w_count;
+    HaarTreeOptions options = {
+        .shape = {model->lattice.level, model->lattice.octants, n, HAAR_AREA},
+        .keep_share = fit_haar_share(model->options, numbers, model->places, n),
         .component_scale = scale, .rows = TREE_ROWS_INT16};
-    return tree_build(&options, model->score, model->arena, &model->tree,
-                      &model->tree_report,
-                      err);
+    return haar_tree_build(&options, model->score, model->arena, &model->tree,
+                           &model->tree_report, err);
 }
 
 static void loosen(ReflectionModel *model)
