@@ -218,16 +218,14 @@ class HaarTree:
         self.level, self.octants, self.weights, self.kind = struct.unpack_from("<4B", data, 16)
         self.count, nodes, rows, means, scales, at, self.byte_level, start = (
             struct.unpack_from("<IIIIIIIQ", data, 20))
-        self.stride = (self.count + 7) // 8 * 8 if self.kind == 2 else self.count
         section = Bytes(data)
         section.at = means
-        self.means = rows_of(section.take("f", self.octants * self.stride), self.stride)
+        self.means = rows_of(section.take("f", self.octants * self.count), self.count)
         section.at = scales
-        count = 0 if self.kind == 0 else self.level * self.stride
-        self.scales = rows_of(section.take("f", count), self.stride)
+        count = 0 if self.kind == 0 else self.level * self.count
+        self.scales = rows_of(section.take("f", count), self.count)
         section.at = at
         self.nodes = rows_of(section.take("I", 2 * nodes), 2)
-        self.table = rows_of(section.take("I", 2 * rows if self.kind == 2 else 0), 2)
         self.data, self.start, self.leaves = data, start, {}
         self.first_byte_row = self.find_byte_row(rows)
 
@@ -253,28 +251,12 @@ class HaarTree:
         letter, size = ("f", 4) if self.kind == 0 else ("h", 2)
         if self.kind and number >= self.first_byte_row:
             letter, size = "b", 1
-        if self.kind == 2:
-            values = self.block_row(number, letter, size)
-        else:
-            at = self.start + self.count * (
-                size * number if number < self.first_byte_row
-                else self.first_byte_row + number)
-            values = struct.unpack_from(f"<{self.count}{letter}", self.data, at)
+        at = self.start + self.count * (
+            size * number if number < self.first_byte_row else self.first_byte_row + number)
+        values = struct.unpack_from(f"<{self.count}{letter}", self.data, at)
         if self.kind == 0:
             return values
         return [n * scale for n, scale in zip(values, self.scales[level])]
-
-    def block_row(self, number, letter, size):
-        blocks, at = self.table[number]
-        at += self.start
-        out = []
-        for block in range(self.stride // 8):
-            if blocks >> block & 1:
-                out += struct.unpack_from(f"<8{letter}", self.data, at)
-                at += 8 * size
-            else:
-                out += [0] * 8
-        return out
 
     def leaf(self, octant, n):
         """Value of leaf n of an octant."""

@@ -12,3 +12,4 @@ extern const Command command_panel_eval;
 extern const Command command_panel_export;
 extern const Command command_panel_plot;
 extern const Command command_panel_simulate;
+extern const Command command_panel_wavelets;
