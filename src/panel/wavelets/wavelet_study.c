@@ -139,14 +139,16 @@ static double weight_of(const AngleTable *table, int row)
     return fmax(sin((double)table->theta[row]), 1e-3);
 }
 
-static double rms_of(const AngleTable *table)
+/* Of a table, or of its difference from another one. */
+static double rms_of(const AngleTable *table, const AngleTable *less)
 {
     double sum = 0, weights = 0;
     for (int i = 0; i < table->rows; i++)
         for (int c = 0; c < table->channels; c++) {
-            double v = (double)table->value[i * table->channels + c], w = weight_of(table, i);
-            sum += w * v * v;
-            weights += w;
+            int    at = i * table->channels + c;
+            double v = (double)(table->value[at] - (less ? less->value[at] : 0));
+            sum += weight_of(table, i) * v * v;
+            weights += weight_of(table, i);
         }
     return sqrt(sum / weights);
 }
@@ -304,7 +306,7 @@ static bool start(const Measurement *set, const WaveletOptions *options, Arena *
     *source = options->noise > 0 ? with_noise(table, options->noise, arena) : *table;
     *study = (WaveletStudy){.file = set->file, .source = source, .noise = options->noise};
     study->level = options->level >= 0 ? options->level : level_for(table);
-    study->sample_rms = rms_of(table);
+    study->sample_rms = rms_of(table, NULL);
     if (!(study->sample_rms > 0))
         return error_set(err, ERROR_INPUT, "%s: table %s is dark, required is some light",
                          set->file, table->name);
@@ -338,11 +340,7 @@ bool wavelet_study(const Measurement *set, const WaveletOptions *options, Arena 
                            errors_of(out, &out->level_tree[level], out->source)};
     }
     find_sizes(out, leaves, truth, *arena);
-    for (int i = 0; i < truth->rows * truth->channels && out->noise > 0; i++) {
-        double e = (double)(out->source->value[i] - truth->value[i]) / out->sample_rms;
-        out->noise_rms += e * e / (truth->rows * truth->channels);
-    }
-    out->noise_rms = sqrt(out->noise_rms);
+    if (out->noise > 0) out->noise_rms = rms_of(out->source, truth) / out->sample_rms;
     wavelet_spectrum(set, truth, *arena, out);
     time_levels(out, *arena);
     return true;
