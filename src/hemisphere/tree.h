@@ -5,9 +5,9 @@
  * tree_open and tree_query.h take either; the blob's magic number distinguishes them. Here is
  * what both are made of; haar/haar_tree.h and vertex/vertex_tree_build.h make them.
  *
- * A tree is one blob: little-endian, offsets instead of pointers, to be stored in a file, mapped
- * and queried in place (tree_query.h). A Haar row is the detail of one child (haar/haar.h):
- * `components` numbers.
+ * A tree is one blob: little-endian, offsets instead of pointers, to be stored in a file,
+ * mapped and queried in place (tree_query.h). A Haar row is the detail of one child
+ * (haar/haar.h): `components` numbers.
  *
  * Blob      TreeHeader | octant means, float32 | scales, float32 (integer rows only) | nodes
  *           level by level | rows. Must lie at an address that is a multiple of 8.

@@ -87,13 +87,14 @@ static inline float *leaves_of_signals(const HaarShape *shape, Arena *arena)
     return leaves;
 }
 
-static inline Tree build_and_open(Fixture *f, const HaarTreeOptions *options, const float *leaves,
-                           TreeReport *report)
+static inline Tree build_and_open(Fixture *f, const HaarTreeOptions *options,
+                                  const float *leaves, TreeReport *report)
 {
     const void *blob;
     Tree        tree;
     Error       err;
-    if (!haar_tree_build(options, leaves, &f->arena, &blob, report, &err)) fail_msg("%s", err.text);
+    if (!haar_tree_build(options, leaves, &f->arena, &blob, report, &err))
+        fail_msg("%s", err.text);
     if (!tree_open(blob, tree_size(blob), f->geodesic, &tree, &err)) fail_msg("%s", err.text);
     return tree;
 }

@@ -41,7 +41,8 @@ HEMISPHERE_TEST(mutated_trees_are_refused_or_harmless)
     f->geodesic = geodesic_create(3, &f->arena); /* not a level more than the tree's */
     for (int rows = 0; rows <= TREE_ROWS_INT16; rows++) {
         HaarShape   shape = {3, 4, 2, HAAR_AREA};
-        HaarTreeOptions options = {.shape = shape, .keep_share = 0.1f, .rows = (TreeRowFormat)rows};
+        HaarTreeOptions options = {.shape = shape, .keep_share = 0.1f,
+                                   .rows = (TreeRowFormat)rows};
         const void *blob;
         uint32_t    seed = 9;
         int         opened = 0;

@@ -137,9 +137,9 @@ MEMORY_TEST(a_spectrum_is_exact_where_its_wavelet_is)
     set->has_spectra = true;
     for (int i = 0; i < SPECTRAL_COUNT; i++) set->spectrum[1][i] = 2;
     const WaveletStudy *s = study_of(set, USUAL, arena);
-    assert_int_equal(s->spectrum_count, SPECTRAL_COUNT);
-    for (int k = 0; k < 3; k++) assert_true(s->spectrum_rms[k][0] < 1e-5);
-    assert_int_equal(usual(arena)->spectrum_count, 0);
+    assert_int_equal(s->spectrum.count, SPECTRAL_COUNT);
+    for (int k = 0; k < 3; k++) assert_true(s->spectrum.rms[k][0] < 1e-5);
+    assert_int_equal(usual(arena)->spectrum.count, 0);
 }
 
 MEMORY_TEST(what_cannot_be_is_refused_in_words)

@@ -81,10 +81,10 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
     if (out->cli.help_shown) return true;
     if (!out->output) return error_set(err, ERROR_USAGE, "panel fit wants -o X.panel");
     if (out->basis == FIT_HAAR && out->max_error > 0)
-        return error_set(err, ERROR_USAGE, "--max-error is for --basis vertex: --basis haar has "
-                         "--keep");
+        return error_set(err, ERROR_USAGE, "--max-error is for --basis vertex, --basis haar "
+                         "has --keep");
     if (out->basis != FIT_HAAR && out->keep > 0)
-        return error_set(err, ERROR_USAGE, "--keep is for --basis haar: --basis vertex has "
+        return error_set(err, ERROR_USAGE, "--keep is for --basis haar, --basis vertex has "
                          "--max-error");
     return true;
 }

@@ -17,7 +17,7 @@
 #include "text/json_text.h"
 #include "text/text.h"
 
-/* ---- the answer: one document, of which text and tables are made -------------------------- */
+/* ---- the answer: one document, of which text and tables are made ------------------------- */
 
 static json_t *size_row(const WaveletStudy *study, const WaveletSize *size)
 {
@@ -46,10 +46,10 @@ static json_t *level_rows(const WaveletStudy *study)
 static json_t *spectrum_rows(const WaveletStudy *study)
 {
     json_t *rows = json_array();
-    for (int i = 0; i < WAVELET_SPECTRUM_SIZES && study->spectrum_count; i++)
+    for (int i = 0; i < WAVELET_SPECTRUM_SIZES && study->spectrum.count; i++)
         json_array_append_new(rows, json_pack("{s:f, s:f, s:f, s:f}", "share",
-            study->spectrum_share[i], "haar", study->spectrum_rms[0][i], "cdf53",
-            study->spectrum_rms[1][i], "cdf97", study->spectrum_rms[2][i]));
+            study->spectrum.share[i], "haar", study->spectrum.rms[0][i], "cdf53",
+            study->spectrum.rms[1][i], "cdf97", study->spectrum.rms[2][i]));
     return rows;
 }
 

@@ -6,17 +6,17 @@
 #include <string.h>
 
 /* A detail row that may stay. */
-typedef struct Candidate {
+typedef struct HaarDetail {
     float    size;  /* sqrt of the sum over components of (component_scale * d)^2 */
     float    worth; /* that times the norm of its place: the error that its absence leaves */
     uint32_t place; /* leaf place, haar.h's layout */
-} Candidate;
+} HaarDetail;
 
 typedef struct Choice {
     const HaarTreeOptions *options;
     const float *source;
     float       *coefficients; /* haar_forward of the source */
-    Candidate   *candidates;   /* by worth; the first kept_count stay */
+    HaarDetail   *candidates;   /* by worth; the first kept_count stay */
     uint32_t     candidate_count, kept_count, leaf_count;
     float       *scales;     /* level x components */
     int          byte_level; /* rows of fathers from this level on have 8 bits; 0: none */
@@ -47,7 +47,7 @@ static float worth_of(const Choice *choice, int component)
 
 static int by_worth(const void *a, const void *b)
 {
-    const Candidate *x = a, *y = b;
+    const HaarDetail *x = a, *y = b;
     if (x->worth != y->worth) return x->worth > y->worth ? -1 : 1;
     return (x->place > y->place) - (x->place < y->place);
 }
@@ -57,7 +57,7 @@ static void list_candidates(Choice *choice, Arena *arena)
     const HaarShape *shape = &choice->options->shape;
     float           *norms = ARENA_NEW(arena, float, choice->leaf_count);
     haar_norms(shape, norms, *arena);
-    choice->candidates = ARENA_NEW(arena, Candidate, choice->leaf_count);
+    choice->candidates = ARENA_NEW(arena, HaarDetail, choice->leaf_count);
     for (uint32_t place = 0; place < choice->leaf_count; place++) {
         double sum = 0;
         for (int c = 0; c < shape->components; c++) {
@@ -67,9 +67,9 @@ static void list_candidates(Choice *choice, Arena *arena)
         if (father_level(shape, place) < 0 || !(sum > 0)) continue;
         float size = (float)sqrt(sum);
         choice->candidates[choice->candidate_count++] =
-            (Candidate){size, size * norms[place], place};
+            (HaarDetail){size, size * norms[place], place};
     }
-    qsort(choice->candidates, choice->candidate_count, sizeof(Candidate), by_worth);
+    qsort(choice->candidates, choice->candidate_count, sizeof(HaarDetail), by_worth);
 }
 
 static void keep_best(Choice *choice, Arena *arena)

@@ -23,14 +23,14 @@ static int spectrum_of(const Measurement *set, const AngleTable *table, float *o
     return table->channels;
 }
 
-typedef struct Coefficient {
+typedef struct WaveletTerm {
     float worth;
     int   place;
-} Coefficient;
+} WaveletTerm;
 
 static int by_worth(const void *a, const void *b)
 {
-    float x = ((const Coefficient *)a)->worth, y = ((const Coefficient *)b)->worth;
+    float x = ((const WaveletTerm *)a)->worth, y = ((const WaveletTerm *)b)->worth;
     return (x < y) - (x > y);
 }
 
@@ -38,12 +38,12 @@ static int by_worth(const void *a, const void *b)
 static double error_with(WaveletKind kind, const float *spectrum, int count, int kept)
 {
     float       values[WAVELET_MAX_COUNT], norms[WAVELET_MAX_COUNT];
-    Coefficient order[WAVELET_MAX_COUNT];
+    WaveletTerm order[WAVELET_MAX_COUNT];
     double      error = 0, sum = 0;
     memcpy(values, spectrum, sizeof *values * (size_t)count);
     wavelet1d_forward(kind, values, count);
     wavelet1d_norms(kind, count, norms);
-    for (int i = 0; i < count; i++) order[i] = (Coefficient){fabsf(values[i]) * norms[i], i};
+    for (int i = 0; i < count; i++) order[i] = (WaveletTerm){fabsf(values[i]) * norms[i], i};
     qsort(order, (size_t)count, sizeof *order, by_worth);
     for (int i = kept; i < count; i++) values[order[i].place] = 0;
     wavelet1d_inverse(kind, values, count);
@@ -55,16 +55,15 @@ static double error_with(WaveletKind kind, const float *spectrum, int count, int
     return sum > 0 ? sqrt(error / sum) : 0;
 }
 
-void wavelet_spectrum(const Measurement *set, const AngleTable *table, Arena scratch,
-                      WaveletStudy *out)
+WaveletSpectrum wavelet_spectrum(const Measurement *set, const AngleTable *table, Arena scratch)
 {
-    float *spectrum = ARENA_NEW(&scratch, float, WAVELET_MAX_COUNT);
-    out->spectrum_count = spectrum_of(set, table, spectrum);
-    for (int i = 0; i < WAVELET_SPECTRUM_SIZES && out->spectrum_count; i++) {
-        int kept = (int)fmax(1, round(SHARES[i] * out->spectrum_count));
-        out->spectrum_share[i] = (double)kept / out->spectrum_count;
+    float          *spectrum = ARENA_NEW(&scratch, float, WAVELET_MAX_COUNT);
+    WaveletSpectrum out = {.count = spectrum_of(set, table, spectrum)};
+    for (int i = 0; i < WAVELET_SPECTRUM_SIZES && out.count; i++) {
+        int kept = (int)fmax(1, round(SHARES[i] * out.count));
+        out.share[i] = (double)kept / out.count;
         for (int k = 0; k < 3; k++)
-            out->spectrum_rms[k][i] =
-                error_with((WaveletKind)k, spectrum, out->spectrum_count, kept);
+            out.rms[k][i] = error_with((WaveletKind)k, spectrum, out.count, kept);
     }
+    return out;
 }

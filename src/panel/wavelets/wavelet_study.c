@@ -12,7 +12,6 @@
 #include "hemisphere/tree/tree_query.h"
 #include "panel/fit/common/direction_grid.h"
 #include "panel/fit/common/table_rows.h"
-#include "panel/wavelets/wavelet_spectrum.h"
 
 /* ---- the table --------------------------------------------------------------------------- */
 
@@ -103,14 +102,14 @@ static float *leaves_of(const WaveletStudy *study, int level, Arena *arena)
 }
 
 /* What tree is made of leaves. */
-typedef struct Wish {
+typedef struct TreeWish {
     int    level;
     double share;    /* of rows over leaves */
     bool   is_float;
-} Wish;
+} TreeWish;
 
-static bool make_tree(const WaveletStudy *study, const float *leaves, Wish wish, Arena *arena,
-                      Tree *out, TreeReport *report)
+static bool make_tree(const WaveletStudy *study, const float *leaves, TreeWish wish,
+                      Arena *arena, Tree *out, TreeReport *report)
 {
     HaarTreeOptions options = {.shape = {wish.level, 4, study->source->channels, HAAR_AREA},
                                .keep_share = (float)fmin(1, wish.share),
@@ -129,7 +128,7 @@ static bool cut_tree(const WaveletStudy *study, const Tree *tree, int level, Are
     float *means = ARENA_NEW(arena, float, geodesic_count(level) * n);
     for (uint32_t i = 0; i < geodesic_count(level); i++)
         tree_mean(tree, level, geodesic_center(level, i), means + i * n);
-    return make_tree(study, means, (Wish){level, 1, true}, arena, out, NULL);
+    return make_tree(study, means, (TreeWish){level, 1, true}, arena, out, NULL);
 }
 
 /* ---- errors ------------------------------------------------------------------------------ */
@@ -200,7 +199,7 @@ static double mean_miss_of(const Tree *tree, double rms)
 /* ---- the study --------------------------------------------------------------------------- */
 
 /* A size: what so large a share of the table's numbers gives. */
-static bool measure_size(const WaveletStudy *study, const float *leaves, Wish wish,
+static bool measure_size(const WaveletStudy *study, const float *leaves, TreeWish wish,
                          Arena *arena, Tree *tree, WaveletSize *out)
 {
     TreeReport report;
@@ -229,7 +228,7 @@ static void find_sizes(WaveletStudy *study, const float *leaves, const AngleTabl
         Arena        arena = scratch;
         Tree         tree;
         WaveletSize *size = &study->sizes[study->size_count];
-        Wish         wish = {study->level, rows_share(study, shares[i]), false};
+        TreeWish     wish = {study->level, rows_share(study, shares[i]), false};
         if (shares[i] * study->source->rows < 4) continue; /* less than the octants' means */
         if (!measure_size(study, leaves, wish, &arena, &tree, size)) continue;
         size->truth_rms = errors_of(study, &tree, truth).smooth_rms;
@@ -275,7 +274,8 @@ static void time_levels(WaveletStudy *study, Arena scratch)
         Arena  arena = scratch;
         Tree   tree;
         float *leaves = leaves_of(study, level, &arena);
-        if (!make_tree(study, leaves, (Wish){level, 1, true}, &arena, &tree, NULL)) continue;
+        TreeWish wish = {level, 1, true};
+        if (!make_tree(study, leaves, wish, &arena, &tree, NULL)) continue;
         study->query_ns[level] = time_queries(&tree, direction, false);
         study->smooth_ns[level] = time_queries(&tree, direction, true);
     }
@@ -295,8 +295,8 @@ static bool start(const Measurement *set, const WaveletOptions *options, Arena *
 {
     const AngleTable *table = find_table(set, options->table);
     if (!table && options->table)
-        return error_set(err, ERROR_USAGE, "--table is '%s', which the set lacks: required is a "
-                         "table's name, such as 'red 255', 'black' or 'brdf 30 deg'",
+        return error_set(err, ERROR_USAGE, "--table is '%s', which the set lacks: required is "
+                         "a table's name, such as 'red 255', 'black' or 'brdf 30 deg'",
                          options->table);
     if (!table) return error_set(err, ERROR_INPUT, "%s: has no table", set->file);
     if (table->channels > TREE_MAX_COMPONENTS)
@@ -322,7 +322,7 @@ bool wavelet_study(const Measurement *set, const WaveletOptions *options, Arena 
     if (!start(set, options, arena, out, err)) return false;
     const AngleTable *truth = find_table(set, options->table);
     const float      *leaves = leaves_of(out, out->level, arena);
-    Wish wish = {out->level, options->is_lossless ? 1 : rows_share(out, options->keep),
+    TreeWish wish = {out->level, options->is_lossless ? 1 : rows_share(out, options->keep),
                  options->is_lossless};
     if (!options->is_lossless && options->keep * out->source->rows < 4)
         return error_set(err, ERROR_USAGE, "--keep is %g, required at least %.3g: the means of "
@@ -341,7 +341,7 @@ bool wavelet_study(const Measurement *set, const WaveletOptions *options, Arena 
     }
     find_sizes(out, leaves, truth, *arena);
     if (out->noise > 0) out->noise_rms = rms_of(out->source, truth) / out->sample_rms;
-    wavelet_spectrum(set, truth, *arena, out);
+    out->spectrum = wavelet_spectrum(set, truth, *arena);
     time_levels(out, *arena);
     return true;
 }

@@ -12,11 +12,11 @@
 #include "base/error.h"
 #include "hemisphere/tree.h"
 #include "panel/set/measurement.h"
+#include "panel/wavelets/wavelet_spectrum.h"
 
 #define WAVELET_LEVEL_MAX 9
 #define WAVELET_TIMED_LEVEL 8 /* queries are timed up to this level */
 #define WAVELET_SIZES_MAX 8
-#define WAVELET_SPECTRUM_SIZES 5
 #define WAVELET_KEEP 0.05
 
 typedef struct WaveletOptions {
@@ -62,10 +62,9 @@ typedef struct WaveletStudy {
     int              size_count;
     WaveletSize      sizes[WAVELET_SIZES_MAX];
     double           noise, noise_rms; /* the latter as it came out */
-    int              spectrum_count;   /* numbers of the spectrum; 0: none is known */
-    double           spectrum_share[WAVELET_SPECTRUM_SIZES];
-    double           spectrum_rms[3][WAVELET_SPECTRUM_SIZES]; /* Haar, CDF 5/3, CDF 9/7 */
-    double           query_ns[WAVELET_TIMED_LEVEL + 1], smooth_ns[WAVELET_TIMED_LEVEL + 1];
+    WaveletSpectrum  spectrum;
+    double           query_ns[WAVELET_TIMED_LEVEL + 1]; /* of a mean; interpolated: */
+    double           smooth_ns[WAVELET_TIMED_LEVEL + 1];
 } WaveletStudy;
 
 bool wavelet_study(const Measurement *set, const WaveletOptions *options, Arena *arena,
@@ -73,4 +72,5 @@ bool wavelet_study(const Measurement *set, const WaveletOptions *options, Arena 
 
 /* Luminance, or the mean over wavelengths, at a direction: of the tree's means of a level, or
  * interpolated between them. */
-double wavelet_study_value(const WaveletStudy *study, int level, bool is_smooth, Vec3 direction);
+double wavelet_study_value(const WaveletStudy *study, int level, bool is_smooth,
+                           Vec3 direction);

@@ -96,18 +96,18 @@ bool wavelet_levels_picture(const WaveletStudy *study, Arena *arena, PlotBytes *
 
 /* ---- curves ------------------------------------------------------------------------------ */
 
-typedef struct Curve {
+typedef struct WaveletCurve {
     const char *name;
     double      y[WAVELET_LEVEL_MAX + 1];
-} Curve;
+} WaveletCurve;
 
-typedef struct Curves {
+typedef struct WaveletCurves {
     const char *title;
     AxisSpec    x, y;
     int         count, points;
     double      at[WAVELET_LEVEL_MAX + 1];
-    Curve       curve[4];
-} Curves;
+    WaveletCurve       curve[4];
+} WaveletCurves;
 
 /* Axes around all that is drawn: round numbers of a logarithm, or from 0. */
 static void fit_axis(AxisSpec *axis, double low, double high)
@@ -118,7 +118,7 @@ static void fit_axis(AxisSpec *axis, double low, double high)
     if (axis->is_log && !(axis->low > 0)) axis->low = axis->high / 10;
 }
 
-static void draw_curves(Canvas *canvas, Box box, Curves *of)
+static void draw_curves(Canvas *canvas, Box box, WaveletCurves *of)
 {
     static const Dash dashes[4] = {DASH_NONE, DASH_LONG, DASH_SHORT, DASH_DOT};
     double low = INFINITY, high = 0;
@@ -144,9 +144,9 @@ static void draw_curves(Canvas *canvas, Box box, Curves *of)
     chart_close(&chart);
 }
 
-static Curves level_curves(const WaveletStudy *study)
+static WaveletCurves level_curves(const WaveletStudy *study)
 {
-    Curves of = {.title = "Error of each level at the samples",
+    WaveletCurves of = {.title = "Error of each level at the samples",
                  .x = {.is_log = true, .title = "Triangles"},
                  .y = {.is_log = true, .title = "Rms error, %"}, .count = 2,
                  .points = study->level + 1,
@@ -159,10 +159,10 @@ static Curves level_curves(const WaveletStudy *study)
     return of;
 }
 
-static Curves size_curves(const WaveletStudy *study)
+static WaveletCurves size_curves(const WaveletStudy *study)
 {
-    Curves of = {.title = study->noise > 0 ? "Error beside the size, and beside the truth"
-                                           : "Error beside the size",
+    WaveletCurves of = {.title = study->noise > 0 ? "Error beside the size, also from the truth"
+                                                  : "Error beside the size",
                  .x = {.is_log = true, .title = "Kept of the source's numbers, %"},
                  .y = {.is_log = true, .title = "Rms error, %"},
                  .count = study->noise > 0 ? 4 : 3, .points = study->size_count,
@@ -178,23 +178,23 @@ static Curves size_curves(const WaveletStudy *study)
     return of;
 }
 
-static Curves spectrum_curves(const WaveletStudy *study)
+static WaveletCurves spectrum_curves(const WaveletStudy *study)
 {
-    Curves of = {.title = "The spectrum by a wavelet",
+    WaveletCurves of = {.title = "The spectrum by a wavelet",
                  .x = {.is_log = true, .title = "Kept of the spectrum's numbers, %"},
                  .y = {.is_log = true, .title = "Rms error, %"}, .count = 3,
                  .points = WAVELET_SPECTRUM_SIZES,
                  .curve = {{.name = "Haar"}, {.name = "CDF 5/3"}, {.name = "CDF 9/7"}}};
     for (int i = 0; i < of.points; i++) {
-        of.at[i] = 100 * study->spectrum_share[i];
-        for (int k = 0; k < 3; k++) of.curve[k].y[i] = 100 * study->spectrum_rms[k][i];
+        of.at[i] = 100 * study->spectrum.share[i];
+        for (int k = 0; k < 3; k++) of.curve[k].y[i] = 100 * study->spectrum.rms[k][i];
     }
     return of;
 }
 
-static Curves time_curves(const WaveletStudy *study)
+static WaveletCurves time_curves(const WaveletStudy *study)
 {
-    Curves of = {.title = "Time of a query",
+    WaveletCurves of = {.title = "Time of a query",
                  .x = {.is_log = true, .title = "Triangles"},
                  .y = {.title = "Nanoseconds"}, .count = 2, .points = WAVELET_TIMED_LEVEL + 1,
                  .curve = {{.name = "mean"}, {.name = "interpolated"}}};
@@ -209,10 +209,10 @@ static Curves time_curves(const WaveletStudy *study)
 static void draw_all_curves(Canvas *canvas, const void *context)
 {
     const WaveletStudy *study = context;
-    Curves all[4] = {level_curves(study), size_curves(study), time_curves(study),
+    WaveletCurves all[4] = {level_curves(study), size_curves(study), time_curves(study),
                      spectrum_curves(study)};
     draw_heading(canvas, study, "errors are relative to the rms of the table's values");
-    for (int i = 0; i < (study->spectrum_count ? 4 : 3); i++)
+    for (int i = 0; i < (study->spectrum.count ? 4 : 3); i++)
         draw_curves(canvas, (Box){MARGIN + i % 2 * (CHART_W + 20),
                                   MARGIN + HEADING + i / 2 * (CHART_H + 20), CHART_W, CHART_H},
                     &all[i]);
