@@ -51,7 +51,7 @@ static WaveletStudy *study_of(const Measurement *set, WaveletOptions options, Ar
     return study;
 }
 
-static const WaveletOptions USUAL = {.level = -1, .keep = WAVELET_KEEP};
+static const WaveletOptions USUAL = {.level = -1};
 
 /* Of the smooth table; made once. */
 static const WaveletStudy *usual(Arena *arena)

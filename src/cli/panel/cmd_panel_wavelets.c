@@ -159,6 +159,15 @@ static bool write_csv(const json_t *rows, const char *path, Arena *arena, Error 
 
 /* ---- the command ------------------------------------------------------------------------- */
 
+/* What the folder will hold is no input either. */
+static void note_files(const char *folder, Arena *arena, Outputs *outputs)
+{
+    for (int i = 0; i < COUNT_OF(TABLES); i++)
+        outputs_note(outputs, "-o", arena_format(arena, "%s/%s.csv", folder, TABLES[i].key));
+    outputs_note(outputs, "-o", arena_format(arena, "%s/levels.png", folder));
+    outputs_note(outputs, "-o", arena_format(arena, "%s/curves.png", folder));
+}
+
 static bool write_folder(const WaveletStudy *study, const json_t *answer, const char *folder,
                          Arena *arena, Error *err)
 {
@@ -182,7 +191,7 @@ typedef struct WaveletWords {
     WaveletOptions options;
     const char    *root, *folder;
     long           level;
-    double         keep_given, noise;
+    double         noise;
 } WaveletWords;
 
 static bool parse(int argc, char **argv, Arena *arena, WaveletWords *out, Error *err)
@@ -195,7 +204,7 @@ static bool parse(int argc, char **argv, Arena *arena, WaveletWords *out, Error 
         {"--level", OPTION_INTEGER, "N", "of the smallest triangles (default: as many as "
          "samples)", &out->level, 0, WAVELET_LEVEL_MAX},
         {"--keep", OPTION_NUMBER, "SHARE", "of the table's numbers (default 0.05)",
-         &out->keep_given, 1e-5, 1},
+         &out->options.keep, 1e-5, 1},
         {"--lossless", OPTION_FLAG, NULL, "keep every number, as float32",
          &out->options.is_lossless},
         {"--noise", OPTION_NUMBER, "PERCENT", "of each value, added to the table: errors also "
@@ -208,9 +217,8 @@ static bool parse(int argc, char **argv, Arena *arena, WaveletWords *out, Error 
         "parhelion panel wavelets measured/MANIFEST.json --keep 0.02 -o wavelets", options,
         COUNT_OF(options), 1, 1};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
-    if (!out->cli.help_shown && out->keep_given > 0 && out->options.is_lossless)
+    if (!out->cli.help_shown && out->options.keep > 0 && out->options.is_lossless)
         return error_set(err, ERROR_USAGE, "--keep and --lossless exclude each other");
-    out->options.keep = out->keep_given > 0 ? out->keep_given : WAVELET_KEEP;
     out->options.noise = 0.01 * out->noise;
     out->options.level = (int)out->level;
     return true;
@@ -223,6 +231,7 @@ static bool run_wavelets(int argc, char **argv, Arena *arena, Error *err)
     if (words.cli.help_shown) return true;
     Measurement  *set = ARENA_NEW(arena, Measurement, 1);
     WaveletStudy *study = ARENA_NEW(arena, WaveletStudy, 1);
+    if (words.folder) note_files(words.folder, arena, &words.cli.outputs);
     if (!reference_check_root(words.root, err) ||
         !measurement_read_below(words.cli.arguments[0], words.root, arena, set, err) ||
         !outputs_spare(&words.cli.outputs, set->inputs.list, set->inputs.count, err) ||

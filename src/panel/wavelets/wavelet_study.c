@@ -322,11 +322,13 @@ bool wavelet_study(const Measurement *set, const WaveletOptions *options, Arena 
     if (!start(set, options, arena, out, err)) return false;
     const AngleTable *truth = find_table(set, options->table);
     const float      *leaves = leaves_of(out, out->level, arena);
-    TreeWish wish = {out->level, options->is_lossless ? 1 : rows_share(out, options->keep),
-                 options->is_lossless};
-    if (!options->is_lossless && options->keep * out->source->rows < 4)
+    double            least = fmin(1, 4.0 / out->source->rows);
+    double keep = options->keep > 0 ? options->keep : fmax(WAVELET_KEEP, least);
+    TreeWish wish = {out->level, options->is_lossless ? 1 : rows_share(out, keep),
+                     options->is_lossless};
+    if (keep < least)
         return error_set(err, ERROR_USAGE, "--keep is %g, required at least %.3g: the means of "
-                         "the four octants", options->keep, 4.0 / out->source->rows);
+                         "the four octants", keep, least);
     if (!measure_size(out, leaves, wish, arena, &out->tree, &out->kept))
         return error_set(err, ERROR_INPUT, "%s: table %s holds a number that is not finite",
                          set->file, truth->name);

@@ -22,7 +22,8 @@
 typedef struct WaveletOptions {
     const char *table; /* its name; NULL: the brightest */
     int         level; /* of the leaves; -1: as many triangles as the samples need */
-    double      keep;  /* share of the table's numbers that the tree keeps */
+    double      keep;  /* share of the table's numbers that the tree keeps; 0: WAVELET_KEEP,
+                          or the means of the four octants where these are more */
     bool        is_lossless; /* everything, as float32 */
     double      noise; /* added to the table, relative; 0: none */
 } WaveletOptions;
