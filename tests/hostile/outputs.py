@@ -47,6 +47,8 @@ LINES = {
                     "set/MANIFEST.json", "other.panel set/MANIFEST.json set/white.csv "
                     "set/levels.csv", {"-o": ".svg", "--report": ".html"})],
     "panel simulate": [("panel simulate recipe.json -o OUT", "recipe.json", {})],
+    "panel wavelets": [("panel wavelets set/MANIFEST.json -o OUT",
+                        "set/MANIFEST.json set/white.csv set/levels.csv", {})],
     "sky": [("sky scene.gltf --environment hdri:hdri.exr --size 8x4 -o OUT.exr",
              "scene.gltf hdri.exr data.bin", {"-o": ".exr"}),
             ("sky lit.gltf --size 8x4 -o OUT.exr", "lit.gltf hdri.exr", {"-o": ".exr"})],
@@ -257,6 +259,8 @@ def check_folders(program, report):
              "recipe.json"),
             (("panel", "import", "OUT/emission/white.csv", "-o", "OUT/MANIFEST.json"),
              "OUT/emission/white.csv", "lab.csv"),
+            (("panel", "wavelets", "OUT/levels.csv", "-o", "OUT"), "OUT/levels.csv",
+             "set/white.csv"),
             (("review", "OUT/review.json", "-o", "OUT", "--quiet"), "OUT/review.json",
              "r.json")):
         line = Line(program, report, "")

@@ -287,6 +287,7 @@ TEST(both_bases_answer_the_same_query)
     fixture_start(&haar, recipes[3], &options);
     expect_misses("haar", &haar, 75, 20, 4000, (Misses){0.015, 0.002});
     assert_true(emission_figure(&haar, "bytes") > emission_figure(&fitted[3], "bytes"));
+    assert_true(emission_figure(&haar, "share_of_source") < 0.1);
 }
 
 TEST(a_surface_that_only_reflects_emits_nothing)
