@@ -45,7 +45,8 @@ typedef enum PanelSectionKind {
     PANEL_SPOTS = 11,          /* PanelSpotsHead and what follows it; absent: one everywhere */
     PANEL_SPOT_FILE = 12,      /* index 1 on: a panel file of its own, of one spot */
     PANEL_MAP = 13,            /* PanelMapHead and what follows it */
-    PANEL_SUBPIXELS = 14       /* PanelSubpixelsStored; absent: the light is even */
+    PANEL_SUBPIXELS = 14,      /* PanelSubpixelsStored; absent: the light is even */
+    PANEL_REACH = 15           /* PanelReachStored[tables]; absent: the cone of all tables */
 } PanelSectionKind;
 
 typedef struct PanelSection {
@@ -136,6 +137,15 @@ typedef struct PanelSurfaceStored {
     float   refractive_index; /* of slopes beyond, where there is no mirror part */
     float   mirror_index;     /* of the mirror part beyond; 0: a straight line over F */
 } PanelSurfaceStored;
+
+/* PANEL_REACH: which directions a table's samples surround (panel_reach.h); it is there where
+ * some table's do not surround the cone. */
+#define PANEL_REACH_SIDES 36
+#define PANEL_REACH_UNIT 0.0125f /* radians */
+typedef struct PanelReachStored {
+    uint16_t theta, phi; /* of the centre, 1/65535 of 90 and 1/65536 of 360 degrees */
+    uint8_t  side[PANEL_REACH_SIDES]; /* angle of the edge, units of PANEL_REACH_UNIT */
+} PanelReachStored;
 
 /* PANEL_POLARISED: the linearly polarised share of the emitted light, above 0 to 1, and the
  * direction in which it swings, radians, [0, pi): 0 right, pi/2 up as someone facing the

@@ -14,6 +14,7 @@
 #include "hemisphere/surface_frame.h"
 #include "hemisphere/vertex/vertex_tree.h"
 #include "panel/fit/common/direction_grid.h"
+#include "panel/fit/common/scatter_surface.h"
 #include "panel/fit/reflection/reflection_parts.h"
 #include "panel/query/panel_file.h"
 #include "spectrum/wavelengths.h"
@@ -53,6 +54,9 @@ typedef struct ReflectionModel {
     DirectionGrid *grid;   /* per table */
     float        **cells;  /* per table: ln f of the grid's cells */
     ReflectionGuide *guide; /* per table: how it goes on between its rows */
+    const ScatterSurface **scatter; /* per table: of ln f, instead of its grid; NULL: none */
+    PanelReachStored *reach; /* per table: what its samples surround */
+    bool           has_reach; /* some do not surround their cone */
     double        *least_value; /* per table: f is held above it */
     int            masked; /* values below it, which count nowhere */
     float *value;          /* places x tables x wavelengths */

@@ -9,12 +9,15 @@
 #include "base/units.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/reflection/peak_window.h"
+#include "panel/fit/reflection/reflection_reach.h"
+#include "panel/query/panel_reach.h"
 
 #define LEAST_SHARE 1e-6 /* of a table's largest value: values below it are held there */
 #define LEAST_VALUE 1e-8 /* sr^-1 */
 #define STEEPEST 0.5f    /* what a logarithm may change by beyond the last ring */
 #define EDGE_CELLS 3.0f  /* so far beyond it places still count: triangles reach across */
 #define CHUNK 512        /* places that one thread reads at a time */
+#define FILLED_SHARE 0.05 /* of a grid's cells: with more of them it is no grid */
 
 double reflection_read_least(const AngleTable *table)
 {
@@ -120,24 +123,74 @@ static void choose_guide(const DirectionGrid *grid, const float *cells, int chan
 #define GUIDE_REST 0.02   /* relative, rms: a model that misses rows by more is no guide */
 #define GUIDE_SPREAD 0.25 /* relative: nor is one whose peak is anybody's guess */
 
-/* Where rows are too far apart for the peak, cells hold what they have over the guide. */
-static void guide_cells(ReflectionModel *model, int table)
+/* The peak's model, where it is one that rows do determine. */
+static bool find_guide(const ReflectionModel *model, int table, ReflectionGuide *guide)
 {
-    const PeakMirror    *peak = model->parts->peak ? &model->parts->peak[table] : NULL;
-    const DirectionGrid *grid = &model->grid[table];
-    ReflectionGuide     *guide = &model->guide[table];
-    float *cells = model->cells[table];
+    const PeakMirror *peak = model->parts->peak ? &model->parts->peak[table] : NULL;
     if (!peak || !peak->range.has_model || model->parts->has_lobe || !(peak->model.a > 0) ||
         peak->range.spread > GUIDE_SPREAD ||
         peak->rest > fmax(GUIDE_REST, 2 * model->parts->noise[table]))
-        return;
+        return false;
     *guide = guide_of(peak, reflection_model_incidence(model, table));
+    return true;
+}
+
+/* Where rows are too far apart for the peak, cells hold what they have over the guide. */
+static void guide_cells(ReflectionModel *model, int table)
+{
+    const DirectionGrid *grid = &model->grid[table];
+    ReflectionGuide     *guide = &model->guide[table];
+    float *cells = model->cells[table];
+    if (!find_guide(model, table, guide)) return;
     choose_guide(grid, cells, model->wavelengths, guide);
     for (int c = 0; c < grid->thetas * grid->phis && guide->is_used; c++) {
         float log = (float)reflection_guide_log(guide, (double)grid->theta[c / grid->phis],
                                                 (double)grid->phi[c % grid->phis]);
         for (int w = 0; w < model->wavelengths; w++)
             cells[(size_t)c * (size_t)model->wavelengths + (size_t)w] -= log;
+    }
+}
+
+/* ---- tables without a grid's order ------------------------------------------------------- */
+
+static bool is_scattered(const DirectionGrid *grid)
+{
+    return grid->is_scattered ||
+           grid->filled_cells > FILLED_SHARE * grid->thetas * grid->phis;
+}
+
+/* The surface through a table's logarithms; over the guide wherever there is one. */
+static void scatter_table(ReflectionModel *model, int t, bool mirrored)
+{
+    const AngleTable *table = &model->parts->haze[t];
+    ReflectionGuide  *guide = &model->guide[t];
+    size_t channels = (size_t)model->wavelengths;
+    float *logs = ARENA_NEW(model->arena, float, (size_t)table->rows * channels);
+    float  least = (float)model->least_value[t];
+    guide->is_used = find_guide(model, t, guide);
+    for (int i = 0; i < table->rows; i++) {
+        float log = 0;
+        if (guide->is_used)
+            log = (float)reflection_guide_log(guide, (double)table->theta[i],
+                                              (double)table->phi[i]);
+        for (size_t k = (size_t)i * channels; k < (size_t)(i + 1) * channels; k++)
+            logs[k] = log_f(fmaxf(table->value[k], least)) - log;
+    }
+    model->scatter[t] = scatter_surface_make(table, mirrored, logs, model->wavelengths,
+                                             model->arena);
+    model->reach[t] = reflection_reach(table, mirrored, *model->arena);
+}
+
+/* What the samples of all tables surround counts where some do not surround the cone. */
+static void find_reach(ReflectionModel *model)
+{
+    float edge = 0.5f * PI_F;
+    for (int t = 0; t < model->tables; t++)
+        edge = fminf(edge, model->parts->haze[t].theta_max);
+    for (int t = 0; t < model->tables; t++) {
+        if (!model->scatter[t])
+            model->reach[t] = reflection_reach_cone(model->parts->haze[t].theta_max);
+        model->has_reach |= !reflection_reach_is_cone(&model->reach[t], edge);
     }
 }
 
@@ -148,6 +201,8 @@ void reflection_read_tables(ReflectionModel *model)
     model->cells = ARENA_NEW(model->arena, float *, model->tables);
     model->least_value = ARENA_NEW(model->arena, double, model->tables);
     model->guide = ARENA_NEW(model->arena, ReflectionGuide, model->tables);
+    model->scatter = ARENA_NEW(model->arena, const ScatterSurface *, model->tables);
+    model->reach = ARENA_NEW(model->arena, PanelReachStored, model->tables);
     model->masked = 0;
     for (int t = 0; t < model->tables; t++) {
         const AngleTable *table = &model->parts->haze[t];
@@ -157,16 +212,23 @@ void reflection_read_tables(ReflectionModel *model)
             model->grid[t] = model->grid[t - 1];
         else direction_grid_build(table, mirrored, model->arena, &model->grid[t]);
         model->cells[t] = log_cells(model, t);
-        guide_cells(model, t);
+        if (is_scattered(&model->grid[t])) scatter_table(model, t, mirrored);
+        else guide_cells(model, t);
     }
+    find_reach(model);
 }
 
 static void read_at(const ReflectionModel *model, int table, float theta, float phi,
                     float *logs)
 {
     GridTaps taps;
-    direction_grid_taps(&model->grid[table], theta, phi, &taps);
-    direction_grid_read(&taps, model->cells[table], model->wavelengths, logs);
+    if (model->scatter[table]) {
+        scatter_surface_read(model->scatter[table], table_direction((double)theta, (double)phi),
+                             logs);
+    } else {
+        direction_grid_taps(&model->grid[table], theta, phi, &taps);
+        direction_grid_read(&taps, model->cells[table], model->wavelengths, logs);
+    }
     if (!model->guide[table].is_used) return;
     float log = (float)reflection_guide_log(&model->guide[table], (double)theta, (double)phi);
     for (int w = 0; w < model->wavelengths; w++) logs[w] += log;
@@ -175,8 +237,13 @@ static void read_at(const ReflectionModel *model, int table, float theta, float 
 float reflection_read_logs(const ReflectionModel *model, int table, Vec3 outer, float *logs)
 {
     const DirectionGrid *grid = &model->grid[table];
+    if (model->scatter[table]) outer = panel_reach_inside(&model->reach[table], outer);
     float across = sqrtf(outer.x * outer.x + outer.y * outer.y);
     float theta = atan2_f(across, fmaxf(outer.z, 0)), phi = atan2_f(outer.y, outer.x);
+    if (model->scatter[table]) {
+        read_at(model, table, theta, phi, logs);
+        return 0;
+    }
     float last = grid->theta[grid->thetas - 1], beyond = theta - last;
     float inside[MEASUREMENT_WAVELENGTHS_MAX];
     read_at(model, table, fminf(theta, last), phi, logs);
