@@ -238,7 +238,7 @@ def main():
         check_can_fail(report, folder)
         paths = {name: panels.shipped(name) for name in ("ips_cluster", "oled_centre",
                                                          "hud_pgu")}
-        for make in (panels.placed, panels.haar, panels.brushed):
+        for make in (panels.placed, panels.haar, panels.brushed, panels.rings):
             paths[make.__name__] = make(program, folder)
         for name, path in paths.items():
             check_panel(report, name, path, arguments.queries // len(paths), table)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""panel_reader_reflection.py -- sections 5, 7 and 9 of a panel file (panel_reader.py)."""
+"""panel_reader_reflection.py -- sections 5, 7, 9 and 15 of a panel file (panel_reader.py)."""
 import math
 
 from panel_reader_trees import Bytes, SamplingTree, dot, held, open_tree, rows_of
@@ -81,7 +81,7 @@ def cubic_weights(x, left, right, u):
 
 
 class Reflection:
-    def __init__(self, section, tree, surface, sampling):
+    def __init__(self, section, tree, surface, sampling, reach):
         self.tree = open_tree(tree)
         s = Bytes(section)
         (self.incidences, self.azimuths, self.components, self.coefficients,
@@ -112,6 +112,7 @@ class Reflection:
         self.node_albedo = rows(nodes, "H", 1 / 65535)
         assert s.at == len(section)
         self.read_surface(Bytes(surface) if surface else None)
+        self.read_reach(Bytes(reach) if reach else None, tables)
         self.last = self.incidence[-1]
         self.steps = self.name_steps()
         self.mirror_table = self.make_mirror() if self.has_mirror else None
@@ -124,6 +125,48 @@ class Reflection:
             self.axes, self.reach = s.take("f", 3), s.take("f")
             self.roughness = s.take("f", 3)
             self.beyond_index, self.mirror_index = s.take("f", 2)
+
+    def read_reach(self, s, tables):
+        self.hulls = None
+        if s:
+            self.hulls = []
+            for _ in range(tables):
+                theta, phi = s.take("H", 2)
+                sides = [0.0125 * side for side in s.take("B", 36)]
+                self.hulls.append((RIGHT * theta / 65535, 2 * math.pi * phi / 65536, sides))
+
+    def room(self, wo, wi):
+        """How far inside what was measured wo lies, the light at wi."""
+        local = turned(wi, wo)
+        if not self.hulls:
+            return math.acos(self.cone) - polar(local)
+        room = math.pi
+        for weight, table, other in self.mix(polar(wi), math.atan2(wi[1], wi[0])):
+            if weight > 1e-3:
+                x, y, z = local
+                at = (-x, -y, z) if other and self.frame == 0 else local
+                room = min(room, self.room_in(self.hulls[table], at))
+        return room
+
+    @staticmethod
+    def room_in(hull, d):
+        theta, phi, sides = hull
+        s, c, sp, cp = math.sin(theta), math.cos(theta), math.sin(phi), math.cos(phi)
+        x, y = dot((c * cp, c * sp, -s), d), dot((-sp, cp, 0), d)
+        at = math.atan2(y, x) % (2 * math.pi) / (2 * math.pi) * 36
+        i, t = int(at) % 36, at - int(at)
+        edge = sides[i] + t * (sides[(i + 1) % 36] - sides[i])
+        return edge - math.atan2(math.hypot(x, y), dot((s * cp, s * sp, c), d))
+
+    def exchanged(self, wo, wi):
+        """The share of the two directions exchanged, beyond the last incidence."""
+        def smooth(room):
+            t = held(room / 0.035, 0, 1)
+            return t * t * (3 - 2 * t)
+        before = self.last - polar(wo)
+        if not before > 0:
+            return 0.0
+        return smooth(min(before, self.room(wi, wo))) * smooth(polar(wi) - self.last)
 
     def read_sampling(self, data):
         self.sampling = None
@@ -391,17 +434,19 @@ class Reflection:
                    key=lambda part: part[0])
         own = [math.exp(x) for x in self.lambertian[most[1]]]
         last = fresnel(math.cos(self.last), self.index)
-        entering = (1 - fresnel(wi[2], self.index)) / (1 - last)
         ratio = self.haze_ratio((wi, wo), (wi_then, wo_then), nm)
         factor = self.held_factor(theta, nm)
         own = self.spread(own, nm)
-        f = [(t - min(t, p)) * r + min(t, p) * entering for t, p, r in zip(total, own, ratio)]
+        f = [(t - min(t, p)) * r + min(t, p) for t, p, r in zip(total, own, ratio)]
         if self.has_lobe:
             now, then = self.gloss(wi[2], nm), self.gloss(math.cos(self.last), nm)
             f = [a + b * last * p / q for a, b, p, q in
                  zip(f, self.lobe_at(mix, wi, local, nm), now, then)]
+        share = self.exchanged(wo, wi)
+        if share:
+            f = [a + share * (b - a) for a, b in zip(f, self.brdf(wi, wo, nm)[0])]
         f = [a * b for a, b in zip(f, factor)]
-        return f, [p * entering * b for p, b in zip(own, factor)]
+        return f, [p * b for p, b in zip(own, factor)]
 
     def haze_ratio(self, now, then, nm):
         if self.beyond == 0:

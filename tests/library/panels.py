@@ -95,6 +95,36 @@ def brushed(program, folder, alphas=(0.3, 0.16)):
     return fit(program, out)
 
 
+def rings(program, folder):
+    """Samples on rings about the mirror direction, which do not surround the hemisphere."""
+    out = os.path.join(folder, "rings")
+    os.makedirs(out)
+    incidences = [10, 35, 60]
+    for incidence in incidences:
+        with open(os.path.join(out, f"i{incidence}.csv"), "w") as file:
+            file.write("theta,phi,550\n")
+            for theta, phi, angle in ring_directions(math.radians(incidence)):
+                f = 0.004 + 0.05 * math.exp(-(angle / math.radians(20)) ** 2)
+                file.write(f"{theta:.4f},{phi:.4f},{f:.7g}\n")
+    with open(os.path.join(out, "MANIFEST.json"), "w") as file:
+        json.dump({"panel": "rings", "reflection": {
+            "wavelengths_nm": [550], "incidence_deg": incidences, "files":
+            "i{incidence}.csv"}}, file)
+    return fit(program, out)
+
+
+def ring_directions(tilt):
+    """theta and phi up to 80 degrees, degrees, and the angle to the mirror direction."""
+    for ring in (0, 4, 8, 12, 20, 30, 40, 50, 60):
+        for turn in range(0, 360 if ring else 1, 12):
+            x, y, z = unit(ring, turn)
+            x, z = (x * math.cos(tilt) + z * math.sin(tilt),
+                    z * math.cos(tilt) - x * math.sin(tilt))
+            theta = math.degrees(math.atan2(math.hypot(x, y), z))
+            if theta < 80:
+                yield theta, math.degrees(math.atan2(y, x)) % 360, math.radians(ring)
+
+
 def brushed_brdf(incidence, azimuth, theta, phi, alphas):
     """phi counts from the mirror direction, as tables have it."""
     wi, wo = (unit(incidence, azimuth), unit(theta, phi + azimuth + 180))

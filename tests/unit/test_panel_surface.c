@@ -241,6 +241,7 @@ static double narrow(double theta_i, double phi_i, double theta, double phi, dou
                pow(1 + b2 / (w * w), -1.6) / (w * w) + 0.0004;
 }
 
+/* Where the directions exchanged are read, the cubic between two incidences counts too. */
 TEST(tails_of_narrow_haze_go_on)
 {
     Tables tables = ROUGH;
@@ -251,7 +252,7 @@ TEST(tails_of_narrow_haze_go_on)
     fit_tables(&f, tables, &options);
     for (double i = 66; i <= 85.5; i += 4.75)
         for (double off = -25; off <= 4; off += 1)
-            expect_near(fabs(error_off(&f, i, off, 0)), 0.02, "tails", i, off);
+            expect_near(fabs(error_off(&f, i, off, 0)), 0.022, "tails", i, off);
 }
 
 /* The image of a bare face as wide as the instrument, and a lambertian part. */

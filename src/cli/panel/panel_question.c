@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_place.h"
+#include "panel/query/panel_reflection.h"
 
 Vec3 panel_direction(double theta_deg, double phi_deg)
 {
@@ -93,8 +94,7 @@ void panel_ask_reflection(const Panel *panel, const PanelQuestion *q, PanelRefle
     }
     out->is_measured = true;
     for (int i = 0; i < mix.count; i++)
-        out->is_measured &= panel_info_brdf_is_measured(mix.panel[i],
-            radians_from_degrees(q->incidence), radians_from_degrees(q->theta));
+        out->is_measured &= panel_brdf_is_measured(mix.panel[i], wo, wi);
 }
 
 /* ---- JSON ------------------------------------------------------------------------------ */

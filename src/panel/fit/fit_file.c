@@ -104,6 +104,8 @@ static void write_reflection(FitWriter *writer, const ReflectionResult *r)
     write_section(writer, PANEL_REFLECTION_TREE, 0, &tree, 1);
     if (r->sampling) write_section(writer, PANEL_SAMPLING, 0, &sampling, 1);
     if (has_surface(r)) write_section(writer, PANEL_SURFACE, 0, &surface, 1);
+    FitPiece reach = {r->model->reach, sizeof *r->model->reach * (size_t)r->model->tables};
+    if (r->model->has_reach) write_section(writer, PANEL_REACH, 0, &reach, 1);
 }
 
 static void write_places(FitWriter *writer, const FitPlaces *places)

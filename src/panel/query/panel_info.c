@@ -15,13 +15,6 @@ int panel_info_wavelengths(const Panel *panel, float nm[PANEL_INFO_WAVELENGTHS_M
     return (int)panel->reflection->wavelengths;
 }
 
-bool panel_info_brdf_is_measured(const Panel *panel, double incidence, double theta)
-{
-    const PanelReflection *r = panel->reflection;
-    return r && incidence <= (double)r->last_theta + 1e-6 &&
-           cos_d(theta) >= (double)r->cone_cos - 1e-6;
-}
-
 int panel_info_incidences(const Panel *panel, double theta[PANEL_INFO_INCIDENCES_MAX])
 {
     const PanelReflection *r = panel->reflection;

@@ -13,10 +13,6 @@
 /* The measured wavelengths of the reflection, rising; returns how many (0: none). */
 int panel_info_wavelengths(const Panel *panel, float nm[PANEL_INFO_WAVELENGTHS_MAX]);
 
-/* Within the measured incidences (the mirrored range below the first included) and the cone
- * of measured leaving directions? */
-bool panel_info_brdf_is_measured(const Panel *panel, double incidence, double theta);
-
 /* Incidences of the light that were measured, radians, rising; returns how many. */
 #define PANEL_INFO_INCIDENCES_MAX 64
 int panel_info_incidences(const Panel *panel, double theta[PANEL_INFO_INCIDENCES_MAX]);
@@ -25,7 +21,8 @@ int panel_info_incidences(const Panel *panel, double theta[PANEL_INFO_INCIDENCES
 #define PANEL_INFO_AZIMUTHS_MAX 72
 int panel_info_azimuths(const Panel *panel, double phi[PANEL_INFO_AZIMUTHS_MAX]);
 
-/* The last measured theta of leaving directions. */
+/* The last measured theta of leaving directions, of all tables; some may be measured to there
+ * on one side only (panel_brdf_is_measured). */
 double panel_info_reflection_cone(const Panel *panel);
 
 /* ---- emission -------------------------------------------------------------------------- */

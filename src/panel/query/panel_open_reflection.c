@@ -352,6 +352,7 @@ static PanelReflection *expand(const PanelReflectionStored *s, const ReflectionL
         .nodes = s->nodes, .is_cubic = s->is_cubic, .has_mirror = s->has_mirror,
         .has_lobe = s->has_lobe, .frame_exponent = s->frame_exponent,
         .refractive_index = s->refractive_index, .cone_cos = s->cone_cos,
+        .cone_theta = (float)acos_d((double)s->cone_cos),
         .first_theta = from->incidence[0], .last_theta = from->incidence[s->incidences - 1]};
     memcpy(r->azimuth, from->azimuth, sizeof(float) * s->azimuths);
     memcpy(r->wavelength_nm, from->wavelength_nm, sizeof(float) * s->wavelengths);
@@ -477,8 +478,13 @@ bool panel_expand_reflection(const PanelReflectionBytes *sections, const Geodesi
         return panel_refuse(at, "reflection", "does not fit its tree");
     if (surface.frame != PANEL_FRAME_SPECULAR && s->azimuths < 2)
         return panel_refuse(&sections->surface, "surface", "has axes without azimuths");
+    if (sections->reach.data &&
+        sections->reach.size != sizeof *panel->reflection->reach * s->incidences * s->azimuths)
+        return panel_refuse(&sections->reach, "reach", "has another size than its counts say");
     tree_unpack(&panel->reflection_tree, arena);
-    panel->reflection = expand(s, &from, &surface, arena);
+    PanelReflection *reflection = expand(s, &from, &surface, arena);
+    reflection->reach = (const PanelReachStored *)(const void *)sections->reach.data;
+    panel->reflection = reflection;
     index_wavelengths(panel);
     return true;
 }
@@ -487,9 +493,10 @@ bool panel_open_reflection(const PanelBytes *bytes, const Geodesic *geodesic, Ar
                            Panel *panel)
 {
     PanelReflectionBytes sections = {.surface = {NULL, 0, bytes->name, bytes->err}};
-    bool found, has_surface;
+    bool found, has_surface, has_reach;
     if (!panel_find_section(bytes, PANEL_REFLECTION, 0, &sections.numbers, &found) ||
-        !panel_find_section(bytes, PANEL_SURFACE, 0, &sections.surface, &has_surface))
+        !panel_find_section(bytes, PANEL_SURFACE, 0, &sections.surface, &has_surface) ||
+        !panel_find_section(bytes, PANEL_REACH, 0, &sections.reach, &has_reach))
         return false;
     if (!found) return true;
     return panel_need_section(bytes, PANEL_REFLECTION_TREE, 0, &sections.tree) &&

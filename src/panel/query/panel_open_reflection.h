@@ -13,9 +13,10 @@
 bool panel_open_reflection(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
                            Panel *panel);
 
-/* The sections of a reflection without its sampling; surface.data NULL: there is none. */
+/* The sections of a reflection without its sampling; data of surface or reach NULL: there is
+ * none. */
 typedef struct PanelReflectionBytes {
-    PanelBytes numbers, tree, surface;
+    PanelBytes numbers, tree, surface, reach;
 } PanelReflectionBytes;
 
 /* The reflection alone, into *panel. */

@@ -75,7 +75,7 @@ typedef struct PanelReflection {
     uint32_t wavelengths, padded_wavelengths, nodes, steps;
     bool     is_cubic, has_mirror, has_lobe;
     bool     is_grey; /* all wavelengths have the same numbers */
-    float    frame_exponent, refractive_index, cone_cos;
+    float    frame_exponent, refractive_index, cone_cos, cone_theta;
     float    first_theta, last_theta; /* measured incidences, radians */
     float    last_sine, last_cosine, last_fresnel; /* of last_theta */
     PanelFrameKind  frame;
@@ -99,6 +99,7 @@ typedef struct PanelReflection {
     const float *lobe_sigma; /* [tables], radians */
     const float *held;    /* [nodes][wavelengths] */
     const float *mirror;  /* [PANEL_ANGLES][wavelengths] */
+    const PanelReachStored *reach; /* [tables]; NULL: cone_theta is every table's */
 } PanelReflection;
 
 /* How wi is chosen for a wo: function azimuth * incidences + incidence of one sampling tree in

@@ -49,12 +49,13 @@ static inline float panel_reach_edge(const PanelReachStored *s, float turn)
     return (here + (next - here) * t) * PANEL_REACH_UNIT;
 }
 
-static inline bool panel_reach_holds(const PanelReachStored *s, Vec3 local)
+/* How far a direction lies inside its edge; negative outside. Radians, towards the centre. */
+static inline float panel_reach_room(const PanelReachStored *s, Vec3 local)
 {
     Vec3 axis[3];
     panel_reach_axes(s, axis);
     PanelReachPlace at = panel_reach_place(axis, local);
-    return at.angle <= panel_reach_edge(s, at.turn);
+    return panel_reach_edge(s, at.turn) - at.angle;
 }
 
 /* The direction itself inside the hull; else the one on its edge, towards the centre. */

@@ -9,6 +9,7 @@
 #include "hemisphere/tree/tree_query.h"
 #include "panel/query/panel_components.h"
 #include "panel/query/panel_tables.h"
+#include "panel/query/panel_reach.h"
 #include "panel/query/panel_reference.h"
 #include "panel/query/panel_turn.h"
 #include "spectrum/fresnel.h"
@@ -17,6 +18,9 @@
 #define COEFFICIENTS_MAX ((PANEL_COEFFICIENTS_MAX + 3) / 4 * 4)
 #define COMPONENTS_MAX ((PANEL_REFLECTION_COMPONENTS_MAX + 3) / 4 * 4)
 #define LOBE_SIGMAS 6.5f /* exp(-21): nothing beyond */
+#define LEAST_WEIGHT 1e-3f /* of a table that an answer rests on */
+#define SAME_ANGLE 2e-5f   /* radians */
+#define PASSAGE 0.035f   /* radians, over which exchanged directions take over */
 
 bool panel_reflects(const Panel *panel)
 {
@@ -346,42 +350,95 @@ static int main_row(const PanelReflection *r, const PanelTables *mix)
     return mix->term[best].table * (int)r->padded_wavelengths;
 }
 
-/* The haze moves and changes its height, the lambertian part follows the light that enters. */
-static Spectrum brdf_beyond(const Panel *panel, const PanelPair *pair, float light,
-                            const PanelLanes *lanes)
+/* The law: the haze moves and changes its height, the lambertian part stays. */
+static Spectrum moved_haze(const Panel *panel, const PanelPair *pair, float light,
+                           const PanelLanes *lanes)
 {
     const PanelReflection *r = panel->reflection;
-    float         n = r->refractive_index;
     PanelPair     from = last_pair(r, pair);
     PanelTables mix = panel_tables_last(r, light);
     Spectrum logs = reflection_logs(panel, stored_at(r, &from), &mix, lanes);
-    float    last = r->last_fresnel;
     Spectrum total = spectrum_exp(logs) * spectrum_all(reference_at(r, &from));
     int      row = main_row(r, &mix);
     Spectrum lambertian = spectrum_min(total, spread(r->lambertian + row, lanes));
-    float    entering = (1 - fresnel_unpolarised(pair->wi.z, n)) / (1 - last);
-    Spectrum haze = (total - lambertian) * haze_ratio(panel, pair, &from, lanes) +
-                    lambertian * spectrum_all(entering);
+    Spectrum haze = (total - lambertian) * haze_ratio(panel, pair, &from, lanes) + lambertian;
     if (r->has_lobe)
         haze += lobe_over_fresnel(panel, &mix, pair->local, pair->wi, lanes) *
                 (gloss(panel, pair->wi.z, lanes) / lanes->last_gloss) *
-                spectrum_all(last);
-    return haze * held_factor(panel, pair->theta, lanes);
+                spectrum_all(r->last_fresnel);
+    return haze;
+}
+
+/* How far wo lies inside the hulls of all tables that count under light from wi, which is no
+ * further out than the last incidence; radians, negative outside. */
+static float room_inside(const PanelReflection *r, const PanelPair *pair)
+{
+    if (!r->reach) return r->cone_theta - panel_polar_angle(pair->local);
+    float       light = r->azimuths > 1 ? atan2_f(pair->wi.y, pair->wi.x) : 0, room = PI_F;
+    PanelTables mix = panel_tables_at(r, pair->theta, light);
+    for (int i = 0; i < mix.count; i++) {
+        Vec3 at = pair->local;
+        if (!(mix.term[i].weight > LEAST_WEIGHT)) continue;
+        if (i >= mix.straight) at.x = -at.x, at.y = -at.y;
+        float here = panel_reach_room(&r->reach[mix.term[i].table], at);
+        room = here < room ? here : room;
+    }
+    return room;
+}
+
+static float smooth_share(float room)
+{
+    float t = clampf(room * (1 / PASSAGE), 0, 1);
+    return t * t * (3 - 2 * t);
+}
+
+static PanelPair pair_of(Vec3 wo, Vec3 wi)
+{
+    return (PanelPair){wi, wo, panel_turned(wi, wo), panel_polar_angle(wi)};
+}
+
+/* Beyond the last incidence the two directions exchanged were measured where this is above 0
+ * (Helmholtz); 1 where they are read, less within PASSAGE of where they end. */
+static float exchanged_share(const PanelReflection *r, const PanelPair *pair)
+{
+    PanelPair other = pair_of(pair->wi, pair->wo);
+    float     before = r->last_theta - other.theta, room;
+    if (!(before > 0)) return 0;
+    room = room_inside(r, &other);
+    room = room < before ? room : before;
+    return smooth_share(room) * smooth_share(pair->theta - r->last_theta);
+}
+
+static Spectrum brdf_beyond(const Panel *panel, const PanelPair *pair, float light,
+                            const PanelLanes *lanes)
+{
+    float    share = exchanged_share(panel->reflection, pair);
+    Spectrum f = spectrum_all(0);
+    if (share < 1) f += moved_haze(panel, pair, light, lanes) * spectrum_all(1 - share);
+    if (share > 0)
+        f += panel_brdf_at(panel, pair->wi, pair->wo, lanes) * spectrum_all(share);
+    return f * held_factor(panel, pair->theta, lanes);
+}
+
+bool panel_brdf_is_measured(const Panel *panel, Vec3 wo, Vec3 wi)
+{
+    const PanelReflection *r = panel->reflection;
+    if (!r || !(wo.z > 0) || !(wi.z > 0)) return false;
+    PanelPair pair = pair_of(wo, wi), other = pair_of(wi, wo);
+    bool      is_beyond = pair.theta > r->last_theta + SAME_ANGLE;
+    if (is_beyond && other.theta > r->last_theta + SAME_ANGLE) return false;
+    return room_inside(r, is_beyond ? &other : &pair) >= -SAME_ANGLE;
 }
 
 /* ---- the lambertian part ---------------------------------------------------------------- */
 
 /* As brdf_beyond has it. */
-static Spectrum lambertian_beyond(const Panel *panel, float theta, float cos_theta, float light,
+static Spectrum lambertian_beyond(const Panel *panel, float theta, float light,
                                   const PanelLanes *lanes)
 {
     const PanelReflection *r = panel->reflection;
-    float    n = r->refractive_index;
     PanelTables mix = panel_tables_last(r, light);
-    int      row = main_row(r, &mix);
-    float entering = (1 - fresnel_unpolarised(cos_theta, n)) / (1 - r->last_fresnel);
-    return spread(r->lambertian + row, lanes) * spectrum_all(entering) *
-           held_factor(panel, theta, lanes);
+    return spread(r->lambertian + main_row(r, &mix), lanes) * held_factor(panel, theta, lanes);
 }
 
 /* ---- the queries ------------------------------------------------------------------------ */
@@ -427,7 +484,7 @@ Spectrum panel_brdf_at(const Panel *panel, Vec3 wo, Vec3 wi, const PanelLanes *l
 {
     const PanelReflection *r = panel->reflection;
     if (!r || !(wo.z > 0) || !(wi.z > 0)) return spectrum_all(0);
-    PanelPair pair = {wi, wo, panel_turned(wi, wo), panel_polar_angle(wi)};
+    PanelPair pair = pair_of(wo, wi);
     float light = r->azimuths > 1 ? atan2_f(wi.y, wi.x) : 0;
     if (pair.theta > r->last_theta) return brdf_beyond(panel, &pair, light, lanes);
     PanelTables mix = panel_tables_at(r, pair.theta, light);
@@ -456,7 +513,7 @@ Spectrum panel_lambertian_at(const Panel *panel, Spectrum brdf, Vec3 wi,
     if (!r || !(wi.z > 0)) return spectrum_all(0);
     float theta = panel_polar_angle(wi), light = r->azimuths > 1 ? atan2_f(wi.y, wi.x) : 0;
     if (theta > r->last_theta)
-        return spectrum_min(brdf, lambertian_beyond(panel, theta, wi.z, light, lanes));
+        return spectrum_min(brdf, lambertian_beyond(panel, theta, light, lanes));
     PanelTables mix = panel_tables_at(r, theta, light);
     return spectrum_min(brdf,
                         spectrum_exp(mixed_at_lanes(r, &mix, r->lambertian_log, lanes)));

@@ -40,13 +40,20 @@ Spectrum panel_mirror_at(const Panel *panel, float cos_theta, const PanelLanes *
  * lane, 0 to brdf; the rest is haze. It is the floor that the panel file keeps for each
  * incidence of the light: nearly the least that was measured within 60 degrees of the normal
  * (src/panel/fit). One for all wo, and thus not reciprocal by itself; beyond the last
- * measured incidence it follows the light that enters the face. */
+ * measured incidence it stays. */
 Spectrum panel_lambertian_at(const Panel *panel, Spectrum brdf, Vec3 wi,
                              const PanelLanes *lanes);
 
 /* BRDF without the mirror part, sr^-1 per lane. wo: to the eye, wi: to the light. 0 when
  * either is below the surface. */
 Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wavelengths);
+
+/* Is that BRDF measured: are the light within the measured incidences (the mirrored range below
+ * the first included) and wo in the hull of the samples there, or the two exchanged? All else
+ * is extrapolated: outside the hull the value on its edge is held; beyond the last incidence,
+ * where the two exchanged were not measured either, the haze moves on and the lambertian part
+ * stays. Between two incidences both hulls have to hold wo. */
+bool panel_brdf_is_measured(const Panel *panel, Vec3 wo, Vec3 wi);
 
 /* Mirror reflectance (delta part), per lane, for a direction at cos_theta to the normal. */
 Spectrum panel_mirror(const Panel *panel, float cos_theta, const Wavelengths *wavelengths);

@@ -136,7 +136,7 @@ bool reflection_reach_is_cone(const PanelReachStored *reach, float theta)
     float inner = fmaxf(0, theta - (float)radians_from_degrees((double)ROOM_DEG));
     for (int k = 0; k < CONE_SIDES; k++) {
         Vec3 d = table_direction((double)inner, 2 * PI * k / CONE_SIDES);
-        if (!panel_reach_holds(reach, d)) return false;
+        if (panel_reach_room(reach, d) < 0) return false;
     }
     return true;
 }

@@ -279,7 +279,11 @@ static bool view_section(const ReflectionModel *model, const SectionDraft *secti
     PanelReflectionBytes sections = {
         {(const unsigned char *)section->stored, section->out->size, "panel", err},
         {model->tree, tree_size(model->tree), "panel", err},
-        {(const unsigned char *)surface, sizeof *surface, "panel", err}};
+        {(const unsigned char *)surface, sizeof *surface, "panel", err},
+        {NULL, 0, "panel", err}};
+    if (model->has_reach)
+        sections.reach.data = (const unsigned char *)model->reach,
+        sections.reach.size = sizeof *model->reach * (size_t)model->tables;
     return panel_expand_reflection(&sections, model->geodesic, arena, panel);
 }
 
