@@ -131,8 +131,9 @@ class Reflection:
         if s:
             self.hulls = []
             for _ in range(tables):
-                theta, phi = s.take("H", 2)
-                sides = [0.0125 * side for side in s.take("B", 36)]
+                theta, phi, most = s.take("H", 3)
+                unit = math.pi * most / 65535 / 255
+                sides = [unit * side for side in s.take("B", 36)]
                 self.hulls.append((RIGHT * theta / 65535, 2 * math.pi * phi / 65536, sides))
 
     def room(self, wo, wi):

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Reflection tables of any layout: as many samples of a closed form tell as much on rings about
- * the mirror direction, scattered, or with other directions at each incidence as on a grid; what
- * samples do not surround is said, and held. */
+/* Reflection tables of any layout: as many samples of a closed form tell as much on rings
+ * about the mirror direction, scattered, or with other directions at each incidence as on a
+ * grid; what samples do not surround is said, and held. */
 #include <stdlib.h>
 
 #include "reflection_fixture.h"
 #include "panel/fit/common/scatter_surface.h"
 #include "panel/fit/common/table_rows.h"
+#include "panel/query/panel_info.h"
 
 #define ROWS_MAX 4000
 #define TOGETHER 2.0 /* times a grid's error, rms */
@@ -25,7 +26,8 @@ typedef void LayoutMaker(double theta_i, Layout *out);
 
 static void add(Layout *out, Vec3 d)
 {
-    if ((double)d.z >= cos(radians_from_degrees(CONE_DEG + 1e-4))) out->direction[out->rows++] = d;
+    if ((double)d.z >= cos(radians_from_degrees(CONE_DEG + 1e-4)))
+        out->direction[out->rows++] = d;
 }
 
 /* Round an axis in the plane of incidence, `theta` from the normal. */
@@ -165,7 +167,7 @@ static double error_of(LayoutMaker *make, const Lobe *lobe)
 
 TEST(any_layout_fits_like_a_grid)
 {
-    static const Lobe lobes[] = {{25, 0.03, 0.006}, {60, 0.1, 0.02}, {12, 0.2, 0.01}};
+    static const Lobe lobes[] = {{25, 0.03, 0.006}, {12, 0.2, 0.01}};
     static LayoutMaker *const layouts[] = {mirror_rings, scattered, mixed};
     for (size_t k = 0; k < sizeof lobes / sizeof *lobes; k++) {
         double grid = error_of(normal_rings, &lobes[k]);
@@ -176,6 +178,56 @@ TEST(any_layout_fits_like_a_grid)
                          error, grid);
         }
     }
+}
+
+/* Rings up to 40 degrees about the mirror direction: inside it is measured, outside held. */
+static void narrow_rings(double theta_i, Layout *out)
+{
+    add(out, around(theta_i, 0, 0));
+    for (double ring = 4; ring <= 40; ring += 4)
+        for (double t = 0; t < 360; t += 12) add(out, around(theta_i, ring, t));
+}
+
+/* Off the mirror direction, radians. */
+static double off_mirror(double theta_i, Vec3 d)
+{
+    return acos(fmin(1, sin(theta_i) * (double)d.x + cos(theta_i) * (double)d.z));
+}
+
+TEST(outside_of_the_samples_values_are_held_and_said_to_be_extrapolated)
+{
+    Lobe   lobe = {25, 0.1, 0.005};
+    ENDS_BY(fitted_end) Fitted f = fit_layout(narrow_rings, &lobe);
+    double ring = radians_from_degrees(40), near = radians_from_degrees(3);
+    for (int i = 0; i < COUNT; i++)
+        for (double a = 1; a < 90; a += 4)
+            for (double t = 0; t < 360; t += 15) {
+                double theta_i = radians_from_degrees(incidence_deg[i]);
+                Vec3   d = direction_deg(a, t), light = direction_deg(incidence_deg[i], 180);
+                double off = off_mirror(theta_i, d), edge = lobe_of(&lobe, theta_i,
+                                                                    around(theta_i, 40, 180));
+                double here = brdf_deg(f.fit.panel, (double[]){a, t},
+                                       (double[]){incidence_deg[i], 180}, 0);
+                bool is_measured = panel_brdf_is_measured(f.fit.panel, d, light);
+                if (off < ring - near && a < CONE_DEG - 8) assert_true(is_measured);
+                if (off > ring + near || a > CONE_DEG + 2) assert_false(is_measured);
+                if (off > ring && a < 60) assert_close(here, edge, 0.06);
+                assert_true(here > 0.9 * lobe.floor);
+            }
+    double share = json_number_at(f.fit.report, "total/extrapolated_share");
+    assert_true(share > 0.5 && share < 0.9);
+}
+
+/* What surrounds the cone has no hulls in its file, and what was measured is its cone. */
+TEST(scattered_samples_of_the_whole_cone_need_no_hulls)
+{
+    Lobe lobe = {25, 0.1, 0.005};
+    ENDS_BY(fitted_end) Fitted f = fit_layout(scattered, &lobe);
+    assert_false(panel_info_has_hulls(f.fit.panel));
+    assert_true(panel_brdf_is_measured(f.fit.panel, direction_deg(77, 123),
+                                       direction_deg(40, 180)));
+    assert_false(panel_brdf_is_measured(f.fit.panel, direction_deg(83, 123),
+                                        direction_deg(40, 180)));
 }
 
 /* 3000 points are many patches: through each of them, and smooth between. */

@@ -205,31 +205,42 @@ static bool channels_at(const Panel *panel, const PanelQuestion *q, float *out)
     return r.is_measured;
 }
 
-/* Fills one theta x phi table a channel, and which thetas are extrapolated. */
-static void fill_tables(const Panel *panel, const PanelQuestion *question,
-                        const PanelGrid *grid, int channels, json_t **table, json_t *far)
+/* The thetas at which some directions are extrapolated; which, theta x phi. */
+typedef struct FarLists {
+    json_t *theta, *at;
+} FarLists;
+
+/* Fills one theta x phi table a channel. */
+static FarLists fill_tables(const Panel *panel, const PanelQuestion *question,
+                            const PanelGrid *grid, int channels, json_t **table)
 {
+    FarLists      far = {json_array(), json_array()};
     PanelQuestion q = *question;
     float         value[PANEL_INFO_WAVELENGTHS_MAX];
     for (int t = 0; t < range_count(&grid->theta); t++) {
-        bool is_measured = true;
+        bool    is_all = true;
+        json_t *row = json_array();
         q.theta = range_at(&grid->theta, t);
         for (int c = 0; c < channels; c++) json_array_append_new(table[c], json_array());
         for (int p = 0; p < range_count(&grid->phi); p++) {
             q.phi = range_at(&grid->phi, p);
-            is_measured = channels_at(panel, &q, value);
+            bool is_measured = channels_at(panel, &q, value);
+            is_all &= is_measured;
+            json_array_append_new(row, json_boolean(!is_measured));
             for (int c = 0; c < channels; c++)
                 json_array_append_new(json_array_get(table[c], (size_t)t),
                                       json_real((double)value[c]));
         }
-        json_array_append_new(far, json_boolean(!is_measured));
+        json_array_append_new(far.theta, json_boolean(!is_all));
+        json_array_append_new(far.at, row);
     }
+    return far;
 }
 
 static json_t *reflection_grid_json(const Panel *panel, const PanelQuestion *q,
                                     const PanelGrid *grid)
 {
-    json_t *table[PANEL_INFO_WAVELENGTHS_MAX], *far = json_array(), *nm = json_array();
+    json_t *table[PANEL_INFO_WAVELENGTHS_MAX], *nm = json_array();
     json_t *brdf = json_array(), *mirror = json_array();
     PanelReflected r;
     panel_ask_reflection(panel, q, &r);
@@ -239,23 +250,23 @@ static json_t *reflection_grid_json(const Panel *panel, const PanelQuestion *q,
         json_array_append_new(nm, json_real((double)r.nm[i]));
         json_array_append_new(mirror, json_real((double)r.mirror[i]));
     }
-    fill_tables(panel, q, grid, r.count, table, far);
-    return json_pack("{s:f, s:f, s:o, s:o, s:o, s:o, s:o, s:o}", "incidence_deg", q->incidence,
-                     "incidence_phi_deg", q->incidence_phi, "theta_deg",
+    FarLists far = fill_tables(panel, q, grid, r.count, table);
+    return json_pack("{s:f, s:f, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "incidence_deg",
+                     q->incidence, "incidence_phi_deg", q->incidence_phi, "theta_deg",
                      range_json(&grid->theta), "phi_deg", range_json(&grid->phi),
                      "wavelengths_nm", nm, "brdf_sr", brdf, "mirror", mirror, "extrapolated",
-                     far);
+                     far.theta, "extrapolated_at", far.at);
 }
 
 static json_t *emission_grid_json(const Panel *panel, const PanelQuestion *q,
                                   const PanelGrid *grid)
 {
-    json_t *table[3] = {json_array(), json_array(), json_array()}, *far = json_array();
-    fill_tables(panel, q, grid, 3, table, far);
-    return json_pack("{s:[f,f,f], s:o, s:o, s:o, s:o, s:o, s:o}", "rgb", q->rgb[0], q->rgb[1],
-                     q->rgb[2], "theta_deg", range_json(&grid->theta), "phi_deg",
+    json_t  *table[3] = {json_array(), json_array(), json_array()};
+    FarLists far = fill_tables(panel, q, grid, 3, table);
+    return json_pack("{s:[f,f,f], s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "rgb", q->rgb[0],
+                     q->rgb[1], q->rgb[2], "theta_deg", range_json(&grid->theta), "phi_deg",
                      range_json(&grid->phi), "X", table[0], "Y", table[1], "Z", table[2],
-                     "extrapolated", far);
+                     "extrapolated", far.theta, "extrapolated_at", far.at);
 }
 
 static bool print_grid_text(const Panel *panel, const EvalRequest *request,

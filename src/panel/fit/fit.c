@@ -32,8 +32,10 @@ static void note_limits(const Measurement *set, FitNotes *notes)
                      primary_names[p],
                      set->primary[p].level[set->primary[p].level_count - 1]);
     if (set->incidence_count)
-        fit_note(notes, "reflection beyond %.0f degrees of incidence is extrapolated: the haze "
-                 "moves in the panel's plane, its height follows Fresnel's formula",
+        fit_note(notes, "reflection beyond %.0f degrees of incidence is that of the two "
+                 "directions exchanged where they were measured, else extrapolated: the haze "
+                 "moves in the panel's plane, its height follows Fresnel's formula, the "
+                 "lambertian part stays",
                  degrees_from_radians(set->incidence[set->incidence_count - 1]));
 }
 

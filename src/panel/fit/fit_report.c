@@ -206,6 +206,23 @@ static void measure_table(void *context, int t, int worker)
     }
 }
 
+/* Of the hemisphere's solid angle, under a table's light. */
+#define SHARE_THETAS 60
+#define SHARE_PHIS 72
+static double extrapolated_share(const TableWork *work, int t)
+{
+    Vec3 wi = reflection_model_light(work->set, t);
+    int  count = 0;
+    if (!work->reflection->model->has_reach) return (double)work->panel->reflection->cone_cos;
+    for (int i = 0; i < SHARE_THETAS; i++)
+        for (int k = 0; k < SHARE_PHIS; k++) {
+            double theta = acos_d(1 - (i + 0.5) / SHARE_THETAS);
+            Vec3   wo = table_direction(theta, 2 * PI * (k + 0.5) / SHARE_PHIS);
+            count += !panel_brdf_is_measured(work->panel, wo, wi);
+        }
+    return (double)count / (SHARE_THETAS * SHARE_PHIS);
+}
+
 static size_t reflection_bytes(const ReflectionResult *r)
 {
     return r->section.size + tree_size(r->model->tree) + r->sampling_size;
@@ -229,7 +246,7 @@ static void add_reflection_tables(const FitParts *parts, const Panel *panel, jso
             .stored_values = values, .bytes = bytes, .noise = r->parts.noise[t]};
         fit_table_finish(&work.errors[t], &one);
         fit_table_merge(all, &work.errors[t]);
-        one.extrapolated = (double)panel->reflection->cone_cos;
+        one.extrapolated = extrapolated_share(&work, t);
         fit_table_append(tables, total, &one);
     }
 }

@@ -141,10 +141,10 @@ typedef struct PanelSurfaceStored {
 /* PANEL_REACH: which directions a table's samples surround (panel_reach.h); it is there where
  * some table's do not surround the cone. */
 #define PANEL_REACH_SIDES 36
-#define PANEL_REACH_UNIT 0.0125f /* radians */
 typedef struct PanelReachStored {
     uint16_t theta, phi; /* of the centre, 1/65535 of 90 and 1/65536 of 360 degrees */
-    uint8_t  side[PANEL_REACH_SIDES]; /* angle of the edge, units of PANEL_REACH_UNIT */
+    uint16_t most;       /* the edge's largest angle, 1/65535 of 180 degrees */
+    uint8_t  side[PANEL_REACH_SIDES]; /* its angle, 1/255 of the largest */
 } PanelReachStored;
 
 /* PANEL_POLARISED: the linearly polarised share of the emitted light, above 0 to 1, and the

@@ -12,6 +12,7 @@
 #include <stdbool.h>
 
 #include "base/mathf.h"
+#include "base/units.h"
 #include "base/vec.h"
 #include "panel/query/panel_file.h"
 
@@ -38,6 +39,12 @@ static inline PanelReachPlace panel_reach_place(const Vec3 axis[3], Vec3 local)
                              turn < 0 ? turn + 2 * PI_F : turn};
 }
 
+/* Of its sides, radians. */
+static inline float panel_reach_unit(const PanelReachStored *s)
+{
+    return (float)s->most * (PI_F / 65535 / 255);
+}
+
 /* The hull's edge at a turn, radians from its centre. */
 static inline float panel_reach_edge(const PanelReachStored *s, float turn)
 {
@@ -46,7 +53,7 @@ static inline float panel_reach_edge(const PanelReachStored *s, float turn)
     float t = at - (float)side;
     float here = (float)s->side[side % PANEL_REACH_SIDES];
     float next = (float)s->side[(side + 1) % PANEL_REACH_SIDES];
-    return (here + (next - here) * t) * PANEL_REACH_UNIT;
+    return (here + (next - here) * t) * panel_reach_unit(s);
 }
 
 /* How far a direction lies inside its edge; negative outside. Radians, towards the centre. */

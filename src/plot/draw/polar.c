@@ -111,8 +111,34 @@ static void paint_colours(const PolarDisc *disc)
 
 /* ---- what was not measured -------------------------------------------------------------- */
 
+/* Inside the measured theta: rows of cells. */
+static void hatch_cells(const PolarDisc *disc)
+{
+    const Field *measured = disc->map->measured;
+    cairo_t     *cr = disc->canvas->cr;
+    double       cell = 2 * disc->radius / (measured->side - 1);
+    double       most = disc->map->theta_measured / measured->theta_rim * disc->radius;
+    double       left = disc->x - disc->radius, top = disc->y - disc->radius;
+    cairo_save(cr);
+    canvas_circle(disc->canvas, disc->x, disc->y, fmin(most, disc->radius));
+    cairo_clip(cr);
+    for (int row = 0; row < measured->side; row++)
+        for (int begin = 0, i = 0; i <= measured->side; i++) {
+            int cell_index = row * measured->side + i;
+            if (i < measured->side && !(measured->value[cell_index] > 0)) continue;
+            if (i > begin)
+                cairo_rectangle(cr, left + (begin - 0.5) * cell, top + (row - 0.5) * cell,
+                                (i - begin) * cell, cell);
+            begin = i + 1;
+        }
+    cairo_clip(cr);
+    canvas_hatch(disc->canvas, (Box){left, top, 2 * disc->radius, 2 * disc->radius});
+    cairo_restore(cr);
+}
+
 static void hatch_outside(const PolarDisc *disc)
 {
+    if (disc->map->measured) hatch_cells(disc);
     double from = disc->map->theta_measured / disc->map->field->theta_rim * disc->radius;
     if (from >= disc->radius - 0.5) return;
     cairo_t *cr = disc->canvas->cr;

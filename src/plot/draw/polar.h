@@ -24,6 +24,7 @@ typedef struct PolarMap {
     double       strong;    /* a level drawn strongly, NaN: none */
     const char  *strong_text;
     double       theta_measured; /* beyond it: hatched */
+    const Field *measured;  /* hatched where it is 0, too; NULL: nowhere */
     const char  *unit;      /* above the scale */
     bool         has_light; /* marks the light at theta_light, phi 180 */
     double       theta_light;

@@ -227,6 +227,28 @@ double plot_data_brdf(const PlotData *s, double incidence, double theta, double 
     return brdf(s, incidence, direction(theta, panel_phi(s, phi)), nm);
 }
 
+bool plot_data_brdf_is_measured(const PlotData *s, double incidence, double theta, double phi)
+{
+    return panel_brdf_is_measured(s->source.panel, direction(theta, panel_phi(s, phi)),
+                                  direction(incidence, s->source.incidence_phi));
+}
+
+const Field *plot_data_brdf_measured(const PlotData *s, double incidence, Arena *arena)
+{
+    Field *field = ARENA_NEW(arena, Field, 1);
+    bool   is_whole = true;
+    *field = field_new(SIDE, PI / 2, arena);
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        Vec3   d = field_direction(field, i / SIDE, i % SIDE);
+        double theta = atan2(hypot((double)d.x, (double)d.y), (double)d.z);
+        bool   is_measured = plot_data_brdf_is_measured(s, incidence, theta,
+                                                        atan2((double)d.y, (double)d.x));
+        field->value[i] = is_measured;
+        is_whole &= is_measured || theta > s->brdf_cone;
+    }
+    return is_whole ? NULL : field;
+}
+
 typedef struct BrdfWork {
     const PlotData *data;
     Field          field;

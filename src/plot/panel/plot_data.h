@@ -83,6 +83,13 @@ void plot_data_normal_uv(const PlotData *data, Pattern pattern, double uv[2]);
 double plot_data_brdf(const PlotData *data, double incidence, double theta, double phi,
                       double nm);
 
+/* Is it measured? */
+bool plot_data_brdf_is_measured(const PlotData *data, double incidence, double theta,
+                                double phi);
+
+/* 1 where it is, over the hemisphere; NULL: in the whole cone. */
+const Field *plot_data_brdf_measured(const PlotData *data, double incidence, Arena *arena);
+
 /* The weighted one over the hemisphere. */
 Field plot_data_brdf_field(const PlotData *data, double incidence, Arena *arena);
 

@@ -39,6 +39,7 @@ static int incidence_near(const PlotData *s, double deg)
 typedef struct PlaneCurve {
     int    count, peak;
     double deg[PLANE_POINTS], value[PLANE_POINTS];
+    bool   is_measured[PLANE_POINTS];
 } PlaneCurve;
 
 /* Leaving angle, degrees; positive on the mirror's side. Finer around the mirror direction. */
@@ -50,8 +51,11 @@ static void fill_plane(const PlotData *s, double incidence_deg, PlaneCurve *out)
         out->deg[out->count] = deg;
         out->value[out->count] = plot_data_brdf(s, radians_from_degrees(incidence_deg), theta,
                                                 deg < 0 ? PI : 0, 0);
-        bool is_measured = theta <= s->brdf_cone + 1e-6;
-        if (is_measured && out->value[out->count] > out->value[out->peak])
+        bool is_in = theta <= s->brdf_cone + 1e-6;
+        out->is_measured[out->count] =
+            plot_data_brdf_is_measured(s, radians_from_degrees(incidence_deg), theta,
+                                       deg < 0 ? PI : 0);
+        if (is_in && out->value[out->count] > out->value[out->peak])
             out->peak = out->count;
         out->count++;
         deg += fabs(deg - incidence_deg) < 6 ? 0.05 : 0.25;
@@ -73,6 +77,20 @@ static void brdf_range(const PlaneCurve *curve, int count, double *low, double *
     *high = round_up(*high * 1.8);
 }
 
+/* Pale where it is extrapolated. */
+static void draw_plane_curve(Chart *chart, const PlaneCurve *curve, Stroke stroke)
+{
+    Ink ink = stroke.ink;
+    for (int begin = 0, i = 1; i <= curve->count; i++) {
+        bool goes_on = i < curve->count && curve->is_measured[i] == curve->is_measured[begin];
+        if (goes_on) continue;
+        int last = i < curve->count ? i + 1 : i; /* the next piece's first point joins them */
+        stroke.ink = ink_alpha(ink, curve->is_measured[begin] ? 1 : 0.3);
+        chart_curve(chart, curve->deg + begin, curve->value + begin, last - begin, stroke);
+        begin = i;
+    }
+}
+
 static void draw_plane(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
 {
     const PlotData *s = shown->data;
@@ -88,9 +106,9 @@ static void draw_plane(Canvas *canvas, Box box, const PanelChart *shown, PanelCh
         (AxisSpec){.low = low, .high = high, .is_log = true, .title = "BRDF, sr⁻¹"}, 14);
     panel_chart_hatch(&chart, s->brdf_cone);
     for (int k = count - 1; k >= 0; k--)
-        chart_curve(&chart, curve[k].deg, curve[k].value, curve[k].count,
-                    (Stroke){panel_chart_series_ink(canvas, k, count), 1.5,
-                             k % 2 ? DASH_LONG : DASH_NONE});
+        draw_plane_curve(&chart, &curve[k],
+                         (Stroke){panel_chart_series_ink(canvas, k, count), 1.5,
+                                  k % 2 ? DASH_LONG : DASH_NONE});
     for (int k = 0; k < count; k++) {
         double x = chart_x(&chart, curve[k].deg[curve[k].peak]);
         double y = chart_y(&chart, fmax(curve[k].value[curve[k].peak], low)) - 5;
@@ -178,6 +196,7 @@ static void draw_map(Canvas *canvas, Box box, const PanelChart *shown, PanelChar
     PolarMap   map = {.field = field, .map = MAP_SCATTER, .is_log = true, .strong = NAN,
                       .high = fmax(range.high, 1e-12), .theta_measured = s->brdf_cone,
                       .unit = "sr⁻¹", .has_light = true, .theta_light = incidence};
+    map.measured = plot_data_brdf_measured(s, incidence, canvas->arena);
     map.low = round_down(fmax(range.low, map.high / 1e6));
     if (map.high < 1.5 * map.low) map.low = map.high / 1.5;
     double peak = map.high, most = field_quantile(field, s->brdf_cone, 0.99, *canvas->arena);

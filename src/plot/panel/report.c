@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "base/units.h"
+#include "panel/query/panel_info.h"
 #include "page/page.h"
 #include "plot/draw/ticks.h"
 #include "plot/panel/sheet.h"
@@ -452,6 +453,9 @@ static void add_legend(Text *html, const PlotData *s)
         text_format(html, " Reflection was measured up to an incidence of %.4g° and a leaving "
                     "angle of %.4g°.", degrees_from_radians(s->last_incidence),
                     degrees_from_radians(s->brdf_cone));
+    if (s->reflects && panel_info_has_hulls(s->source.panel))
+        text_add(html, " At some incidences its samples do not surround all of these: what "
+                 "they leave out is hatched, and pale in lines.");
     text_add(html, "</p>\n");
 }
 

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/units.h"
+#include "panel/query/panel_info.h"
 
 #define MARGIN 40.0
 #define GUTTER 34.0
@@ -124,6 +125,10 @@ static const char *extrapolation_text(Canvas *canvas, const SheetSpec *spec)
                             degrees_from_radians(s->brdf_cone), last);
     if (emission)
         return arena_format(canvas->arena, "not measured, extrapolated: beyond θ %.4g°", cone);
+    if (reflection && panel_info_has_hulls(s->source.panel))
+        return arena_format(canvas->arena, "not measured, extrapolated (pale lines too): "
+                            "outside of an incidence's samples, θ %.4g° at most, or beyond an "
+                            "incidence of %.4g°", degrees_from_radians(s->brdf_cone), last);
     return reflection ? arena_format(canvas->arena, "not measured, extrapolated: beyond θ "
                                      "%.4g° or an incidence of %.4g°",
                                      degrees_from_radians(s->brdf_cone), last) : NULL;

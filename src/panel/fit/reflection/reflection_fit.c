@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/fit/reflection/reflection_fit.h"
 
-
 #include "base/parallel.h"
+#include "base/units.h"
 #include "hemisphere/tree/tree_open.h"
 #include "panel/fit/reflection/reflection_read.h"
 #include "panel/fit/reflection/reflection_spectra.h"
@@ -120,6 +120,15 @@ static bool code_levels(ReflectionModel *model, ReflectionMisses *misses, Error 
     }
 }
 
+/* The cone that all tables reach. */
+static float least_edge(const ReflectionModel *model)
+{
+    float edge = model->parts->haze[0].theta_max;
+    for (int t = 1; t < model->tables; t++)
+        edge = model->parts->haze[t].theta_max < edge ? model->parts->haze[t].theta_max : edge;
+    return edge;
+}
+
 static void note_outcome(const ReflectionModel *model, const ReflectionMisses *misses,
                          FitNotes *notes)
 {
@@ -127,6 +136,11 @@ static void note_outcome(const ReflectionModel *model, const ReflectionMisses *m
         fit_note(notes, "%d zeros or negative values of reflection were held above a floor "
                  "(1e-6 of their table's largest value); their errors do not count",
                  model->masked);
+    if (model->has_reach)
+        fit_note(notes, "reflection: at some incidences the samples do not surround all "
+                 "directions up to %.4g degrees: outside of them the value on their edge is "
+                 "held, and called extrapolated (extrapolated_share says how much)",
+                 degrees_from_radians((double)least_edge(model)));
     if (misses->misses)
         fit_note(notes, "reflection: %d of %d samples lie beyond the bound of %.2g %%, the "
                  "worst by a factor of %.2g", misses->misses, misses->samples,

@@ -81,9 +81,15 @@ static double edge_at(const HullPoint *a, const HullPoint *b, double turn)
     return across != 0 ? fmax(0, (a->x * b->y - a->y * b->x) / across) : 0;
 }
 
-static uint8_t rounded_up(double angle)
+/* Sides in units of the largest, none rounded down; some room is left for corners. */
+#define CORNERS 1.02
+static void store_sides(const double side[PANEL_REACH_SIDES], PanelReachStored *out)
 {
-    return (uint8_t)fmin(255, ceil(angle / (double)PANEL_REACH_UNIT + 0.25));
+    double most = 1e-3;
+    for (int k = 0; k < PANEL_REACH_SIDES; k++) most = fmax(most, side[k]);
+    out->most = (uint16_t)fmin(65535, ceil(CORNERS * most / PI * 65535));
+    for (int k = 0; k < PANEL_REACH_SIDES; k++)
+        out->side[k] = (uint8_t)fmin(255, ceil(side[k] / (double)panel_reach_unit(out)));
 }
 
 /* Between two sides a corner of the hull may stand out: both are raised to hold it. */
@@ -93,7 +99,7 @@ static void hold_point(const HullPoint *point, PanelReachStored *out)
     int    side = (int)at % PANEL_REACH_SIDES, next = (side + 1) % PANEL_REACH_SIDES;
     double edge = (double)panel_reach_edge(out, (float)point->turn);
     if (point->angle <= edge) return;
-    int more = (int)ceil((point->angle - edge) / (double)PANEL_REACH_UNIT + 0.25);
+    int more = (int)ceil((point->angle - edge) / (double)panel_reach_unit(out) + 1e-3);
     out->side[side] = (uint8_t)fmin(255, out->side[side] + more);
     out->side[next] = (uint8_t)fmin(255, out->side[next] + more);
 }
@@ -104,6 +110,7 @@ PanelReachStored reflection_reach(const AngleTable *table, bool mirrored, Arena 
     Vec3             axis[3];
     HullPoint *point = ARENA_NEW(&scratch, HullPoint, 2 * table->rows);
     HullPoint *hull = ARENA_NEW(&scratch, HullPoint, 4 * table->rows + 1);
+    double     side[PANEL_REACH_SIDES] = {0};
     int        count = 0;
     set_centre(table, mirrored, &out);
     panel_reach_axes(&out, axis);
@@ -113,13 +120,11 @@ PanelReachStored reflection_reach(const AngleTable *table, bool mirrored, Arena 
         if (mirrored) point[count++] = point_at(axis, theta, -phi);
     }
     count = convex_hull(point, count, hull);
-    for (int k = 0; k < PANEL_REACH_SIDES; k++) {
-        double most = 0;
+    for (int k = 0; k < PANEL_REACH_SIDES; k++)
         for (int i = 0; i < count; i++)
-            most = fmax(most, edge_at(&hull[i], &hull[(i + 1) % count],
-                                      2 * PI * k / PANEL_REACH_SIDES));
-        out.side[k] = rounded_up(most);
-    }
+            side[k] = fmax(side[k], edge_at(&hull[i], &hull[(i + 1) % count],
+                                            2 * PI * k / PANEL_REACH_SIDES));
+    store_sides(side, &out);
     for (int i = 0; i < count; i++) hold_point(&hull[i], &out);
     return out;
 }
@@ -127,7 +132,9 @@ PanelReachStored reflection_reach(const AngleTable *table, bool mirrored, Arena 
 PanelReachStored reflection_reach_cone(float theta)
 {
     PanelReachStored out = {0};
-    for (int k = 0; k < PANEL_REACH_SIDES; k++) out.side[k] = rounded_up((double)theta);
+    double           side[PANEL_REACH_SIDES];
+    for (int k = 0; k < PANEL_REACH_SIDES; k++) side[k] = (double)theta;
+    store_sides(side, &out);
     return out;
 }
 

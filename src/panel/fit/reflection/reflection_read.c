@@ -14,7 +14,6 @@
 
 #define LEAST_SHARE 1e-6 /* of a table's largest value: values below it are held there */
 #define LEAST_VALUE 1e-8 /* sr^-1 */
-#define STEEPEST 0.5f    /* what a logarithm may change by beyond the last ring */
 #define EDGE_CELLS 3.0f  /* so far beyond it places still count: triangles reach across */
 #define CHUNK 512        /* places that one thread reads at a time */
 #define FILLED_SHARE 0.05 /* of a grid's cells: with more of them it is no grid */
@@ -237,21 +236,13 @@ static void read_at(const ReflectionModel *model, int table, float theta, float 
 float reflection_read_logs(const ReflectionModel *model, int table, Vec3 outer, float *logs)
 {
     const DirectionGrid *grid = &model->grid[table];
-    if (model->scatter[table]) outer = panel_reach_inside(&model->reach[table], outer);
+    bool  is_scattered = model->scatter[table] != NULL;
+    if (is_scattered) outer = panel_reach_inside(&model->reach[table], outer);
     float across = sqrtf(outer.x * outer.x + outer.y * outer.y);
     float theta = atan2_f(across, fmaxf(outer.z, 0)), phi = atan2_f(outer.y, outer.x);
-    if (model->scatter[table]) {
-        read_at(model, table, theta, phi, logs);
-        return 0;
-    }
-    float last = grid->theta[grid->thetas - 1], beyond = theta - last;
-    float inside[MEASUREMENT_WAVELENGTHS_MAX];
+    float last = is_scattered ? theta : grid->theta[grid->thetas - 1];
     read_at(model, table, fminf(theta, last), phi, logs);
-    if (beyond <= 1e-5f) return 0;
-    read_at(model, table, fmaxf(0, last - beyond), phi, inside);
-    for (int w = 0; w < model->wavelengths; w++)
-        logs[w] += fminf(STEEPEST, fmaxf(-STEEPEST, logs[w] - inside[w]));
-    return beyond;
+    return theta - last > 1e-5f ? theta - last : 0;
 }
 
 /* ---- all places -------------------------------------------------------------------------- */

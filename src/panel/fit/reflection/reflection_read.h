@@ -7,8 +7,9 @@
 /* The grids of all tables and the logarithms on their cells: once. */
 void reflection_read_tables(ReflectionModel *model);
 
-/* ln f of a table at a direction of its frame; returns how far that lies beyond the last ring,
- * radians, where the logarithm goes on as steeply as it came. */
+/* ln f of a table at a direction of its frame. Outside of what the table's samples surround
+ * the value on their edge is held; returns how far a direction lies beyond the last ring of a
+ * grid, radians. */
 float reflection_read_logs(const ReflectionModel *model, int table, Vec3 outer, float *logs);
 
 /* Places of a level, and all tables' values there. */

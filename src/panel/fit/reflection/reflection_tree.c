@@ -13,10 +13,13 @@
 #include "hemisphere/vertex/vertex_tree_build.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/reflection/reflection_spectra.h"
+#include "panel/query/panel_reach.h"
 
 #define PLACE_SHARE 0.8    /* of the bound, for places: the rest is for what lies between */
 #define PEAK_SHARE 0.35    /* of that where a table is within 1/e of its largest value */
 #define GUIDED_SHARE 0.6   /* of tables between whose rows no sample checks the tree */
+#define HELD_FROM 0.05f    /* radians behind their edge: triangles reach across it */
+#define HELD_ROOM 4.0      /* times the bound, for what is held outside of the samples */
 #define TIGHTER 0.6        /* a miss makes the places around it so much more precise */
 #define TIGHTEST 0.2       /* of the bound, beyond what the components leave out: rounding */
 #define ROUNDS 5
@@ -72,6 +75,8 @@ static void start_tolerances(ReflectionModel *model)
                                 5 * reflection_parts_noise(model->parts, t, f)) * PLACE_SHARE;
             if (row[middle] > peak - 1) bound *= PEAK_SHARE;
             if (model->guide[t].is_used) bound *= GUIDED_SHARE;
+            if (model->scatter[t] && panel_reach_room(&model->reach[t], local) < -HELD_FROM)
+                bound *= HELD_ROOM;
             place_logs(model, i, t, logs);
             float lost = largest_difference(logs, row, model->wavelengths);
             model->tolerance[(size_t)i * (size_t)model->tables + (size_t)t] =
