@@ -60,32 +60,69 @@ static double parabola_slope(const double x[3], double before, double after)
     return (h1 * before + h0 * after) / (h0 + h1);
 }
 
-/* The cubic through the middle two; an end beside which it is far steeper (by this much and
- * more, `steep` of the values' unit) has the interval's own slope. */
-static double read_smooth(const Four *f, double steep, double at)
+/* The ends of the middle interval beside which values are far steeper: there the cubic has the
+ * interval's own slope. */
+typedef struct Steep {
+    bool before, behind;
+} Steep;
+
+static Steep steep_of(const double y[4], double least)
 {
-    double d[3], h = f->x[2] - f->x[1];
-    for (int i = 0; i < 3; i++) d[i] = (f->y[i + 1] - f->y[i]) / (f->x[i + 1] - f->x[i]);
-    bool   before = fabs(f->y[1] - f->y[0]) > fmax(steep, STEEPER * fabs(f->y[2] - f->y[1]));
-    bool   behind = fabs(f->y[3] - f->y[2]) > fmax(steep, STEEPER * fabs(f->y[2] - f->y[1]));
-    double first = before ? d[1] : parabola_slope(f->x, d[0], d[1]);
-    double last = behind ? d[1] : parabola_slope(f->x + 1, d[1], d[2]);
-    return hermite(f->y[1], f->y[2], first * h, last * h, (at - f->x[1]) / h);
+    double most = fmax(least, STEEPER * fabs(y[2] - y[1]));
+    return (Steep){fabs(y[1] - y[0]) > most, fabs(y[3] - y[2]) > most};
 }
 
-/* Light: smooth in its logarithm, but where it jumps a ramp between `rest` of the interval at
- * either end, which leaves the mean where it is. */
-static double read_light(const Four *f, double at, double rest, double least)
+/* The cubic through the middle two. */
+static double read_cubic(const double x[4], const double y[4], Steep steep, double at)
 {
-    if (is_jump(f, least)) {
-        double share = fmin(REST_MOST, rest / (f->x[2] - f->x[1]));
-        double t = (at - f->x[1]) / (f->x[2] - f->x[1]);
-        t = fmin(1, fmax(0, (t - share) / (1 - 2 * share)));
-        return f->y[1] + (f->y[2] - f->y[1]) * t;
+    double d[3], h = x[2] - x[1];
+    for (int i = 0; i < 3; i++) d[i] = (y[i + 1] - y[i]) / (x[i + 1] - x[i]);
+    double first = steep.before ? d[1] : parabola_slope(x, d[0], d[1]);
+    double last = steep.behind ? d[1] : parabola_slope(x + 1, d[1], d[2]);
+    return hermite(y[1], y[2], first * h, last * h, (at - x[1]) / h);
+}
+
+/* How the light goes between four places: decided once, by the channel that counts, for all
+ * channels of a direction. Were each decided alone, one would end where another goes on, and
+ * between samples a white would shine in a colour that no sample has. */
+typedef struct Course {
+    Four   leader;   /* the light that decides, its logarithms where it is smooth */
+    double at, ramp; /* the place; how far a jump is passed there, 0 to 1 */
+    double light;    /* ln of the leader's light there, where it is smooth */
+    bool   jumps;
+    Steep  steep;
+} Course;
+
+/* Of a light that jumps, a ramp between `rest` of the interval at either end, which leaves the
+ * mean where it is. */
+static Course course_of(const Four *leader, double at, double rest, double least)
+{
+    Course c = {.leader = *leader, .at = at, .jumps = is_jump(leader, least)};
+    double width = leader->x[2] - leader->x[1];
+    if (c.jumps) {
+        double share = fmin(REST_MOST, rest / width);
+        double t = (at - leader->x[1]) / width;
+        c.ramp = fmin(1, fmax(0, (t - share) / (1 - 2 * share)));
+        return c;
     }
-    Four logs = *f;
-    for (int i = 0; i < 4; i++) logs.y[i] = log_d(fmax(f->y[i], HELD_SHARE * least));
-    return exp_d(read_smooth(&logs, log_d(JUMP), at));
+    for (int i = 0; i < 4; i++)
+        c.leader.y[i] = log_d(fmax(leader->y[i], HELD_SHARE * least));
+    c.steep = steep_of(c.leader.y, log_d(JUMP));
+    c.light = read_cubic(c.leader.x, c.leader.y, c.steep, at);
+    return c;
+}
+
+/* A channel's light. Over a jump it is a mean of both ends; else its ratio to the leader's goes
+ * by a cubic that stays between those of both ends. */
+static double light_on(const Course *c, const double y[4], double least)
+{
+    double ratio[4];
+    if (c->jumps) return y[1] + (y[2] - y[1]) * c->ramp;
+    for (int i = 0; i < 4; i++)
+        ratio[i] = log_d(fmax(y[i], HELD_SHARE * least)) - c->leader.y[i];
+    double value = read_cubic(c->leader.x, ratio, c->steep, c->at);
+    return exp_d(c->light + fmin(fmax(ratio[1], ratio[2]),
+                                 fmax(fmin(ratio[1], ratio[2]), value)));
 }
 
 /* ---- profiles over theta ---------------------------------------------------------------- */
@@ -130,13 +167,15 @@ static float *light_at(const EmissionEdges *e, int azimuth, int node)
 
 static void make_profile(EmissionEdges *e, const float *cells, int azimuth)
 {
-    for (int c = 0; c < e->channels; c++)
-        for (int m = 0; m < e->nodes; m++) {
-            int  last = e->grid.thetas - 2, interval = m / STEPS < last ? m / STEPS : last;
-            Four f = four_rings(e, cells, azimuth, interval, c);
-            light_at(e, azimuth, m)[c] =
-                (float)read_light(&f, e->theta[m], e->rest, e->least[c]);
+    for (int m = 0; m < e->nodes; m++) {
+        int    last = e->grid.thetas - 2, interval = m / STEPS < last ? m / STEPS : last;
+        Four   f = four_rings(e, cells, azimuth, interval, e->bright);
+        Course course = course_of(&f, e->theta[m], e->rest, e->least[e->bright]);
+        for (int c = 0; c < e->channels; c++) {
+            f = four_rings(e, cells, azimuth, interval, c);
+            light_at(e, azimuth, m)[c] = (float)light_on(&course, f.y, e->least[c]);
         }
+    }
 }
 
 /* V of a profile. */
@@ -208,30 +247,21 @@ static void find_thetas(const EmissionEdges *e, const Around *a, double phi, dou
     for (int step = 0; step < HALVINGS && a->follows; step++) {
         double middle = (low + high) / 2;
         for (int i = 0; i < 4; i++) f.y[i] = out[i] = theta_of(e, a->azimuth[i], middle);
-        if (read_smooth(&f, INFINITY, phi) <= theta) low = middle;
+        if (read_cubic(f.x, f.y, (Steep){false, false}, phi) <= theta) low = middle;
         else high = middle;
     }
 }
 
-/* A channel's light from places on four profiles. */
+/* Places on four profiles, and how the light goes between them. */
 typedef struct Mix {
     const Around *around;
-    double phi, theta; /* where it is read */
     int    node[4];
     double t[4];
+    Course course;
 } Mix;
 
-static Mix mix_at(const EmissionEdges *e, const Around *a, double phi, double theta)
-{
-    Mix    mix = {.around = a, .phi = phi, .theta = theta};
-    double thetas[4];
-    find_thetas(e, a, phi, theta, thetas);
-    for (int i = 0; i < 4; i++)
-        mix.node[i] = find_place(e->theta, e->nodes, thetas[i], &mix.t[i]);
-    return mix;
-}
-
-static double mixed_light(const EmissionEdges *e, const Mix *mix, int channel)
+/* A channel at the four places. */
+static Four four_profiles(const EmissionEdges *e, const Mix *mix, int channel)
 {
     Four f;
     for (int i = 0; i < 4; i++) {
@@ -241,8 +271,25 @@ static double mixed_light(const EmissionEdges *e, const Mix *mix, int channel)
         f.x[i] = mix->around->x[i];
         f.y[i] = a + (b - a) * mix->t[i];
     }
-    return read_light(&f, mix->phi, e->rest / fmax(1e-3, sin_d(mix->theta)),
-                      e->least[channel]);
+    return f;
+}
+
+static Mix mix_at(const EmissionEdges *e, const Around *a, double phi, double theta)
+{
+    Mix    mix = {.around = a};
+    double thetas[4];
+    find_thetas(e, a, phi, theta, thetas);
+    for (int i = 0; i < 4; i++)
+        mix.node[i] = find_place(e->theta, e->nodes, thetas[i], &mix.t[i]);
+    Four f = four_profiles(e, &mix, e->bright);
+    mix.course = course_of(&f, phi, e->rest / fmax(1e-3, sin_d(theta)), e->least[e->bright]);
+    return mix;
+}
+
+static double mixed_light(const EmissionEdges *e, const Mix *mix, int channel)
+{
+    Four f = four_profiles(e, mix, channel);
+    return light_on(&mix->course, f.y, e->least[channel]);
 }
 
 /* The interval of azimuths that phi is in. */

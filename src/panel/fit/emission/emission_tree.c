@@ -15,6 +15,7 @@
 #include "hemisphere/vertex/vertex_tree.h"
 #include "hemisphere/vertex/vertex_tree_build.h"
 #include "panel/fit/emission/emission_beam.h"
+#include "panel/fit/emission/emission_colour.h"
 #include "panel/fit/emission/emission_edges.h"
 #include "panel/fit/emission/emission_values.h"
 #include "panel/shape/panel_beam.h"
@@ -120,6 +121,24 @@ static void find_least(const EmissionModel *model, float *least)
         least[c] = (float)fmax(20 * model->dim[c / 3][c % 3], model->samples->floor[c]);
 }
 
+/* The colour of the vertices that samples surround. */
+static void hold_colours(EmissionCoder *coder, Arena scratch)
+{
+    const EmissionModel *model = coder->model;
+    size_t         n = (size_t)model->rank->components;
+    EmissionColour colour;
+    emission_colour_make(model, &scratch, &colour);
+    for (uint32_t v = 0; v < coder->vertices; v++) {
+        float whole[PANEL_COMPONENTS_MAX] = {0}, *value = coder->value + v * n;
+        emission_model_add_smooth(model, coder->direction[v], whole);
+        for (size_t k = 0; k < n; k++) whole[k] += value[k];
+        float before[PANEL_COMPONENTS_MAX];
+        memcpy(before, whole, sizeof before);
+        emission_colour_hold(&colour, coder->direction[v], whole);
+        for (size_t k = 0; k < n; k++) value[k] += whole[k] - before[k];
+    }
+}
+
 /* Values of the rest at the vertices, and what follows from them. */
 static bool fit_vertices(EmissionCoder *coder, const float *rest, Arena scratch, Error *err)
 {
@@ -127,6 +146,7 @@ static bool fit_vertices(EmissionCoder *coder, const float *rest, Arena scratch,
                              coder->value};
     for (int k = 0; k < coder->model->rank->components; k++)
         if (!emission_values_fit(&values, rest, k, scratch, err)) return false;
+    hold_colours(coder, scratch);
     find_wanted(coder);
     return true;
 }
