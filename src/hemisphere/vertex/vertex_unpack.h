@@ -15,3 +15,11 @@
 
 /* tree: of vertex_tree_open. */
 void vertex_tree_unpack(Tree *tree, Arena *arena);
+
+/* A tree in memory that has a value at every vertex of its lattice, and no details: the fastest
+ * to query. All values are 0; the arena holds it. */
+Tree vertex_tree_dense(const Geodesic *geodesic, VertexLattice lattice, int components,
+                       Arena *arena);
+
+/* Its values, vertices x components: each component in steps of a 32,767th of its largest. */
+void vertex_tree_fill(Tree *dense, const float *values);

@@ -291,6 +291,24 @@ static void judge_held_out(Judge *judge, const FitParts *parts)
     json_object_set_new(judge->figures, "held_out_error", json_real(most->error));
 }
 
+/* With none left out the gaps are half as wide. A pattern that neighbours nearly resolve is then
+ * missed by a quarter, one that they do not by a half (measured on beams, moving edges and lobes
+ * of 4 to 36 azimuths: tests/image/between_azimuths.py). */
+static void judge_left_out(Judge *judge, const EmissionTree *tree)
+{
+    const PanelFollowing *f = &tree->edges.following;
+    double apart = degrees_from_radians((double)tree->edges.grid.widest_gap);
+    double estimate = f->missed / (tree->edges.are_there || f->missed > 0.5 ? 2 : 4);
+    if (!tree->has_grid || !(f->missed > 0)) return;
+    json_object_set_new(judge->figures, "azimuth_left_out_missed", json_real(f->missed));
+    if (!(estimate > JUDGE_HELD_OUT_CARE)) return;
+    judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "emission: each azimuth left out, its "
+                     "neighbours miss %.2g %% of its light: with all of them, up to %.3g "
+                     "degrees apart, the panel may miss by %.2g %% between them, required <= "
+                     "%.0f %%: measure every %.3g degrees or closer", 100 * f->missed, apart,
+                     100 * estimate, 100 * JUDGE_HELD_OUT_CARE, 0.5 * apart);
+}
+
 /* Compares the panel with the fitted haze between the tables' rows. */
 static void judge_between(Judge *judge, const FitParts *parts)
 {
@@ -368,6 +386,7 @@ void fit_judge(const FitParts *parts, const FitDeviations *all, const FitTable *
     if (parts->emission) {
         judge_set_levels(&judge, parts->set);
         judge_outliers(&judge, parts);
+        judge_left_out(&judge, &parts->emission->tree);
     }
     if (parts->reflection) {
         judge_albedo(&judge, parts);

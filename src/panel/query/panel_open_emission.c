@@ -9,6 +9,7 @@
 #include "hemisphere/tree/tree_open.h"
 #include "panel/query/panel_components.h"
 #include "panel/query/panel_emission.h"
+#include "panel/query/panel_grid.h"
 #include "panel/shape/panel_levels.h"
 
 _Static_assert(sizeof(PanelEmissionHead) == 20, "the file's layout");
@@ -408,6 +409,19 @@ static void black_spectrum(const Panel *panel, PanelPrimaries *out)
         memcpy(out->spectrum[3], out->spectrum[1], sizeof out->spectrum[3]);
 }
 
+/* The tree itself, or cells that become one. */
+static bool open_tree(const PanelBytes *at, const Geodesic *geodesic, const PanelEmission *e,
+                      Arena *arena, Tree *out)
+{
+    if (!panel_grid_is(at->data, at->size)) {
+        if (!tree_open(at->data, at->size, geodesic, out, at->err)) return false;
+        tree_unpack(out, arena);
+        return true;
+    }
+    return panel_grid_expand(at->data, at->size, e, geodesic, arena, out) ||
+           error_set(at->err, ERROR_INPUT, "a number of its cells is out of range");
+}
+
 bool panel_open_emission(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
                          Panel *panel)
 {
@@ -421,12 +435,11 @@ bool panel_open_emission(const PanelBytes *bytes, const Geodesic *geodesic, Aren
     PanelEmission  *e = ARENA_NEW(arena, PanelEmission, 1);
     PanelPrimaries *primaries = ARENA_NEW(arena, PanelPrimaries, 1);
     if (!read_section(&at, arena, e) || !read_spectra(&spectra, arena, primaries)) return false;
-    if (!tree_open(tree.data, tree.size, geodesic, &panel->emission_tree, bytes->err))
+    if (!open_tree(&tree, geodesic, e, arena, &panel->emission_tree))
         return error_prefix(bytes->err, "emission tree") ||
                error_in_file(bytes->err, bytes->name);
     if (panel->emission_tree.components != e->components || panel->emission_tree.octants != 4)
         return panel_refuse(&at, "emission", "does not fit its tree");
-    tree_unpack(&panel->emission_tree, arena);
     expand_codes(e, arena);
     panel->emission = e;
     survey(panel, e, arena, primaries);

@@ -1,22 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* small_matrix.h -- symmetric matrices of a fit: normal equations by Cholesky's factors, axes
- * by Jacobi's rotations, principal components with weights.
+/* small_matrix.h -- symmetric matrices of a fit: axes by Jacobi's rotations, principal
+ * components with weights.
  *
- * Matrices are n x n, row after row; those of normal equations are positive definite, and only
- * their lower half is read and written. Memory: the arena's. Threads: pure functions. Fails:
- * never; a pivot that rounding made negative counts as 1e-150.
+ * Matrices are n x n, row after row. Memory: the arena's. Threads: pure functions. Fails: never.
  */
 #pragma once
 #include <stddef.h>
 
 #include "base/arena.h"
-
-/* The matrix becomes its lower factor L, matrix = L L^T. */
-void least_squares_factor(double *matrix, size_t n);
-
-/* Solves L L^T x = right; x into right. Returns right^T x: by how much the squares of what is
- * fitted go down. */
-double least_squares_solve(const double *factor, double *right, size_t n);
 
 /* ---- principal components: few numbers a row instead of many -------------------------------
  *

@@ -8,7 +8,7 @@
 
 #include "base/mathd.h"
 #include "base/units.h"
-#include "panel/fit/common/small_matrix.h"
+#include "panel/shape/least_squares.h"
 #include "panel/shape/panel_beam.h"
 #include "panel/query/panel_turn.h"
 

@@ -5,7 +5,7 @@
 
 #include "base/mathd.h"
 #include "base/mathf.h"
-#include "panel/fit/common/small_matrix.h"
+#include "panel/shape/least_squares.h"
 
 #define NEIGHBOURS_MAX 64 /* rows of four cells */
 
@@ -157,6 +157,7 @@ static float share_within(const EmissionColour *o, const ColourRows *rows, int c
 
 void emission_colour_hold(const EmissionColour *o, Vec3 direction, float *components)
 {
+    if ((double)direction.z < cos_d(o->model->samples->cone)) return;
     const EmissionRank *rank = o->model->rank;
     const float        *bright = rank->loading + o->bright * rank->components;
     ColourRows rows = rows_around(&o->grid, direction);

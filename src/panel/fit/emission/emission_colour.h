@@ -10,13 +10,13 @@
  * ratio leaves its range, those of all channels move together, on the line to their linear
  * interpolation, as far as is necessary; the brightest Y stays what it was.
  *
- * Units    as emission_model.h. Memory: the arena's. Threads: const once made. Fails: never.
+ * Beyond the last ring nothing is held. Units: as emission_model.h. Memory: the arena's. Threads: const once made. Fails: never.
  */
 #pragma once
 #include "panel/fit/common/direction_grid.h"
 #include "panel/fit/emission/emission_model.h"
 
-#define COLOUR_SIGMAS 3.0f
+#define COLOUR_SIGMAS 6.0f /* of a hundred channels and thousands of samples */
 #define COLOUR_SHARE 0.125f
 #define COLOUR_LEAST 0.005f
 

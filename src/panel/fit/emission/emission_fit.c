@@ -369,7 +369,7 @@ bool emission_fit(const Measurement *set, const FitOptions *options, Arena *aren
         return error_set(err, ERROR_INPUT, "emission: the smooth part cannot be stored");
     if (!emission_tree_build(model, options, arena, &out->tree, err)) return false;
     emission_beam_note(model, notes);
-    if (out->tree.has_edges) emission_edges_note(&out->tree.edges, notes);
+    if (out->tree.has_grid) emission_edges_note(&out->tree.edges, notes);
     if (out->tree.missed)
         fit_note(notes, "emission: %d of %d directions miss %.2g%% beyond 5 sigma of noise",
                  out->tree.missed, model->samples->rows, 100 * model->tolerance);

@@ -6,7 +6,7 @@
 
 #include "base/mathd.h"
 #include "base/mathf.h"
-#include "panel/fit/common/small_matrix.h"
+#include "panel/shape/least_squares.h"
 #include "panel/query/panel_components.h"
 #include "panel/shape/panel_spline.h"
 

@@ -14,6 +14,7 @@
 #include "base/mathf.h"
 #include "base/sort.h"
 #include "panel/fit/common/small_matrix.h"
+#include "panel/shape/least_squares.h"
 #include "panel/query/panel_components.h"
 
 #define COMPONENTS_MAX 24

@@ -386,8 +386,6 @@ static bool code(EmissionCoder *coder, const FitOptions *options, Arena *arena,
 
 #define CELLS_A_STEP 3.0 /* triangles between two rings */
 #define EDGED_TOLERANCE 0.01
-#define SETTLE_ROUNDS 40
-#define SETTLED 0.2 /* of the tolerance */
 #define FINER 0.8   /* what a finer level must leave */
 
 static int edge_level(const EmissionSamples *s, const FitOptions *options)
@@ -400,54 +398,6 @@ static int edge_level(const EmissionSamples *s, const FitOptions *options)
     return level;
 }
 
-/* Vertex values are the edges' components less the smooth part. */
-static void fill_from_edges(EmissionCoder *coder, const EmissionEdges *edges)
-{
-    size_t n = (size_t)coder->model->rank->components;
-    for (uint32_t v = 0; v < coder->vertices; v++) {
-        float wanted[PANEL_COMPONENTS_MAX], smooth[PANEL_COMPONENTS_MAX] = {0};
-        emission_edges_components(edges, coder->direction[v], wanted);
-        emission_model_add_smooth(coder->model, coder->direction[v], smooth);
-        for (size_t k = 0; k < n; k++) coder->value[v * n + k] = wanted[k] - smooth[k];
-    }
-}
-
-/* Triangles are linear where the light between samples is not: what that does to a row its
- * three vertices take, each by its share (Kaczmarz's method). Returns how many rows did. */
-static int settle_rows(EmissionCoder *coder, const float *rest)
-{
-    const EmissionSamples *s = coder->model->samples;
-    size_t n = (size_t)coder->model->rank->components;
-    int    moved = 0;
-    for (int i = 0; i < s->rows; i++) {
-        VertexPoint at = vertex_find(coder->geodesic, coder->lattice, s->direction[i]);
-        float squares = 0;
-        if (row_error(coder, i) < SETTLED * coder->model->tolerance) continue;
-        moved++;
-        for (int q = 0; q < 3; q++) squares += at.weight[q] * at.weight[q];
-        for (size_t k = 0; k < n; k++) {
-            float miss = rest[(size_t)i * n + k];
-            for (int q = 0; q < 3; q++)
-                miss -= at.weight[q] * coder->value[at.vertex[q] * n + k];
-            for (int q = 0; q < 3; q++)
-                coder->value[at.vertex[q] * n + k] += at.weight[q] / squares * miss;
-        }
-    }
-    return moved;
-}
-
-static void start_edged(EmissionModel *model, const EmissionEdges *edges, int level,
-                        Arena *arena, EmissionCoder *out)
-{
-    const float *rest = rest_at_samples(model, arena);
-    *out = make_coder(model, level, arena);
-    for (int c = 0; c < model->samples->channels; c++)
-        out->least[c] = fmaxf(out->least[c], (float)edges->least[c]);
-    fill_from_edges(out, edges);
-    for (int i = 0; i < SETTLE_ROUNDS && settle_rows(out, rest); i++) continue;
-    find_wanted(out);
-}
-
 /* Few rings with an edge look like noise: it does not count beyond a per cent. */
 static void hold_tolerance(EmissionModel *model)
 {
@@ -457,26 +407,106 @@ static void hold_tolerance(EmissionModel *model)
     model->tolerance = fmin(model->tolerance, most);
 }
 
-/* The tree of an emission with edges. A smooth part would only ring. */
-static bool build_edged(EmissionModel *model, const FitOptions *options, Arena *arena,
+/* The measured directions as cells, and the tree that a panel makes of them. */
+typedef struct Cells {
+    const void *bytes;
+    Tree        tree;
+    double      error; /* the largest of a row's */
+} Cells;
+
+static bool make_cells(EmissionCoder *coder, const EmissionEdges *edges, int level,
+                       Arena *arena, Cells *out, Error *err)
+{
+    const EmissionModel *model = coder->model;
+    const EmissionRank  *rank = model->rank;
+    PanelEmission  as_read = {.components = rank->components, .mean = rank->mean,
+                              .channels = model->samples->channels, .loading = rank->loading,
+                              .cosine_power = rank->cosine_power};
+    PanelGridCells cells = emission_edges_cells(edges, model, level);
+    *out = (Cells){.bytes = panel_grid_pack(&cells, arena)};
+    if (!panel_grid_expand(out->bytes, tree_size(out->bytes), &as_read, coder->geodesic, arena,
+                           &out->tree))
+        return error_set(err, ERROR_INPUT, "emission: the measured cells cannot be stored");
+    for (int i = 0; i < model->samples->rows; i++) {
+        float components[PANEL_COMPONENTS_MAX];
+        coded_components(model, &out->tree, model->samples->direction[i], components);
+        out->error = fmax(out->error, (double)excess_of(coder, i, components, 5));
+    }
+    return true;
+}
+
+/* A coder that errors of cells are found by, without vertices. */
+static EmissionCoder make_judge(EmissionModel *model, const EmissionEdges *edges, Arena *arena)
+{
+    EmissionCoder coder = {.model = model, .pardon = 5,
+                           .geodesic = geodesic_create(VERTEX_PLANE_LEVEL, arena),
+                           .least = ARENA_NEW(arena, float, model->samples->channels),
+                           .work = ARENA_NEW(arena, float, model->samples->channels)};
+    find_least(model, coder.least);
+    for (int c = 0; c < model->samples->channels; c++)
+        coder.least[c] = fmaxf(coder.least[c], (float)edges->profiles.least[c]);
+    return coder;
+}
+
+/* The same function as a coded tree: of many directions that is less. */
+static bool code_cells(EmissionModel *model, const EmissionCoder *judge, const Cells *cells,
+                       const FitOptions *options, Arena *arena, EmissionTree *out, Error *err)
+{
+    size_t        n = (size_t)model->rank->components;
+    EmissionCoder coder = make_coder(model, cells->tree.level, arena);
+    memcpy(coder.least, judge->least, sizeof *coder.least * (size_t)model->samples->channels);
+    coder.threads = options->threads;
+    for (uint32_t v = 0; v < coder.vertices; v++) {
+        float components[PANEL_COMPONENTS_MAX] = {0};
+        tree_interpolate(&cells->tree, coder.direction[v], components);
+        memcpy(coder.value + v * n, components, n * sizeof *components);
+    }
+    find_wanted(&coder);
+    return code(&coder, options, arena, out, err);
+}
+
+/* Kept numbers of cells, as a tree's report has them. */
+static void report_cells(const EmissionModel *model, const Cells *cells, EmissionTree *out)
+{
+    const EmissionEdges *e = &out->edges;
+    uint32_t rows = 1 + (uint32_t)((e->grid.thetas - 1) * e->grid.phis);
+    out->bytes = cells->bytes;
+    out->report = (TreeReport){.stored_rows = rows, .bytes = tree_size(cells->bytes),
+        .stored_values = (size_t)rows * (size_t)model->rank->components};
+}
+
+/* Numbers of a source that are kept as they are where a fit would need as many. */
+#define KEPT_VALUES 20000
+
+static bool is_small(const EmissionModel *model)
+{
+    return (double)model->samples->rows * model->samples->channels <= KEPT_VALUES;
+}
+
+/* An emission as its cells: with edges, where a smooth part would only ring, or small. */
+static bool build_cells(EmissionModel *model, const FitOptions *options, Arena *arena,
                         EmissionTree *out, Error *err)
 {
-    EmissionCoder coder, finer;
-    int           level = edge_level(model->samples, options), row;
+    Cells cells, finer;
+    int   level = edge_level(model->samples, options);
     hold_tolerance(model);
     if (!emission_model_clear_smooth(model, arena))
         return error_set(err, ERROR_INPUT, "emission: the smooth part cannot be stored");
-    start_edged(model, &out->edges, level, arena, &coder);
-    double uncoded = uncoded_error(&coder, &row);
-    while (!options->level && uncoded > model->tolerance && level < LEVEL_MOST) {
-        start_edged(model, &out->edges, ++level, arena, &finer);
-        double next = uncoded_error(&finer, &row);
-        if (next > FINER * uncoded) break;
-        coder = finer;
-        uncoded = next;
+    EmissionCoder judge = make_judge(model, &out->edges, arena);
+    if (!make_cells(&judge, &out->edges, level, arena, &cells, err)) return false;
+    while (!options->level && cells.error > model->tolerance && level < LEVEL_MOST) {
+        if (!make_cells(&judge, &out->edges, ++level, arena, &finer, err)) return false;
+        if (finer.error > FINER * cells.error) break;
+        cells = finer;
     }
-    coder.threads = options->threads;
-    return code(&coder, options, arena, out, err);
+    out->level = cells.tree.level;
+    if (options->keep_share > 0 || !is_small(model)) {
+        if (!code_cells(model, &judge, &cells, options, arena, out, err)) return false;
+        if (options->keep_share > 0 || tree_size(out->bytes) < tree_size(cells.bytes))
+            return true;
+    }
+    report_cells(model, &cells, out);
+    return true;
 }
 
 static int start_level(const EmissionSamples *s, const FitOptions *options)
@@ -558,16 +588,37 @@ static bool start_with_beams(const Plan *plan, Arena *arena, Start *out, Error *
     return true;
 }
 
-bool emission_tree_build(EmissionModel *model, const FitOptions *options, Arena *arena,
+/* A model as it was before a smooth part, with its scores. */
+typedef struct PlainModel {
+    EmissionModel model;
+    EmissionRank  rank;
+    float        *score;
+} PlainModel;
+
+static PlainModel plain_of(const EmissionModel *model, Arena *arena)
+{
+    PlainModel out = {*model, *model->rank, NULL};
+    size_t     numbers = (size_t)model->samples->rows * (size_t)out.rank.components;
+    out.score = memcpy(ARENA_NEW(arena, float, numbers), out.rank.score,
+                       numbers * sizeof *out.score);
+    out.rank.score = out.score;
+    return out;
+}
+
+static size_t smooth_bytes(const EmissionModel *model, const EmissionTree *tree)
+{
+    size_t sum = tree_size(tree->bytes) + model->spline_size;
+    for (int b = 0; b < model->beams; b++) sum += model->beam[b].size;
+    return sum;
+}
+
+static bool build_smooth(EmissionModel *model, const FitOptions *options, Arena *arena,
                          EmissionTree *out, Error *err)
 {
     int           level = start_level(model->samples, options);
     Start         first;
     EmissionCoder coder, finer;
     Plan          plan = {model, level, options->threads};
-    double        cell = cell_of(edge_level(model->samples, options));
-    out->has_edges = emission_edges_find(model, cell, arena, &out->edges);
-    if (out->has_edges) return build_edged(model, options, arena, out, err);
     if (!start_with_beams(&plan, arena, &first, err)) return false;
     float *rest = first.rest;
     double uncoded = first.uncoded;
@@ -586,4 +637,21 @@ bool emission_tree_build(EmissionModel *model, const FitOptions *options, Arena 
         level++;
     }
     return code(&coder, options, arena, out, err);
+}
+
+bool emission_tree_build(EmissionModel *model, const FitOptions *options, Arena *arena,
+                         EmissionTree *out, Error *err)
+{
+    double cell = cell_of(edge_level(model->samples, options));
+    out->has_grid = emission_edges_find(model, cell, is_small(model), arena, &out->edges);
+    if (out->edges.are_there) return build_cells(model, options, arena, out, err);
+    PlainModel plain = plain_of(model, arena);
+    if (!build_smooth(model, options, arena, out, err)) return false;
+    if (!out->has_grid || options->keep_share > 0 || !is_small(model)) return true;
+    PanelGridCells cells = emission_edges_cells(&out->edges, &plain.model, 1);
+    if (smooth_bytes(model, out) <= panel_grid_bytes(&cells.head)) return true;
+    EmissionRank *rank = model->rank;
+    *model = plain.model;
+    *rank = plain.rank;
+    return build_cells(model, options, arena, out, err);
 }

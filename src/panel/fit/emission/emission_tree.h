@@ -15,8 +15,8 @@ typedef struct EmissionTree {
     TreeReport  report;
     int         level;
     int         missed; /* samples beyond tolerance and noise */
-    bool        has_edges; /* between samples the light is: */
-    EmissionEdges edges;
+    bool        has_grid;
+    EmissionEdges edges; /* of a grid */
 } EmissionTree;
 
 /* Where triangles miss the samples by far the model gets beams. */

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "panel/fit/common/small_matrix.h"
+#include "panel/shape/least_squares.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/reflection/reflection_read.h"
 #include "panel/query/panel_reference.h"
