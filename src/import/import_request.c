@@ -246,6 +246,7 @@ bool import_run(const char *const *file, int count, const ImportRequest *request
     if (request->primaries && !primaries_read(request->primaries, &request->text, set, err))
         return false;
     return read_files(file, count, request, set, err) && import_complete(set, err) &&
-           (!request->levels || import_beside_levels(request->levels, set, err)) &&
+           (!request->levels || import_beside_levels(request->levels, request->text.level_max,
+                                                     set, err)) &&
            import_beside_specular(&request->specular, set, err);
 }

@@ -326,6 +326,10 @@ static void levels_refused(Lab *lab, const char *text, const char *place, const 
 LAB_TEST(a_gamma_table_that_does_not_fit_is_refused)
 {
     lab_write(lab, "white.csv", WHITE);
+    lab_declare(lab, "level_max", "1023"); /* of the table as of the patterns */
+    levels_refused(lab, "level,L\n0,1\n255,100\n", "line 3", "required rows up to the highest "
+                   "code, 1023 as stated");
+    lab_declare(lab, "level_max", "255");
     levels_refused(lab, "level,L\n0,1\n255,106\n", "line 3",
                    "full level has 106 cd/m2, but the set's white on the axis 100 (");
     levels_refused(lab, "level,L\n0,1\n9,0\n255,100\n", "line 3",

@@ -406,7 +406,7 @@ ARENA_TEST(every_number_of_a_level_table_is_read_or_named)
             write_text(name, arena_format(&scratch, "level;white\n0;.1\n%s;%s\n255;200\n",
                                           f ? "128" : cell ? cell : "",
                                           f ? cell ? cell : "" : "50"));
-            bool ok = level_table_read(name, &scratch, &table, why());
+            bool ok = level_table_read(name, 0, &scratch, &table, why());
             remove(name);
             if (ok) fail_msg("%s: fault %d is read", fields[f].name, fault);
             assert_text_has(why()->path, "line");

@@ -5,6 +5,7 @@
 
 #include "panel/query/panel_emission.h"
 #include "panel/set/level_table.h"
+#include "panel/shape/panel_levels.h"
 #include "text/text.h"
 
 /* ---- reading ---------------------------------------------------------------------------- */
@@ -14,7 +15,7 @@ static LevelTable read_table(Arena *arena, const char *text)
     LevelTable  table;
     const char *path = in_folder("levels.csv");
     write_text(path, text);
-    assert_done(level_table_read(path, arena, &table, &err));
+    assert_done(level_table_read(path, 0, arena, &table, &err));
     return table;
 }
 
@@ -36,6 +37,116 @@ ARENA_TEST(codes_shares_and_percent_are_one_table)
         assert_near(table.curve[2].level[0], 51, 1e-5);
         assert_near(table.curve[2].share[0], 0.02, 1e-7);
         assert_true(table.has_white && !table.has_primaries && table.has_black);
+    }
+}
+
+/* 10, 12 and 16 bits, and a highest code that is stated; relative luminance of any name. */
+ARENA_TEST(codes_of_more_bits_and_relative_luminance_are_one_table)
+{
+    static const struct { const char *text; double level_max; bool is_relative; } same[] = {
+        {"code,L\n0,1\n204.6,3\n1023,101\n", 0, false},
+        {"code,L\n0,1\n204.6,3\n1023,101\n", 1023, false},
+        {"code,L\n0,1\n819,3\n4095,101\n", 0, false},
+        {"code,L\n0,1\n13107,3\n65535,101\n", 0, false},
+        {"code,L\n0,1\n200,3\n1000,101\n", 1000, false},
+        {"level,L\n0,1\n0.2,3\n1,101\n", 1023, false}, /* shares stay shares */
+        {"level_%,L\n0,1\n20,3\n100,101\n", 1023, false},
+        {"code,relative\n0,1\n51,3\n255,101\n", 0, true},
+        {"code,Y (%)\n0,.990099\n51,2.970297\n255,100\n", 0, true},
+        {"code,normalised luminance\n0,.00990099\n51,.02970297\n255,1\n", 0, true},
+        {"code,L\n0,.00990099\n51,.02970297\n255,1\n", 0, true},
+        {"code,L/Lmax\n0,1\n51,3\n255,101\n", 0, true},
+        {"code,rel_R,rel_G,rel_B\n0,.0294117647,.0294117647,.0294117647\n"
+         "51,.0488235294,.0488235294,.0488235294\n255,1,1,1\n", 0, true},
+    };
+    for (size_t i = 0; i < sizeof same / sizeof *same; i++) {
+        LevelTable  table;
+        const char *path = in_folder("levels.csv");
+        write_text(path, same[i].text);
+        assert_done(level_table_read(path, same[i].level_max, &arena, &table, &err));
+        assert_near(table.level[1], 51, 1e-5);
+        assert_near(table.level[2], 255, 0);
+        assert_near(table.black_share, 1.0 / 101 - (i == 12) * (1.0 / 101 - 1.0 / 100), 1e-6);
+        assert_near(table.curve[2].share[0], 0.02, 1e-5);
+        assert_true(table.is_relative == same[i].is_relative);
+        assert_int_equal(level_table_check_white(&table, 380, "white", why()),
+                         same[i].is_relative);
+        LevelTable again = read_table(&arena, level_table_text(&table, &arena));
+        assert_true(again.is_relative == table.is_relative);
+        assert_near(again.black_share, table.black_share, 1e-6);
+    }
+    LevelTable  table;
+    const char *path = in_folder("levels.csv");
+    write_text(path, "code,L\n0,1\n128,3\n255,101\n");
+    assert_fails_as(level_table_read(path, 1023, &arena, &table, &err), ERROR_INPUT,
+                    "the highest level is 255, required rows up to the highest code, 1023");
+}
+
+/* The curve of a panel at a code, as it is interpolated; cd/m2. */
+static double curve_at(const LevelTable *table, double code)
+{
+    const LevelCurve *curve = &table->curve[0];
+    float x[LEVEL_CURVE_MAX], y[LEVEL_CURVE_MAX];
+    for (int i = 0; i < curve->count; i++) {
+        x[i] = (float)log(curve->level[i]);
+        y[i] = (float)log(curve->share[i]);
+    }
+    PanelLevelWeights w = panel_level_weights(x, y, curve->count, 2.2f, (float)log(code));
+    double sum = (double)w.offset;
+    for (int k = 0; k < 4 && w.first + k < curve->count; k++)
+        sum += (double)(w.weight[k] * y[w.first + k]);
+    double full = table->white_cd_m2[table->rows - 1], black = full * table->black_share;
+    return black + (full - black) * exp(sum);
+}
+
+static double even_noise(uint32_t *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return (double)*state / 2147483648.0 - 1;
+}
+
+/* 300 cd/m2 over black, of 8 to 12 bits, under noise of 0.5 % and 0.005 cd/m2 (even, so that
+ * the rms is 0.577 of it): read, and the curve is nearer to the truth than the table is. */
+ARENA_TEST(noise_decides_neither_black_nor_the_curve)
+{
+    uint32_t state = 7;
+    for (int most = 255; most <= 4095; most = 4 * most + 3)
+        for (int black = 0; black < 2; black++) {
+            Text   text = {.arena = &arena};
+            double squares = 0, worst = 0;
+            text_add(&text, "code,L\n");
+            for (int g = 0; g <= most; g++) {
+                double one = 0.3 * black + 300 * pow((double)g / most, 2.3);
+                if (g < most) one += 0.005 * even_noise(&state) * (1 + one);
+                text_format(&text, "%d,%.6f\n", g, one);
+            }
+            LevelTable table = read_table(&arena, text.data);
+            assert_true(table.curve[0].is_smooth && table.curve[0].count <= 33);
+            assert_true(table.noise_rows > 2 || most == 255);
+            for (int g = 1; g < most; g++) {
+                double one = 0.3 * black + 300 * pow((double)g / most, 2.3);
+                double miss = (curve_at(&table, 255.0 * g / most) - one) / (one + 0.3);
+                squares += miss * miss / (most - 1);
+                worst = fmax(worst, fabs(miss));
+            }
+            assert_true(sqrt(squares) < 0.0025 && worst < 0.02);
+            assert_true(table.curve[0].rms < 0.006);
+        }
+}
+
+/* A monitor's 1,024 codes as a laboratory measured them: relative, noisy beside black. */
+ARENA_TEST(a_real_table_of_1024_codes_is_read)
+{
+    const char *path = SHARED_DATA_DIR "/display/OLED-SonyPVM-2541_gamma.csv";
+    LevelTable  table;
+    if (access(path, R_OK)) skip();
+    assert_done(level_table_read(path, 0, &arena, &table, &err));
+    assert_int_equal(table.rows, 1024);
+    assert_true(table.is_relative && table.curve[0].is_smooth);
+    assert_true(table.curve[0].rms < 0.005 && table.curve[0].miss < 0.05);
+    for (int i = 1; i < 1023; i++) { /* miss is of the panel's own interpolation */
+        double miss = fabs(curve_at(&table, table.level[i]) - table.white_cd_m2[i]);
+        assert_true(miss / (table.white_cd_m2[i] + 0.001) < 0.05);
     }
 }
 
@@ -104,11 +215,11 @@ ARENA_TEST(bad_tables_are_refused_by_line_and_words)
         {"level,L\n", "", "no rows"},
         {"", "", "is empty"},
         {"level,L\n0,1\n# here\n224,70\n", "line 4", "highest level is 224, so the full level"
-         " is not there: wanted rows up to 255"},
+         " is not there: required are rows up to 255, 1023, 4095 or 65535 (codes)"},
         {"level,L\n0,1\n0.5,20\n0.9,70\n", "line 4", "highest level is 0.9"},
         {"level,L\n0,1\n1,70\n", "line 3", "highest level is 1, so the full level is unclear"},
         {"level,L\n0,1\n50,20\n100,70\n", "line 4", "full level is unclear"},
-        {"level,L\n0,1\n512,20\n1023,70\n", "line 4", "full level is unclear"},
+        {"level,L\n0,1\n512,20\n1000,70\n", "line 4", "full level is unclear"},
         {"level_%,L\n0,1\n51,20\n255,70\n", "line 4", "up to 100 in a column with %"},
         {"level,L\n0,1\n128,20\n128,20\n255,70\n", "line 4", "level 128 stands in line 3"},
         {"level,L\n0,1\n128,1\n255,1\n", "line 4", "full level has no more light than level 0"},
@@ -126,7 +237,7 @@ ARENA_TEST(bad_tables_are_refused_by_line_and_words)
         LevelTable  table;
         const char *path = in_folder("bad.csv");
         write_text(path, bad[i].text);
-        if (level_table_read(path, &arena, &table, why()))
+        if (level_table_read(path, 0, &arena, &table, why()))
             fail_msg("%s: was read", bad[i].text);
         assert_string_equal(why()->file, path);
         assert_told(ERROR_INPUT, bad[i].place, bad[i].words);
@@ -198,7 +309,7 @@ TEST(a_known_gamma_comes_back_from_white_and_its_table)
     fixture_measure(&known, KNOWN);
     const char *levels = level_file(&known, "levels.csv", 1);
     fixture_read(&known, white_table(&known));
-    assert_done(measurement_read_levels(known.set, levels, &known.arena, &err));
+    assert_done(measurement_read_levels(known.set, levels, 0, &known.arena, &err));
     fixture_fit(&known, NULL);
     assert_known(&known);
     char *report = json_dumps(known.report, 0);
@@ -225,11 +336,11 @@ TEST(a_table_of_another_white_or_set_is_refused)
     ENDS_BY(fixture_end) Fixture known;
     fixture_measure(&known, KNOWN);
     const char *levels = level_file(&known, "levels.csv", 1.06);
-    assert_fails_as(measurement_read_levels(known.set, levels, &known.arena, &err), ERROR_INPUT,
-                    "its primaries' levels are measured");
+    assert_fails_as(measurement_read_levels(known.set, levels, 0, &known.arena, &err),
+                    ERROR_INPUT, "its primaries' levels are measured");
     fixture_read(&known, white_table(&known));
-    assert_fails_as(measurement_read_levels(known.set, levels, &known.arena, &err), ERROR_INPUT,
-                    "full level has 297.1");
+    assert_fails_as(measurement_read_levels(known.set, levels, 0, &known.arena, &err),
+                    ERROR_INPUT, "full level has 297.1");
     assert_string_equal(why()->file, levels);
     assert_string_equal(why()->path, "line 19");
     assert_error_has(why(), "6 % apart, wanted within 5 %");

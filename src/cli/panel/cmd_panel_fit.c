@@ -31,7 +31,7 @@ typedef struct FitWords {
     const char *output, *root, *levels;
     int         basis, wavelet, incidence; /* places in the lists of the options */
     long        level;
-    double      keep, max_error, error_floor, frame;
+    double      level_max, keep, max_error, error_floor, frame;
     bool        masks_outliers, lobe_is_mirror, force;
 } FitWords;
 
@@ -42,7 +42,10 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
          .file = OPTION_OUTPUT},
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &out->root},
         {"--levels", OPTION_TEXT, "FILE.csv", "gamma table of a set of white alone: columns "
-         "level and luminance (or red, green, blue), cd/m2 on the axis", &out->levels},
+         "level and luminance (or red, green, blue), cd/m2 on the axis or relative",
+         &out->levels},
+        {"--level-max", OPTION_NUMBER, "N", "highest code of --levels (default: 255, 1023, "
+         "4095 or 65535, whichever it ends at)", &out->level_max, 1, 65535},
         {"--basis", OPTION_CHOICE, "vertex|haar",
          "basis on the hemisphere (default vertex); haar: see `panel wavelets`", &out->basis},
         {"--level", OPTION_INTEGER, "N",
@@ -141,7 +144,8 @@ static bool run_fit(int argc, char **argv, Arena *arena, Error *err)
     bool ok = reference_check_root(words.root, err) &&
               measurement_read_below(words.cli.arguments[0], words.root, arena, set, err) &&
               outputs_spare(&words.cli.outputs, set->inputs.list, set->inputs.count, err) &&
-              (!words.levels || measurement_read_levels(set, words.levels, arena, err)) &&
+              (!words.levels || measurement_read_levels(set, words.levels, words.level_max,
+                                                        arena, err)) &&
               panel_fit(set, &fit, words.output, arena, &report, err);
     if (!ok && (!report || !words.cli.json)) {
         json_decref(report);

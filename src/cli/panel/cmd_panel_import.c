@@ -125,7 +125,7 @@ static int list_options(Words *words, Option *option, Arena *arena)
         {"--primaries", OPTION_TEXT, "FILE", "spectra: columns nm, red, green, blue",
          &words->primaries},
         {"--levels", OPTION_TEXT, "FILE.csv", "gamma table of white alone: columns level and "
-         "luminance (or red, green, blue), cd/m2 on the axis", &words->levels},
+         "luminance (or red, green, blue), cd/m2 on the axis or relative", &words->levels},
         {"--specular", OPTION_TEXT, "FILE.csv", "specular reflectance: columns incidence, "
          "wavelength and reflectance (0 to 1)", &words->specular},
         {"--specular-aperture", OPTION_NUMBER, "DEG", "full angle that --specular was measured "

@@ -23,7 +23,7 @@ static double white_at_normal(const ImportTable *white, double *theta_deg)
     return sum / (count > 0 ? count : 1);
 }
 
-bool import_beside_levels(const char *file, ImportSet *set, Error *err)
+bool import_beside_levels(const char *file, double level_max, ImportSet *set, Error *err)
 {
     const ImportTable *white = import_first(set, IMPORT_WHITE);
     LevelTable        *levels = ARENA_NEW(set->arena, LevelTable, 1);
@@ -31,7 +31,7 @@ bool import_beside_levels(const char *file, ImportSet *set, Error *err)
     if (!white)
         return error_at(err, ERROR_INPUT, file, "", "is a level table for a set of white "
                         "alone, but the files to import hold no white pattern alone");
-    if (!level_table_read(file, set->arena, levels, err)) return false;
+    if (!level_table_read(file, level_max, set->arena, levels, err)) return false;
     double full = white_at_normal(white, &theta_deg);
     if (theta_deg > NORMAL_DEG)
         import_note(set, "white is measured from %.3g degrees on: the level table's full level "

@@ -11,8 +11,9 @@
 #include "import/set/import.h"
 #include "panel/set/specular_table.h"
 
-/* Reads the table, holds it against the set's white and keeps it in the set. */
-bool import_beside_levels(const char *file, ImportSet *set, Error *err);
+/* Reads the table, holds it against the set's white and keeps it in the set. level_max: the
+ * highest code, 0: not stated. */
+bool import_beside_levels(const char *file, double level_max, ImportSet *set, Error *err);
 
 /* file NULL and no gloss: nothing is added. */
 typedef struct ImportSpecular {

@@ -10,8 +10,6 @@
 
 #include "base/count.h"
 #include "base/file.h"
-#include "base/mathd.h"
-#include "panel/shape/panel_levels.h"
 #include "text/csv_table.h"
 #include "text/text.h"
 
@@ -23,7 +21,8 @@ typedef enum Place { PLACE_LEVEL, PLACE_RED, PLACE_GREEN, PLACE_BLUE, PLACE_WHIT
 
 typedef struct Columns {
     int  at[PLACE_COUNT];
-    bool is_percent; /* of the levels */
+    bool is_percent;  /* of the levels */
+    bool is_relative; /* luminance, by a column's name */
 } Columns;
 
 typedef struct PlaceWord {
@@ -47,7 +46,9 @@ static const PlaceWord words[] = {
 static const PlaceWord luminance_words[] = {
     {"luminance", PLACE_WHITE, false}, {"lum", PLACE_WHITE, false},
     {"lv", PLACE_WHITE, false},        {"l", PLACE_WHITE, false},
-    {"Y", PLACE_WHITE, true},
+    {"Y", PLACE_WHITE, true},          {"relative", PLACE_WHITE, false},
+    {"rel", PLACE_WHITE, false},       {"normalised", PLACE_WHITE, false},
+    {"norm", PLACE_WHITE, false},      {"normalized", PLACE_WHITE, false},
 };
 
 /* ---- columns ---------------------------------------------------------------------------- */
@@ -75,17 +76,26 @@ static int place_of(const PlaceWord *known, int count, const char *word, int len
     return -1;
 }
 
-/* The Place of a column of that name; -1: none. */
+/* The Place of a column of that name, "Luminance of red" or "relative L_red"; -1: none. */
 static int column_place(const char *name)
 {
-    int length = next_word(&name);
-    int place = place_of(words, COUNT_OF(words), name, length);
-    if (place >= 0 || place_of(luminance_words, COUNT_OF(luminance_words), name, length) < 0)
-        return place;
-    const char *behind = name + length;
-    length = next_word(&behind);
-    place = place_of(words, COUNT_OF(words), behind, length);
-    return place > PLACE_LEVEL ? place : PLACE_WHITE;
+    int found = -1, length;
+    for (; (length = next_word(&name)) > 0; name += length) {
+        int place = place_of(words, COUNT_OF(words), name, length);
+        if (place >= 0) return found < 0 || place > PLACE_LEVEL ? place : found;
+        if (place_of(luminance_words, COUNT_OF(luminance_words), name, length) < 0) break;
+        found = PLACE_WHITE;
+    }
+    return found;
+}
+
+/* A share of full level: "Y (%)", "relative luminance", "L/Lmax". */
+static bool says_relative(const char *name)
+{
+    static const char *const says[] = {"%", "percent", "rel", "norm", "/lmax", "/ymax"};
+    for (int i = 0; i < COUNT_OF(says); i++)
+        if (strcasestr(name, says[i])) return true;
+    return false;
 }
 
 static bool has_primary(const Columns *columns, bool all)
@@ -119,6 +129,8 @@ static bool find_columns(const CsvTable *csv, Columns *out, Error *err)
                         "has no column of luminance, wanted 'luminance' or 'white', or 'red', "
                         "'green' and 'blue' (cd/m2)");
     out->is_percent = strchr(csv->name[out->at[PLACE_LEVEL]], '%') != NULL;
+    for (int p = PLACE_RED; p < PLACE_COUNT; p++)
+        out->is_relative |= out->at[p] >= 0 && says_relative(csv->name[out->at[p]]);
     return true;
 }
 
@@ -140,23 +152,37 @@ static int by_level(const void *a, const void *b)
     return p < q ? -1 : p > q;
 }
 
-/* The level that is full, or 0 with an error. Levels 0 and 1 alone may be codes or shares. */
-static double full_level(const CsvTable *csv, const Columns *columns, const LevelRow *row,
-                         Error *err)
+static bool has_between(const LevelRow *row, int count)
 {
+    for (int i = 0; i < count; i++)
+        if (row[i].level > 0 && row[i].level < 1) return true;
+    return false;
+}
+
+/* The level that is full, or 0 with an error. Levels 0 and 1 alone may be codes or shares.
+ * level_max: the highest code (0: that of 8, 10, 12 or 16 bits). */
+static double full_level(const CsvTable *csv, const Columns *columns, const LevelRow *row,
+                         double level_max, Error *err)
+{
+    static const double codes[] = {255, 1023, 4095, 65535};
     const LevelRow *last = row + csv->rows - 1;
-    if (columns->is_percent && last->level == 100) return 100;
-    if (!columns->is_percent && last->level == 255) return 255;
-    if (!columns->is_percent && last->level == 1)
-        for (int i = 0; i < csv->rows; i++)
-            if (row[i].level > 0 && row[i].level < 1) return 1;
+    double          most = last->level;
+    if (columns->is_percent && most == 100) return 100;
+    if (!columns->is_percent && most == 1 && has_between(row, csv->rows)) return 1;
+    if (!columns->is_percent && level_max > 0 && most == level_max) return most;
+    for (int i = 0; i < COUNT_OF(codes) && !columns->is_percent && !(level_max > 0); i++)
+        if (most == codes[i]) return most;
     char where[32];
     snprintf(where, sizeof where, "line %d", csv->line[last->row]);
-    error_at(err, ERROR_INPUT, csv->file, where, "the highest level is %g, so the full level "
-             "is %s: wanted rows up to 255 (codes), up to 1 with levels between (shares), or "
-             "up to 100 in a column with %% in its name", last->level,
-             last->level == 1 || last->level == 100 || last->level > 255 ? "unclear"
-                                                                          : "not there");
+    if (level_max > 0)
+        error_at(err, ERROR_INPUT, csv->file, where, "the highest level is %g, required rows "
+                 "up to the highest code, %g as stated", most, level_max);
+    else
+        error_at(err, ERROR_INPUT, csv->file, where, "the highest level is %g, so the full "
+                 "level is %s: required are rows up to 255, 1023, 4095 or 65535 (codes), up to "
+                 "1 with levels between (shares), or up to 100 in a column with %% in its "
+                 "name; --level-max N states another highest code", most,
+                 most == 1 || most == 100 || most > 255 ? "unclear" : "not there");
     return 0;
 }
 
@@ -187,41 +213,112 @@ static bool check_levels(const CsvTable *csv, const LevelRow *row, Error *err)
     return true;
 }
 
-/* A column in the order of the levels, which may not fall. */
+/* Noise makes neighbours fall: such rows become their mean (the least change that lets nothing
+ * fall; Barlow and others 1972, pool adjacent violators). Below zero is zero. */
+static int pool_falls(double *value, int count, Arena scratch)
+{
+    int *size = ARENA_NEW(&scratch, int, count), blocks = 0, pooled = 0;
+    for (int i = 0; i < count; i++) {
+        value[blocks] = value[i];
+        size[blocks++] = 1;
+        for (; blocks > 1 && value[blocks - 1] < value[blocks - 2]; blocks--) {
+            int *a = &size[blocks - 2], b = size[blocks - 1];
+            value[blocks - 2] = (*a * value[blocks - 2] + b * value[blocks - 1]) / (*a + b);
+            *a += b;
+        }
+    }
+    for (int i = count; blocks-- > 0;) {
+        pooled += size[blocks] > 1 ? size[blocks] : 0;
+        for (int k = 0; k < size[blocks]; k++) value[--i] = fmax(value[blocks], 0);
+    }
+    return pooled;
+}
+
+/* How far a row may lie below another, or below zero; a neighbour, which has about the same
+ * light, further. */
+static double noise_of(double cd_m2, double full_cd_m2, bool is_near)
+{
+    return fmax((is_near ? LEVEL_NOISE_NEAR : LEVEL_NOISE_SHARE) * cd_m2,
+                LEVEL_NOISE_FULL * full_cd_m2);
+}
+
+/* A column in the order of the levels, which does not fall but by noise. */
 static bool take_luminance(const CsvTable *csv, const LevelRow *row, int column, double *out,
                            Error *err)
 {
     const char *name = csv->name[column];
-    for (int i = 0; i < csv->rows; i++) {
+    int         top = 0, last = csv->rows - 1;
+    double      full = cell_of(csv, row[last].row, column);
+    for (int i = 0; i <= last; i++) {
         out[i] = cell_of(csv, row[i].row, column);
-        if (out[i] < 0)
+        if (out[i] < 0 && !(-out[i] <= noise_of(0, full, false)))
             return bad_row(csv, row[i].row, err, "column '%s' holds %g cd/m2, wanted no "
                            "luminance below zero", name, out[i]);
         if (out[i] > LUMINANCE_MOST)
             return bad_row(csv, row[i].row, err, "column '%s' holds %g cd/m2, required at most "
                            "%g", name, out[i], LUMINANCE_MOST);
-        if (i && out[i] < out[i - 1])
+        bool is_near = row[i].level < LEVEL_NEAR * row[top].level;
+        if (out[top] - out[i] > noise_of(out[top], full, is_near))
             return bad_row(csv, row[i].row, err, "column '%s': %g cd/m2 at level %g is less "
                            "than the %g of level %g (line %d), wanted luminance that does not "
-                           "fall; leave out what the instrument cannot tell from black",
-                           name, out[i], row[i].level, out[i - 1], row[i - 1].level,
-                           csv->line[row[i - 1].row]);
+                           "fall by more than noise (%g %% of it; %g %% within %g %% of the "
+                           "level; %g %% of full level)",
+                           name, out[i], row[i].level, out[top], row[top].level,
+                           csv->line[row[top].row], 100 * LEVEL_NOISE_SHARE,
+                           100 * LEVEL_NOISE_NEAR, 100 * (LEVEL_NEAR - 1),
+                           100 * LEVEL_NOISE_FULL);
+        if (out[i] > out[top]) top = i;
     }
-    if (!(out[csv->rows - 1] > (row[0].level > 0 ? 0 : out[0])))
-        return bad_row(csv, row[csv->rows - 1].row, err, "column '%s': full level has no more "
-                       "light than level 0", name);
     return true;
 }
 
-static bool take_columns(const CsvTable *csv, const Columns *columns, const LevelRow *row,
-                         LevelTable *out, Error *err)
+static bool check_light(const CsvTable *csv, const LevelRow *row, int column,
+                        const double *value, Error *err)
 {
-    for (int p = 0; p < 3 && out->has_primaries; p++)
-        if (!take_luminance(csv, row, columns->at[PLACE_RED + p], out->primary_cd_m2[p], err))
-            return false;
-    if (out->has_white)
-        return take_luminance(csv, row, columns->at[PLACE_WHITE], out->white_cd_m2, err);
-    for (int i = 0; i < out->rows; i++) { /* black is in each of them, in white once */
+    int last = csv->rows - 1;
+    return value[last] > (row[0].level > 0 ? 0 : value[0]) ||
+           bad_row(csv, row[last].row, err, "column '%s': full level has no more light than "
+                   "level 0", csv->name[column]);
+}
+
+/* Black is in each primary, in white once. Each primary relative to its own full level: with
+ * black B it is B / r(0), and white the sum less 2 B. */
+static double black_share_of(const LevelTable *table)
+{
+    const double *white = table->white_cd_m2;
+    double parts = 0;
+    if (!table->has_black) return 0;
+    if (table->has_white || !table->is_relative) return white[0] / white[table->rows - 1];
+    for (int p = 0; p < 3; p++) {
+        const double *of = table->primary_cd_m2[p];
+        if (!(of[0] > 0)) return 0;
+        parts += of[table->rows - 1] / of[0];
+    }
+    return 1 / (parts - 2);
+}
+
+/* Values that all end at 1 are relative, whatever their columns are called. */
+static bool ends_at_one(const LevelTable *table)
+{
+    int last = table->rows - 1;
+    for (int p = 0; p < 3 && !table->has_white; p++)
+        if (table->primary_cd_m2[p][last] != 1) return false;
+    return !table->has_white || table->white_cd_m2[last] == 1;
+}
+
+static bool take_columns(const CsvTable *csv, const Columns *columns, const LevelRow *row,
+                         LevelTable *out, Arena scratch, Error *err)
+{
+    for (int p = PLACE_RED; p < PLACE_COUNT; p++) {
+        bool    is_white = p == PLACE_WHITE;
+        double *value = is_white ? out->white_cd_m2 : out->primary_cd_m2[p - PLACE_RED];
+        if (!(is_white ? out->has_white : out->has_primaries)) continue;
+        if (!take_luminance(csv, row, columns->at[p], value, err)) return false;
+        int pooled = pool_falls(value, csv->rows, scratch);
+        if (pooled > out->noise_rows) out->noise_rows = pooled;
+        if (!check_light(csv, row, columns->at[p], value, err)) return false;
+    }
+    for (int i = 0; i < out->rows && !out->has_white; i++) {
         double black = 0;
         for (int p = 0; p < 3; p++) {
             out->white_cd_m2[i] += out->primary_cd_m2[p][i];
@@ -229,136 +326,25 @@ static bool take_columns(const CsvTable *csv, const Columns *columns, const Leve
         }
         out->white_cd_m2[i] -= black * 2 / 3;
     }
+    out->is_relative = columns->is_relative || ends_at_one(out);
+    out->black_share = black_share_of(out);
     return true;
-}
-
-/* ---- the rows that a level curve needs --------------------------------------------------- */
-
-#define LEVEL_STEP (1.0 / 256) /* of levels in a panel file */
-#define LEVEL_POWER 2.2f       /* of a single level, as in a panel file */
-
-/* The rows that shine, as logarithms, and which of them are kept. */
-typedef struct CurveRows {
-    const double *level, *cd_m2; /* the first that shines */
-    int           count;
-    double        black_cd_m2, full_cd_m2; /* full without black */
-    float        *log_level, *log_share;
-    bool         *is_kept;
-} CurveRows;
-
-static double share_of(const CurveRows *rows, int i)
-{
-    return (rows->cd_m2[i] - rows->black_cd_m2) / rows->full_cd_m2;
-}
-
-/* The kept rows' levels and logarithms. */
-static int kept_rows(const CurveRows *rows, float x[LEVEL_CURVE_MAX], float y[LEVEL_CURVE_MAX])
-{
-    int count = 0;
-    for (int i = 0; i < rows->count; i++) {
-        if (!rows->is_kept[i]) continue;
-        x[count] = rows->log_level[i];
-        y[count++] = rows->log_share[i];
-    }
-    return count;
-}
-
-/* How far the kept rows' curve misses a row, of its luminance. */
-static double miss_of(const CurveRows *rows, int i, const float *x, const float *y, int count)
-{
-    PanelLevelWeights w = panel_level_weights(x, y, count, LEVEL_POWER, rows->log_level[i]);
-    double log_share = (double)w.offset;
-    for (int k = 0; k < 4 && w.first + k < count; k++)
-        log_share += (double)w.weight[k] * (double)y[w.first + k];
-    double found = exp_d(log_share) * rows->full_cd_m2 + rows->black_cd_m2;
-    return fabs(found / rows->cd_m2[i] - 1);
-}
-
-/* Levels nearer than the file's steps are one. */
-static bool is_beside_kept(const CurveRows *rows, int i)
-{
-    for (int k = i - 1; k >= 0 && rows->level[i] - rows->level[k] < 2 * LEVEL_STEP; k--)
-        if (rows->is_kept[k]) return true;
-    for (int k = i + 1; k < rows->count; k++) {
-        if (!(rows->level[k] - rows->level[i] < 2 * LEVEL_STEP)) break;
-        if (rows->is_kept[k]) return true;
-    }
-    return false;
-}
-
-/* The row that is missed most, or -1; *miss of it. */
-static int worst_row(const CurveRows *rows, double *miss)
-{
-    float x[LEVEL_CURVE_MAX], y[LEVEL_CURVE_MAX];
-    int   count = kept_rows(rows, x, y), worst = -1;
-    *miss = 0;
-    for (int i = 0; i < rows->count; i++) {
-        double one = rows->is_kept[i] ? 0 : miss_of(rows, i, x, y, count);
-        if (!(one > *miss) || is_beside_kept(rows, i)) continue;
-        *miss = one;
-        worst = i;
-    }
-    return worst;
-}
-
-static CurveRows shining_rows(const double *level, const double *cd_m2, int rows,
-                              bool has_black, Arena *scratch)
-{
-    double black = has_black ? cd_m2[0] : 0;
-    int    first = has_black;
-    while (first < rows - 1 && (!(cd_m2[first] > black) || level[first] < LEVEL_STEP)) first++;
-    CurveRows out = {.level = level + first, .cd_m2 = cd_m2 + first, .count = rows - first,
-                     .black_cd_m2 = black, .full_cd_m2 = cd_m2[rows - 1] - black};
-    out.log_level = ARENA_NEW(scratch, float, out.count);
-    out.log_share = ARENA_NEW(scratch, float, out.count);
-    out.is_kept = ARENA_NEW(scratch, bool, out.count);
-    for (int i = 0; i < out.count; i++) {
-        out.log_level[i] = (float)log_d(out.level[i]);
-        out.log_share[i] = (float)log_d(share_of(&out, i));
-    }
-    out.is_kept[0] = out.is_kept[out.count - 1] = true;
-    return out;
-}
-
-/* level: codes, rising to 255; cd_m2: their luminance, which does not fall, and more at the
- * last row than at the first. has_black: row 0 is of level 0. Returns the number of rows above
- * level 0 that have no more light than black. */
-static int choose_curve(const double *level, const double *cd_m2, int rows, bool has_black,
-                        Arena scratch, LevelCurve *out)
-{
-    CurveRows of = shining_rows(level, cd_m2, rows, has_black, &scratch);
-    int       count = of.count > 1 ? 2 : 1;
-    *out = (LevelCurve){0};
-    for (;;) {
-        int worst = worst_row(&of, &out->miss);
-        if (worst < 0 || out->miss <= LEVEL_CURVE_MISS || count == LEVEL_CURVE_MAX) break;
-        of.is_kept[worst] = true;
-        count++;
-    }
-    for (int i = 0; i < of.count; i++) {
-        if (!of.is_kept[i]) continue;
-        out->level[out->count] = of.level[i];
-        out->share[out->count++] = share_of(&of, i);
-    }
-    return rows - of.count - has_black;
 }
 
 /* ---- the table --------------------------------------------------------------------------- */
 
 static void take_curves(LevelTable *table, Arena scratch)
 {
-    int last = table->rows - 1;
-    table->black_share =
-        table->has_black ? table->white_cd_m2[0] / table->white_cd_m2[last] : 0;
     for (int p = 0; p < 3; p++) {
         const double *of = table->has_primaries ? table->primary_cd_m2[p] : table->white_cd_m2;
-        int dark = choose_curve(table->level, of, table->rows, table->has_black, scratch,
-                                &table->curve[p]);
+        int dark = level_curve_choose(table->level, of, table->rows, table->has_black, scratch,
+                                      &table->curve[p]);
         if (dark > table->dark_rows) table->dark_rows = dark;
     }
 }
 
-bool level_table_read(const char *file, Arena *arena, LevelTable *out, Error *err)
+bool level_table_read(const char *file, double level_max, Arena *arena, LevelTable *out,
+                      Error *err)
 {
     CsvTable   csv;
     Columns    columns = {.is_percent = false};
@@ -370,7 +356,8 @@ bool level_table_read(const char *file, Arena *arena, LevelTable *out, Error *er
         row[i] = (LevelRow){cell_of(&csv, i, columns.at[PLACE_LEVEL]), i};
     qsort(row, (size_t)csv.rows, sizeof *row, by_level);
     double full = 0;
-    if (!check_levels(&csv, row, err) || !((full = full_level(&csv, &columns, row, err)) > 0))
+    if (!check_levels(&csv, row, err) ||
+        !((full = full_level(&csv, &columns, row, level_max, err)) > 0))
         return false;
     table.rows = csv.rows;
     table.level = ARENA_NEW(arena, double, csv.rows);
@@ -384,7 +371,7 @@ bool level_table_read(const char *file, Arena *arena, LevelTable *out, Error *er
     table.has_white = columns.at[PLACE_WHITE] >= 0;
     table.has_primaries = has_primary(&columns, true);
     table.has_black = row[0].level == 0;
-    if (!take_columns(&csv, &columns, row, &table, err)) return false;
+    if (!take_columns(&csv, &columns, row, &table, *arena, err)) return false;
     take_curves(&table, *arena);
     *out = table;
     return true;
@@ -395,11 +382,13 @@ bool level_table_check_white(const LevelTable *table, double white_cd_m2, const 
 {
     char   where[32];
     double full = table->white_cd_m2[table->rows - 1];
-    if (fabs(full - white_cd_m2) <= LEVEL_TABLE_FULL_MISS * white_cd_m2) return true;
+    if (table->is_relative || fabs(full - white_cd_m2) <= LEVEL_TABLE_FULL_MISS * white_cd_m2)
+        return true;
     snprintf(where, sizeof where, "line %d", table->line[table->rows - 1]);
     return error_at(err, ERROR_INPUT, table->file, where,
                     "full level has %g cd/m2, but the set's white on the axis %g (%s): %.3g %% "
-                    "apart, wanted within %g %%; do both belong to one panel, one backlight?",
+                    "apart, wanted within %g %%; do both belong to one panel, one backlight? "
+                    "(a column of relative luminance is named so: 'relative')",
                     full, white_cd_m2, source,
                     100 * fabs(full - white_cd_m2) / white_cd_m2, 100 * LEVEL_TABLE_FULL_MISS);
 }
@@ -407,10 +396,12 @@ bool level_table_check_white(const LevelTable *table, double white_cd_m2, const 
 const char *level_table_text(const LevelTable *table, Arena *arena)
 {
     Text text = {.arena = arena};
-    text_format(&text, "# from %s; level 0 to 255, cd/m2 on the axis, black in it\nlevel",
-                path_name(table->file));
-    if (table->has_primaries) text_add(&text, ",red,green,blue");
-    text_add(&text, table->has_white ? ",white\n" : "\n");
+    const char *as = table->is_relative ? "relative_" : "";
+    text_format(&text, "# from %s; level 0 to 255, %s on the axis, black in it\nlevel",
+                path_name(table->file), *as ? "relative luminance" : "cd/m2");
+    if (table->has_primaries) text_format(&text, ",%sred,%sgreen,%sblue", as, as, as);
+    if (table->has_white) text_format(&text, ",%swhite", as);
+    text_add(&text, "\n");
     for (int i = 0; i < table->rows; i++) {
         text_format(&text, "%.7g", table->level[i]);
         for (int p = 0; p < 3 && table->has_primaries; p++)
@@ -426,10 +417,18 @@ const char *level_table_note(const LevelTable *table, Arena *arena)
     const LevelCurve *most = &table->curve[0];
     for (int p = 1; p < 3; p++)
         if (table->curve[p].count > most->count) most = &table->curve[p];
-    return arena_format(arena, "levels from %s: %d rows, of which %d keep all within %.2g %%; "
-        "black is %.3g of white%s%s; the angular shape of white serves every level and black, "
-        "an approximation", path_name(table->file), table->rows, most->count,
-        100 * fmax(LEVEL_CURVE_MISS, most->miss), table->black_share,
-        table->has_black ? "" : " (no row of level 0)",
-        most->count > 1 ? "" : "; no level between, so a power of 2.2 is taken");
+    const char *noise = !table->noise_rows ? "" : arena_format(arena, "; %d rows that fall by "
+        "noise have their neighbours' mean", table->noise_rows);
+    const char *fit = most->is_smooth
+        ? arena_format(arena, "of which %d levels are made through the noise, %.2g %% (rms) "
+                       "and at most %.2g %%", most->count, 100 * most->rms, 100 * most->miss)
+        : arena_format(arena, "of which %d keep all within %.2g %%", most->count,
+                       100 * fmax(LEVEL_CURVE_MISS, most->miss));
+    return arena_format(arena, "levels from %s: %d rows%s, %s (of their luminance and %g %% of "
+        "full level); black is %.3g of white%s%s%s; the angular shape of white serves every "
+        "level and black, an approximation",
+        path_name(table->file), table->rows, table->is_relative ? " of relative luminance" : "",
+        fit, 100 * LEVEL_CURVE_FLOOR,
+        table->black_share, table->has_black ? "" : " (no row of level 0)",
+        most->count > 1 ? "" : "; no level between, so a power of 2.2 is taken", noise);
 }

@@ -5,18 +5,20 @@
  * A text table (text/csv_table.h): a column of levels (level, code, grey, gray, input, signal,
  * drive, digital) and columns of luminance: white (W, Y, L, Lv, luminance), or red, green
  * and blue (R, G, B; each shown alone), or all four. Units behind a name, in brackets or after
- * '_', are passed over but for % of a level; luminance is in cd/m2. Other columns are left.
- * Levels run to 255 (codes), to 1 (shares), or to 100 in a column whose name has a %.
+ * '_', are passed over but for % of a level. Luminance is in cd/m2, or relative to full level
+ * where a column's name says so (%, percent, relative, normalised, /Lmax) or all end at 1.
+ * Other columns are left. Levels run to the highest code (as stated; else 255, 1023, 4095 or
+ * 65535), to 1 (shares), or to 100 in a column whose name has a %.
+ *
+ * Rows may fall below others, or below zero, by LEVEL_NOISE_SHARE (of neighbours,
+ * LEVEL_NOISE_NEAR) of the others or LEVEL_NOISE_FULL of full level, whichever is more: an
+ * instrument's noise, which is large beside black. They become their neighbours' mean.
  *
  * With L(g) the luminance at level g, the black pattern in it,
  *   share(g) = (L(g) - L(0)) / (L(255) - L(0))     of what full level adds to black
  *   black    = L(0) / L(255)                       0 without a row of level 0
  *
- * A panel keeps at most LEVEL_CURVE_MAX levels a primary and interpolates between them as in
- * panel/shape/panel_levels.h (Fritsch and Butland's monotone cubic pieces of the logarithm
- * over ln code). Kept are the lowest row with more light than black, full level, and then, one
- * by one, the row that is missed most, until no row is missed by more than LEVEL_CURVE_MISS of
- * its luminance.
+ * from which level_curve.h makes level curves.
  *
  * Units    levels as codes in [0, 255]; luminance in cd m^-2; shares without unit.
  * Memory   the arena's. Threads: const once read.
@@ -25,20 +27,12 @@
  */
 #pragma once
 #include "base/error.h"
-#include "base/arena.h"
+#include "panel/set/level_curve.h"
 
-#define LEVEL_CURVE_MAX 64
-#define LEVEL_CURVE_MISS 0.0005 /* of the luminance at any row, by levels left out */
-
-/* One level curve: the levels that are kept, and what they are of full level. */
-typedef struct LevelCurve {
-    int    count;
-    double level[LEVEL_CURVE_MAX]; /* codes, rising, above 0 up to 255 */
-    double share[LEVEL_CURVE_MAX]; /* rising to 1 */
-    double miss;                   /* largest error at a row that is left out, of its
-                                      luminance */
-} LevelCurve;
-
+#define LEVEL_NOISE_SHARE 0.01  /* of luminance, by which it may fall; */
+#define LEVEL_NOISE_NEAR 0.05   /* the same below a level less than LEVEL_NEAR times lower */
+#define LEVEL_NEAR 1.05
+#define LEVEL_NOISE_FULL 1e-4   /* of full level: the same */
 #define LEVEL_TABLE_ROWS_MAX 65536
 #define LEVEL_TABLE_FULL_MISS 0.05 /* of full level to the set's white */
 
@@ -48,6 +42,8 @@ typedef struct LevelTable {
     double     *level;          /* codes, rising */
     int        *line;           /* of the rows, in the file */
     bool        has_white, has_primaries, has_black; /* black: a row of level 0 */
+    bool        is_relative;    /* what stands below as cd/m2: each column in its own scale */
+    int         noise_rows;     /* that fell by noise, in the column with most of them */
     double     *white_cd_m2;    /* rows; measured, or the sum of the primaries */
     double     *primary_cd_m2[3];
     double      black_share;
@@ -55,7 +51,9 @@ typedef struct LevelTable {
     LevelCurve  curve[3];       /* of red, green, blue; all white's without their columns */
 } LevelTable;
 
-bool level_table_read(const char *file, Arena *arena, LevelTable *out, Error *err);
+/* level_max: the highest code; 0: not stated. */
+bool level_table_read(const char *file, double level_max, Arena *arena, LevelTable *out,
+                      Error *err);
 
 /* Full level against the white that a set has on the axis, cd m^-2, from `source`. */
 bool level_table_check_white(const LevelTable *table, double white_cd_m2, const char *source,

@@ -117,7 +117,8 @@ static bool check_full_level(const Measurement *set, const LevelTable *levels, E
            level_table_check_white(levels, sum / count, set->file, err);
 }
 
-bool measurement_read_levels(Measurement *set, const char *file, Arena *arena, Error *err)
+bool measurement_read_levels(Measurement *set, const char *file, double level_max,
+                             Arena *arena, Error *err)
 {
     LevelTable *levels = ARENA_NEW(arena, LevelTable, 1);
     if (set->spot_count)
@@ -128,7 +129,8 @@ bool measurement_read_levels(Measurement *set, const char *file, Arena *arena, E
                         "the level table '%s' has nothing to give levels to: %s", file,
                         set->primary[0].level_count ? "its primaries' levels are measured"
                                                     : "it has no emission");
-    if (!level_table_read(file, arena, levels, err) || !check_full_level(set, levels, err))
+    if (!level_table_read(file, level_max, arena, levels, err) ||
+        !check_full_level(set, levels, err))
         return false;
     split_white(levels, arena, set);
     return true;
@@ -151,7 +153,7 @@ static bool read_white(const JsonView *emission, Measurement *out, Error *err)
     if (!json_view_text(emission, "levels", &levels, err)) return false;
     if (!levels) return true;
     return json_view_file(emission, "levels", levels, &levels, err) &&
-           measurement_read_levels(out, levels, emission->arena, err);
+           measurement_read_levels(out, levels, 0, emission->arena, err);
 }
 
 static bool read_emission(const JsonView *root, Measurement *out, Error *err)
