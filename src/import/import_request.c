@@ -17,7 +17,7 @@
 /* Keys besides those of the text tables. */
 static const char *const other_keys[] = {"roles", "skip", "format", "wavelength_nm", "area_mm",
     "panel", "instrument", "primaries", "levels", "specular", "specular_aperture_deg", "gloss",
-    "isotropic", "symmetry", "no_black", "note"};
+    "isotropic", "symmetry", "no_black", "accept", "note"};
 
 static bool wrong_kind(const JsonView *view, const char *key, const char *wanted, Error *err)
 {
@@ -170,7 +170,8 @@ static bool read_others(const JsonView *root, ImportRequest *request, Error *err
               read_specular(root, &request->specular, err) &&
               read_flag(root, "isotropic", &request->is_isotropic, err) &&
               read_symmetry(root, &request->symmetry, err) &&
-              read_flag(root, "no_black", &request->black_is_zero, err);
+              read_flag(root, "no_black", &request->black_is_zero, err) &&
+              read_flag(root, "accept", &request->accepts_repeats, err);
     if (!ok) return false;
     return (!request->primaries || json_view_file(root, "primaries", request->primaries,
                                                   &request->primaries, err)) &&
@@ -237,6 +238,7 @@ bool import_run(const char *const *file, int count, const ImportRequest *request
     set->is_isotropic = request->is_isotropic;
     set->symmetry = request->symmetry;
     set->black_is_zero = request->black_is_zero;
+    set->accepts_repeats = request->accepts_repeats;
     if (request->text.white_reflectance > 0)
         set->white_reflectance = request->text.white_reflectance;
     const char *const beside[] = {request->primaries, request->levels, request->specular.file};

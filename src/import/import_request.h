@@ -22,7 +22,7 @@ typedef struct ImportRequest {
     const char     *root;      /* --root: where else such a file may name files; or NULL */
     const char     *panel, *instrument;
     ImportSymmetry  symmetry;
-    bool            is_isotropic, black_is_zero;
+    bool            is_isotropic, black_is_zero, accepts_repeats;
     ImportStep     *step; /* NULL: nobody waits */
     void           *context;
 } ImportRequest;

@@ -4,6 +4,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/file.h"
+#include "panel/set/angle_table.h"
+#include "panel/set/primary_spectra.h"
+
 #define VALUE_MOST 1e12
 #define COLUMNS 5 /* wavelength, red, green, blue, black */
 
@@ -81,6 +85,21 @@ static bool read_row(PrimariesFile *in, int at)
     return true;
 }
 
+static bool check_reach(ImportSet *set, const char *file, Error *err)
+{
+    const ImportSpectra *spectra = &set->spectra;
+    double beyond = 0;
+    for (int p = 0; p < 3; p++)
+        if (!primary_spectrum_reaches(&(PrimaryColumn){file, primary_names[p], spectra->nm,
+                                                       spectra->value[p], spectra->rows},
+                                      &beyond, err))
+            return false;
+    if (beyond > 0)
+        import_note(set, "%s: %.2g %% of V(lambda) lies beyond the primaries' spectra, which "
+                    "end in light: dark is taken", path_name(file), 100 * beyond);
+    return true;
+}
+
 bool primaries_read(const char *file, const TextOptions *options, ImportSet *set, Error *err)
 {
     TextFile text;
@@ -98,5 +117,5 @@ bool primaries_read(const char *file, const TextOptions *options, ImportSet *set
         return error_at(err, ERROR_INPUT, file, "", "has %d wavelengths, wanted more", in.rows);
     set->spectra = (ImportSpectra){.rows = in.rows, .nm = in.value[0]};
     for (int c = 1; c < COLUMNS; c++) set->spectra.value[c - 1] = in.value[c];
-    return true;
+    return check_reach(set, file, err);
 }

@@ -29,19 +29,32 @@ void curve_from_points(const double *nm, const double *value, int count, Curve *
     }
 }
 
-double curve_held_share(const double *nm, const double *value, int count)
+#define SLACK_NM 1.0 /* wavelengths are rounded */
+
+bool curve_reaches(double first_nm, double last_nm, CurveEnds dark)
 {
-    Curve  curve;
-    double all = 0, held = 0;
-    curve_from_points(nm, value, count, &curve);
-    for (int i = 0; i < CURVE_COUNT; i++) {
-        const SpectralRow *row = &spectral_table[CURVE_FIRST_NM + i - SPECTRAL_FIRST_NM];
-        bool   is_held = CURVE_FIRST_NM + i < nm[0] || CURVE_FIRST_NM + i > nm[count - 1];
-        double seen = (double)(row->x + row->y + row->z) * fabs((double)curve.value[i]);
-        all += seen;
-        if (is_held) held += seen;
+    return (dark.first || first_nm <= CURVE_SEEN_FIRST_NM + SLACK_NM) &&
+           (dark.last || last_nm >= CURVE_SEEN_LAST_NM - SLACK_NM);
+}
+
+double curve_beyond(double first_nm, double last_nm, CurveEnds dark)
+{
+    double all = 0, beyond = 0;
+    bool   below = !dark.first && first_nm > CURVE_WHOLE_FIRST_NM + SLACK_NM;
+    bool   above = !dark.last && last_nm < CURVE_WHOLE_LAST_NM - SLACK_NM;
+    for (int i = 0; i < SPECTRAL_COUNT; i++) {
+        double nm = SPECTRAL_FIRST_NM + i, v = (double)spectral_table[i].y;
+        all += v;
+        if ((below && nm < first_nm) || (above && nm > last_nm)) beyond += v;
     }
-    return all > 0 ? held / all : 0;
+    return beyond / all;
+}
+
+CurveEnds curve_dark_ends(const double *value, int count, double share)
+{
+    double most = 0;
+    for (int i = 0; i < count; i++) most = fmax(most, fabs(value[i]));
+    return (CurveEnds){fabs(value[0]) <= share * most, fabs(value[count - 1]) <= share * most};
 }
 
 #define COLUMNS_MAX 2 /* beside the wavelength */
@@ -140,23 +153,30 @@ static const char *next_line(const char *text, char *line, size_t size)
     return text + length + (text[length] == '\n');
 }
 
+#define DARK_END 1e-3 /* of the largest value */
+
+/* Light that has ended does not come back; a filter's share may. */
+static CurveEnds dark_ends(const Points *points)
+{
+    if (points->columns > 1 || points->range != CURVE_AMOUNTS) return (CurveEnds){false, false};
+    return curve_dark_ends(points->value[0], points->count, DARK_END);
+}
+
 /* Wavelengths in um or m, or of an invisible range, would give the same value everywhere. */
-static bool check_visible(const Points *points, const char *path, Error *err)
+static bool check_reach(const Points *points, const char *path, Error *err)
 {
     double first = points->nm[0], last = points->nm[points->count - 1];
     const char *unit = first > 0.1 && last < 20 ? " — in micrometres? Required are nm" : "";
-    return (first <= CURVE_SEEN_LAST_NM && last >= CURVE_SEEN_FIRST_NM) ||
-           error_at(err, ERROR_INPUT, path, NULL, "holds wavelengths from %g to %g nm, none "
-                    "from %d to %d is among them%s", first, last, CURVE_SEEN_FIRST_NM,
-                    CURVE_SEEN_LAST_NM, unit);
+    return curve_reaches(first, last, dark_ends(points)) ||
+           error_at(err, ERROR_INPUT, path, NULL, "holds wavelengths from %g to %g nm, "
+                    "required from %d to %d nm or beyond%s%s", first, last, CURVE_SEEN_FIRST_NM,
+                    CURVE_SEEN_LAST_NM, points->range == CURVE_AMOUNTS && points->columns == 1
+                    ? ", but where light has ended" : "", unit);
 }
 
-static double held_share(const Points *points)
+static double beyond_of(const Points *points)
 {
-    double most = 0;
-    for (int i = 0; i < points->columns; i++)
-        most = fmax(most, curve_held_share(points->nm, points->value[i], points->count));
-    return most;
+    return curve_beyond(points->nm[0], points->nm[points->count - 1], dark_ends(points));
 }
 
 /* Numbers that are too few or too many are no names of columns. */
@@ -189,7 +209,7 @@ static bool read_points(const char *text, const char *path, Points *points, Erro
     }
     if (!points->count)
         return error_at(err, ERROR_INPUT, path, NULL, "no rows of %s", strstr(names, "nm"));
-    return check_visible(points, path, err);
+    return check_reach(points, path, err);
 }
 
 static bool no_memory(const char *path, Error *err)
@@ -198,7 +218,7 @@ static bool no_memory(const char *path, Error *err)
 }
 
 bool curve_parse(const char *text, const char *path, CurveRange range, Curve *out,
-                 double *held, Error *err)
+                 double *beyond, Error *err)
 {
     Points *points = calloc(1, sizeof *points);
     if (!points) return no_memory(path, err);
@@ -206,12 +226,12 @@ bool curve_parse(const char *text, const char *path, CurveRange range, Curve *ou
     points->range = range;
     bool ok = read_points(text, path, points, err);
     if (ok) curve_from_points(points->nm, points->value[0], points->count, out);
-    if (ok && held) *held = held_share(points);
+    if (ok && beyond) *beyond = beyond_of(points);
     free(points);
     return ok;
 }
 
-bool curve_parse_index(const char *text, const char *path, Curve *n, Curve *k, double *held,
+bool curve_parse_index(const char *text, const char *path, Curve *n, Curve *k, double *beyond,
                        Error *err)
 {
     Points *points = calloc(1, sizeof *points);
@@ -220,7 +240,7 @@ bool curve_parse_index(const char *text, const char *path, Curve *n, Curve *k, d
     bool ok = read_points(text, path, points, err);
     if (ok) curve_from_points(points->nm, points->value[0], points->count, n);
     if (ok) curve_from_points(points->nm, points->value[1], points->count, k);
-    if (ok && held) *held = held_share(points);
+    if (ok && beyond) *beyond = beyond_of(points);
     free(points);
     return ok;
 }

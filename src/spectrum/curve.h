@@ -30,27 +30,42 @@ typedef enum CurveRange {
     CURVE_SHARES   /* 0 to 1 */
 } CurveRange;
 
-/* What is seen of a curve lies between, all but a thousandth. */
+/* A spectrum reaches from the first to the last of them, all but a thousandth of what is seen
+ * and is whole from 380 to 780 nm (CIE 15). */
 #define CURVE_SEEN_FIRST_NM 400
 #define CURVE_SEEN_LAST_NM 700
+#define CURVE_WHOLE_FIRST_NM 380
+#define CURVE_WHOLE_LAST_NM 780
 
-#define CURVE_HELD_MOST 0.02 /* more is worth a warning */
+/* Ends of an emission that are dark: nothing is missing beyond. */
+typedef struct CurveEnds {
+    bool first, last;
+} CurveEnds;
 
-/* Under even light, the share of X + Y + Z at wavelengths outside the measured ones, if the end
- * values hold there. */
-double curve_held_share(const double *nm, const double *value, int count);
+/* Values at the ends up to that share of the largest are dark. */
+CurveEnds curve_dark_ends(const double *value, int count, double share);
+
+bool curve_reaches(double first_nm, double last_nm, CurveEnds dark);
+
+/* The share of V(lambda) beyond the measured wavelengths, where end values stand for them; 0
+ * where they are whole. */
+double curve_beyond(double first_nm, double last_nm, CurveEnds dark);
+
+/* File, per cent, CURVE_WHOLE_FIRST_NM, CURVE_WHOLE_LAST_NM. */
+#define CURVE_BEYOND_WARNING "%s: %.2g %% of V(lambda) is extrapolated: its end values stand " \
+    "for what is missing of %d to %d nm"
 
 /* A CSV of `nm,value` rows (header line and # comments allowed) in memory, terminated; path: of
- * the file, for messages, which name the line of a value that is out of range. Without any
- * wavelength from CURVE_SEEN_FIRST_NM to CURVE_SEEN_LAST_NM it is refused. *held (or NULL): its
- * held share. */
+ * the file, for messages, which name the line of a value that is out of range. It is refused
+ * where it does not reach (above); CURVE_AMOUNTS may end in the dark. *beyond (or NULL):
+ * curve_beyond. */
 bool curve_parse(const char *text, const char *path, CurveRange range, Curve *out,
-                 double *held, Error *err);
+                 double *beyond, Error *err);
 
 #define INDEX_MAX 100.0
 
 /* The same of a refractive index n + ik, rows `nm,n,k`; both 0 to INDEX_MAX, never both 0. */
-bool curve_parse_index(const char *text, const char *path, Curve *n, Curve *k, double *held,
+bool curve_parse_index(const char *text, const char *path, Curve *n, Curve *k, double *beyond,
                        Error *err);
 
 /* Value of every lane's wavelength. */

@@ -241,8 +241,11 @@ def compare(program, panel, table, fwhm_deg=0.0):
     columns, questions = table.questions()
     options = ["--brdf"] if table.incidence is not None else []
     names, answers = program.ask(panel, columns, questions, *options)
-    first = 5
+    first = names.index("X" if table.incidence is None else "brdf")
     count = 3 if table.incidence is None else len(table.wavelengths)
+    if table.incidence is not None:  # a row a wavelength
+        answers, first = [[row[first] for row in answers[i:i + count]]
+                          for i in range(0, len(answers), count)], 0
     mirror = [0.0] * count
     if table.incidence is not None and fwhm_deg:
         mirror = json.loads(program.run("panel", "eval", panel, "--brdf", "--incidence",

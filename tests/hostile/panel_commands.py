@@ -139,6 +139,30 @@ def check_batch(report, commands, panel):
     with open(path, "w") as out:
         out.write("theta,phi\n40,90\n140,90\n")
     fails(report, commands.run("eval", panel, "--batch", path), 3, "batch.csv", "line 3", "140")
+    check_kinds(report, commands, panel)
+
+
+def check_kinds(report, commands, panel):
+    """Incidences ask for reflection; one layout for one answer and for many."""
+    path = commands.file("kinds.csv")
+
+    def batch(header, *options):
+        with open(path, "w") as out:
+            out.write(header + "\n40,90,20\n")
+        return ["eval", panel, "--batch", path, *options]
+    for column in ("incidence", "incidence_phi", "wavelength"):
+        fails(report, commands.run(*batch("theta,phi," + column)), 3, "kinds.csv", column,
+              "--brdf")
+    fails(report, commands.run(*batch("theta,phi,g", "--brdf")), 3, "'g'", "emission")
+    fails(report, commands.run(*batch("theta,phi,u", "--brdf")), 3, "'incidence'")
+    fails(report, commands.run("eval", panel, "--theta", "0", "--rgb", "1,2,3", "--incidence",
+                               "20"), 2, "--incidence", "--brdf")
+    one = ["eval", panel, "--brdf", "--theta", "40", "--phi", "90", "--incidence", "20"]
+    many = rows_of(commands.text(*batch("theta,phi,incidence", "--brdf", "--csv")))
+    some = rows_of(commands.text(*one, "--wavelength", "550", "--csv"))
+    report.claim(many == rows_of(commands.text(*one, "--csv")) and some[0] == many[0] and
+                 some[1] in many and [row[4] for row in many[1:]] == ["450", "550", "650"],
+                 f"a row a wavelength: {many}, {some}")
 
 
 def check_export(report, commands, panel):

@@ -167,7 +167,8 @@ def check_metal(report, eye):
         scene.facing_quad(metal, [0, 0, 0], [0, 1, 0], 2)
         scene.environment(type="constant", luminance=LUMINANCE)
         scene.files["glass_ior.gltf"] = index_file(
-            [{"temperature": 293, "n": [[4e-7, n], [8e-7, n]], "k": [[5e-7, k]]}])
+            [{"temperature": 293, "n": [[3e-7, n], [8e-7, n]],
+              "k": [[3.8e-7, k], [7.8e-7, k]]}])
         way = [math.sin(angle), -math.cos(angle), 0]
         scene.probe("eye", [-x for x in way], way, 0.01)
         found = eye.mean(scene, 16) / LUMINANCE
@@ -193,7 +194,8 @@ def check_unused(report, eye):
 
 # ---- what is none --------------------------------------------------------------------------
 
-GOOD = {"temperature": 300, "n": [[4e-7, 1.5], [7e-7, 1.4]], "k": [[4e-7, 0], [7e-7, 0]]}
+GOOD = {"temperature": 300, "n": [[3.8e-7, 1.5], [7.8e-7, 1.4]],
+        "k": [[3.8e-7, 0], [7.8e-7, 0]]}
 FILES = [
     (b"{", "glass_ior.gltf"), (b"[]", "OpenMaterial_ior_data is wanted"),
     (b'{"extensions": {"OpenMaterial_ior_data": {}}}', '"data" is wanted'),
@@ -208,8 +210,9 @@ FILES = [
     (index_file([{**GOOD, "n": [[0, 1.5]]}]), "/data/0/n/0: a pair"),
     (index_file([{**GOOD, "k": [[4e-7, -1]]}]), "/data/0/k/0: a pair"),
     (index_file([{**GOOD, "n": [[4e-7, 1.5], [4e-7, 1.5]]}]), "/data/0/n/1: wavelengths that"),
-    (index_file([{**GOOD, "n": [[4e-7, 0]]}]), "/data/0: n and k are both 0"),
-    (index_file([{**GOOD, "n": [[4e-7, 0.5]]}]), "n is 0.5 at 360 nm: a metal's"),
+    (index_file([{**GOOD, "n": [[3.8e-7, 0], [7.8e-7, 0]]}]), "/data/0: n and k are both 0"),
+    (index_file([{**GOOD, "n": [[3.8e-7, 0.5], [7.8e-7, 0.5]]}]),
+     "n is 0.5 at 360 nm: a metal's"),
 ]
 MEMBERS = [
     ({"physical_properties": {"refractive_index_uri": 3}}, "is no text"),
@@ -253,6 +256,7 @@ def check_company(report, program, folder):
     glass = {"glass_ior.gltf": index_file([GOOD])}
     thin = {k: v for k, v in prism_glass(**CAUCHY).items() if k != "KHR_materials_volume"}
     radar = {"glass_ior.gltf": RADAR}
+    short = {"glass_ior.gltf": index_file([{**GOOD, "k": [[4e-7, 0], [7e-7, 0]]}])}
     metal = {**MEASURED, "PARHELION_spectrum": {"conductor": "metal.csv"}}
     tables = {**glass, "metal.csv": b"400,1,6\n700,1,6\n"}
     for wanted, said, extensions, files, metallic in (
@@ -260,7 +264,8 @@ def check_company(report, program, folder):
             (3, "stands beside PARHELION_coating", prism_glass(**MEASURED, **coat), glass, 0),
             (0, "spreads nothing", thin, {}, 0),
             (0, "the index is measured", prism_glass(**CAUCHY, **MEASURED), glass, 0),
-            (0, "holds no wavelength from 360 to 830", prism_glass(**MEASURED), radar, 0),
+            (0, "does not reach from 400 to 700 nm", prism_glass(**MEASURED), radar, 0),
+            (0, "of V(lambda) is extrapolated", prism_glass(**MEASURED), short, 0),
             (0, 'PARHELION_spectrum has "conductor"', metal, tables, 1),
             (0, "0 warnings", {**MEASURED, **coat}, glass, 1)):
         status, text = check(program, folder, extensions, files, metallic)

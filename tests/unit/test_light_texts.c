@@ -377,18 +377,37 @@ ARENA_TEST(every_number_of_a_spectrum_is_read_or_named)
         }
 }
 
-TEST(a_spectrum_says_how_much_of_what_is_seen_it_leaves_out)
+/* Refused where 400 to 700 nm are not there; the share of V(lambda) (CIE 018) that is not
+ * measured: 4e-5 below 380 nm, 0.0009 above 700 nm. Light may end in the dark. */
+TEST(a_spectrum_reaches_what_is_seen_and_says_what_it_extrapolates)
 {
-    static const struct { const char *text; double low, high; } cases[] = {
-        {"380,.5\n780,.5\n", 0, 0.001}, {"400,.5\n700,.5\n", 0, 0.01},
-        {"450,.5\n650,.5\n", 0.15, 0.3}, {"550,.5\n", 0.99, 1},
-        {"550,0\n600,1\n650,0\n", 0, 0}, {"690,.5\n2480,.5\n", 0.99, 1}};
+    static const struct { const char *text; bool is_read, is_light; double low, high; }
+    cases[] = {
+        {"380,.5\n780,.5\n", true, true, 0, 0}, {"360,.5\n830,.5\n", true, true, 0, 0},
+        {"380.4,.5\n779.6,.5\n", true, true, 0, 0},
+        {"400,.5\n700,.5\n", true, true, 0.0005, 0.003},
+        {"400.8,.5\n780,.5\n", true, true, 2e-6, 0.0005},
+        {"380,.5\n720,.5\n", true, true, 5e-5, 0.0005},
+        {"410,.5\n780,.5\n", false, false, 0, 0}, {"380,.5\n690,.5\n", false, false, 0, 0},
+        {"450,.5\n650,.5\n", false, false, 0, 0}, {"550,.5\n", false, false, 0, 0},
+        {"690,.5\n2480,.5\n", false, false, 0, 0}, {"820,.5\n2480,.5\n", false, false, 0, 0},
+        {"550,0\n600,1\n650,0\n", false, true, 0, 0},
+        {"550,.1\n600,1\n650,0\n", false, false, 0, 0},
+        {"400,.1\n600,1\n650,0\n", false, true, 2e-6, 0.0005}};
     Curve  curve;
-    double held;
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        assert_done(curve_parse(cases[i].text, "x.csv", CURVE_SHARES, &curve, &held, &err));
-        assert_in(held, cases[i].low, cases[i].high);
-    }
+    double beyond;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (int light = 0; light < 2; light++) {
+            CurveRange range = light ? CURVE_AMOUNTS : CURVE_SHARES;
+            bool ok = curve_parse(cases[i].text, "x.csv", range, &curve, &beyond, why());
+            if (ok != (light ? cases[i].is_light : cases[i].is_read))
+                fail_msg("%s %d", cases[i].text, light);
+            if (ok) assert_in(beyond, cases[i].low, cases[i].high);
+            else assert_error_has(why(), "required from 400 to 700 nm or beyond");
+        }
+    assert_false(curve_parse_index("410,1,2\n780,1,2\n", "x.csv", &curve, &(Curve){0}, NULL,
+                                   why()));
+    assert_error_has(why(), "from 410 to 780 nm, required from 400 to 700 nm or beyond");
     const char *um = "um,value\n.38,.5\n.78,.5\n";
     assert_false(curve_parse(um, "x.csv", CURVE_SHARES, &curve, NULL, why()));
     assert_error_has(why(), "in micrometres? Required are nm");
@@ -421,12 +440,13 @@ ARENA_TEST(primaries_hold_light_and_all_that_is_seen)
         {"380,0,0,0,0\n450,0,0,1,0\n550,0,1,-.5,0\n620,1,0,0,0\n700,0,0,0,0\n",
          "column 'blue' holds -0.5, required 0 or more"},
         {"380,0,0,0,0\n450,0,0,1,0\n550,0,1,0,0\n620,1,0,0,0\n",
-         "column 'red' goes from 380 to 620 nm and ends in light"}};
+         "column 'red' goes from 380 to 620 nm and ends in light, required 400 to 700 nm"}};
     static float spectrum[3][SPECTRAL_COUNT];
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const char *name = in_folder("primaries.csv");
         write_text(name, arena_format(&arena, "nm,red,green,blue,black\n%s", cases[i].rows));
-        bool ok = primary_spectra_read(name, &arena, spectrum, why());
+        double beyond = 0;
+        bool   ok = primary_spectra_read(name, &arena, spectrum, &beyond, why());
         remove(name);
         assert_true(ok == !cases[i].message);
         if (!ok) assert_error_has(why(), cases[i].message);

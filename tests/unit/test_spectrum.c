@@ -295,7 +295,7 @@ TEST(a_curve_file_may_have_comments_and_a_header)
     static Curve curve;
     const char  *path = in_folder("curve.csv");
     write_text(path, "\xef\xbb\xbf# glass\nnm,transmittance\n\n400,0.5\r\n500 ; 0.75\n"
-                     "600\t0.25");
+                     "700\t0.25");
     assert_done(curve_read(path, &curve, &err));
     remove(path);
     assert_close(curve.value[0], 0.5, 1e-6);
@@ -315,8 +315,8 @@ TEST(a_bad_curve_file_is_refused_with_its_line)
         {"400,1\n500\n", "line 2: found \"500\", wanted two numbers"},
         {"400,1,\n500,1\n", "line 1: found \"400,1,\", wanted two numbers"},
         {" 400\n500,1\n", "line 1: found \" 400\", wanted two numbers"},
-        {"0.4,1\n0.7,2\n", "wavelengths from 0.4 to 0.7 nm, none from 400 to 700"},
-        {"900,1\n1e3,2\n", "wavelengths from 900 to 1000 nm, none from 400 to 700"},
+        {"0.4,1\n0.7,2\n", "wavelengths from 0.4 to 0.7 nm, required from 400 to 700"},
+        {"900,1\n1e3,2\n", "wavelengths from 900 to 1000 nm, required from 400 to 700"},
         {"400,nan\n", "line 1: wavelength 400 nm with value nan: wanted finite numbers"},
         {"-5,1\n", "line 1: wavelength -5 nm with value 1: wanted finite numbers, nm above 0"},
         {"400,1e31\n", "value 1e+31: wanted finite numbers, nm above 0, up to 1e+12"},
@@ -341,7 +341,7 @@ TEST(a_value_out_of_range_is_refused_with_its_line)
 {
     static Curve curve;
     char         line[2048];
-    const char  *text = "nm,value\n400,0.5\n500,1.25\n600,-0.1\n";
+    const char  *text = "nm,value\n400,0.5\n500,1.25\n600,-0.1\n700,0\n";
     static const char *const MESSAGES[] = {
         [CURVE_AMOUNTS] = "x.csv: line 4: holds -0.1; 0 or more is wanted",
         [CURVE_SHARES] = "x.csv: line 3: holds 1.25; 0 to 1 is wanted"};
@@ -351,14 +351,15 @@ TEST(a_value_out_of_range_is_refused_with_its_line)
         error_line(why(), line, sizeof line);
         assert_string_equal(line, MESSAGES[range]);
     }
-    assert_done(curve_parse("400,0\n500,1\n", "x.csv", CURVE_SHARES, &curve, NULL, &err));
+    assert_done(curve_parse("400,0\n700,1\n", "x.csv", CURVE_SHARES, &curve, NULL, &err));
 }
 
 TEST(a_file_of_indices_has_three_columns_and_is_refused_with_its_line)
 {
     static Curve n, k;
     assert_done(
-        curve_parse_index("nm,n,k\n400,0.5,2\n500 1 4\n", "metal.csv", &n, &k, NULL, &err));
+        curve_parse_index("nm,n,k\n400,0.5,2\n500 1 4\n700,1,4\n", "metal.csv", &n, &k, NULL,
+                          &err));
     assert_close(n.value[450 - 360], 0.75, 1e-6);
     assert_close(k.value[450 - 360], 3, 1e-6);
     assert_close(k.value[CURVE_COUNT - 1], 4, 1e-6);

@@ -306,19 +306,38 @@ static bool fill_question(const CsvTable *csv, int row, Arena *arena, PanelQuest
                     arena_string(arena, err->text, strlen(err->text)));
 }
 
+/* Columns of the kind that is asked for, so that none is passed over. */
+static bool check_columns(const CsvTable *csv, const EvalRequest *request, Error *err)
+{
+    bool is_brdf = request->question.is_brdf, has_incidence = request->has_incidence;
+    for (int c = 0; c < csv->columns; c++) {
+        const char *name = csv->name[c];
+        has_incidence |= !strcmp(name, "incidence");
+        if (is_brdf ? panel_question_is_of_emission(name) : panel_question_is_of_brdf(name))
+            return error_at(err, ERROR_INPUT, csv->file, "header line", "column '%s' is of "
+                            "%s", name, is_brdf ? "an emission, and --brdf asks for reflection"
+                                                : "a reflection, which --brdf asks for");
+    }
+    return !is_brdf || has_incidence ||
+           error_at(err, ERROR_INPUT, csv->file, "header line", "has no column 'incidence', "
+                    "required with --brdf (or --incidence T)");
+}
+
 static bool answer_batch(const Panel *panel, const EvalRequest *request, const Cli *cli,
                          Arena *arena, Error *err)
 {
     CsvTable       csv;
     PanelQuestion *list;
-    if (!csv_table_read(request->batch, arena, &csv, err)) return false;
+    if (!csv_table_read(request->batch, arena, &csv, err) ||
+        !check_columns(&csv, request, err))
+        return false;
     list = ARENA_NEW(arena, PanelQuestion, csv.rows);
     for (int i = 0; i < csv.rows; i++) {
         list[i] = request->question;
         if (!fill_question(&csv, i, arena, &list[i], err)) return false;
     }
     json_t *answers = json_array();
-    if (request->wants_csv) panel_answer_csv_header(panel, &list[0], stdout);
+    if (request->wants_csv) panel_answer_csv_header(&list[0], stdout);
     for (int i = 0; i < csv.rows; i++) {
         if (request->wants_csv)
             panel_answer_csv(panel, &list[i], stdout);
@@ -340,7 +359,7 @@ static bool answer_one(const Panel *panel, const EvalRequest *request, const Cli
     const PanelQuestion *q = &request->question;
     if (cli->json) return cli_print_json(answer_json(panel, q, &request->level), err);
     if (request->wants_csv) {
-        panel_answer_csv_header(panel, q, stdout);
+        panel_answer_csv_header(q, stdout);
         panel_answer_csv(panel, q, stdout);
     } else {
         panel_answer_print(panel, q);
@@ -394,6 +413,9 @@ static bool check_request(const EvalRequest *request, const Cli *cli, Error *err
     if (request->batch && request->grid)
         return error_set(err, ERROR_USAGE, "--batch and --grid exclude each other");
     if (request->grid && !panel_grid_parse(request->grid, &grid, err)) return false;
+    if (!q->is_brdf && (request->has_incidence || q->wavelength_nm > 0))
+        return error_set(err, ERROR_USAGE, "%s is of a reflection, which --brdf asks for",
+                         request->has_incidence ? "--incidence" : "--wavelength");
     if (request->batch) return true;
     if (!request->grid && !request->has_theta)
         return error_set(err, ERROR_USAGE, "panel eval wants --theta T (or --grid, --batch)");
@@ -443,7 +465,7 @@ static bool run_eval(int argc, char **argv, Arena *arena, Error *err)
         {"--batch", OPTION_TEXT, "FILE.csv",
          "one question a row; columns theta, phi, r, g, b, incidence, ...", &r.batch},
         {"--csv", OPTION_FLAG, NULL,
-         "answers as comma-separated rows: XYZ in cd/m2, or sr^-1 a wavelength in nm",
+         "answers as comma-separated rows: XYZ in cd/m2, or sr^-1, a row a wavelength",
          &r.wants_csv},
     };
     const CliCommand command = {"panel eval",

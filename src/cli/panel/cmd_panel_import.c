@@ -90,7 +90,7 @@ typedef struct Words {
     CliTexts    roles, skip, gloss, list[KEYS_MAX];
     const char *key[KEYS_MAX]; /* of the text tables' keys */
     double      wavelength_nm, area_mm[2];
-    bool        has_area, is_isotropic, black_is_zero;
+    bool        has_area, is_isotropic, black_is_zero, accepts_repeats;
 } Words;
 
 /* "azimuth_zero" is the option --azimuth-zero. */
@@ -141,6 +141,8 @@ static int list_options(Words *words, Option *option, Arena *arena)
          "of the sample: fills what was not measured", &words->symmetry},
         {"--no-black", OPTION_FLAG, NULL, "the black pattern was subtracted already",
          &words->black_is_zero},
+        {"--accept", OPTION_FLAG, NULL, "take the mean of repeated directions or runs also "
+         "where they contradict each other", &words->accepts_repeats},
         {"--panel", OPTION_TEXT, "NAME", "the panel's name in the manifest", &words->panel},
         {"--instrument", OPTION_TEXT, "NAME", "the instrument's name in the manifest",
          &words->instrument},
@@ -237,6 +239,7 @@ static bool make_request(const Words *words, Arena *arena, ImportRequest *reques
     if (words->instrument) request->instrument = words->instrument;
     request->is_isotropic |= words->is_isotropic;
     request->black_is_zero |= words->black_is_zero;
+    request->accepts_repeats |= words->accepts_repeats;
     return true;
 }
 

@@ -28,6 +28,24 @@ double *panel_question_member(PanelQuestion *q, const char *name)
     return NULL;
 }
 
+static bool is_among(const char *name, const char *const *list)
+{
+    while (*list && strcmp(*list, name)) list++;
+    return *list != NULL;
+}
+
+bool panel_question_is_of_brdf(const char *name)
+{
+    static const char *const names[] = {"incidence", "incidence_phi", "wavelength", NULL};
+    return is_among(name, names);
+}
+
+bool panel_question_is_of_emission(const char *name)
+{
+    static const char *const names[] = {"r", "g", "b", NULL};
+    return is_among(name, names);
+}
+
 static bool is_anywhere(const PanelQuestion *q)
 {
     return isnan(q->at[0]) && isnan(q->at[1]);
@@ -167,34 +185,21 @@ void panel_answer_print(const Panel *panel, const PanelQuestion *q)
 
 /* ---- CSV ------------------------------------------------------------------------------- */
 
-void panel_answer_csv_header(const Panel *panel, const PanelQuestion *q, FILE *out)
+void panel_answer_csv_header(const PanelQuestion *q, FILE *out)
 {
-    float nm[PANEL_INFO_WAVELENGTHS_MAX];
-    if (!q->is_brdf) {
-        print_to(out, "theta,phi,r,g,b,X,Y,Z,measured\n");
-        return;
-    }
-    print_to(out, "theta,phi,incidence,incidence_phi,measured");
-    int count = panel_info_wavelengths(panel, nm);
-    for (int i = 0; i < count && !(q->wavelength_nm > 0); i++)
-        print_to(out, ",%.9g", (double)nm[i]);
-    if (q->wavelength_nm > 0) print_to(out, ",wavelength,brdf,mirror");
-    print_to(out, "\n");
+    print_to(out, q->is_brdf ? "theta,phi,incidence,incidence_phi,wavelength,brdf,mirror,"
+                               "measured\n"
+                             : "theta,phi,r,g,b,X,Y,Z,measured\n");
 }
 
 static void csv_reflection(const Panel *panel, const PanelQuestion *q, FILE *out)
 {
     PanelReflected r;
     panel_ask_reflection(panel, q, &r);
-    print_to(out, "%.10g,%.10g,%.10g,%.10g,%d", q->theta, q->phi, q->incidence,
-             q->incidence_phi, (int)r.is_measured);
-    if (q->wavelength_nm > 0) {
-        print_to(out, ",%.10g,%.9g,%.9g\n", q->wavelength_nm, (double)r.brdf[0],
-                 (double)r.mirror[0]);
-        return;
-    }
-    for (int i = 0; i < r.count; i++) print_to(out, ",%.9g", (double)r.brdf[i]);
-    print_to(out, "\n");
+    for (int i = 0; i < r.count; i++)
+        print_to(out, "%.10g,%.10g,%.10g,%.10g,%.9g,%.9g,%.9g,%d\n", q->theta, q->phi,
+                 q->incidence, q->incidence_phi, (double)r.nm[i], (double)r.brdf[i],
+                 (double)r.mirror[i], (int)r.is_measured);
 }
 
 void panel_answer_csv(const Panel *panel, const PanelQuestion *q, FILE *out)

@@ -33,6 +33,10 @@ typedef struct PanelReflected {
 /* Unit vector of a direction in degrees. */
 Vec3 panel_direction(double theta_deg, double phi_deg);
 
+/* Members that one kind of question asks with. */
+bool panel_question_is_of_brdf(const char *name);
+bool panel_question_is_of_emission(const char *name);
+
 /* The member that an option or a column of that name fills; NULL: there is none. */
 double *panel_question_member(PanelQuestion *question, const char *name);
 
@@ -47,6 +51,7 @@ void panel_ask_reflection(const Panel *panel, const PanelQuestion *question,
 json_t *panel_answer_json(const Panel *panel, const PanelQuestion *question);
 void    panel_answer_print(const Panel *panel, const PanelQuestion *question);
 
-/* A header line, and then rows, of the question and its answer. */
-void panel_answer_csv_header(const Panel *panel, const PanelQuestion *question, FILE *out);
+/* A header line, and then rows, of the question and its answer: one of an emission, one for
+ * each wavelength of a reflection. */
+void panel_answer_csv_header(const PanelQuestion *question, FILE *out);
 void panel_answer_csv(const Panel *panel, const PanelQuestion *question, FILE *out);

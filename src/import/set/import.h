@@ -78,6 +78,7 @@ typedef struct ImportSet {
     bool          is_isotropic;      /* the user states that it does not, against any tables */
     ImportSymmetry symmetry;
     bool          black_is_zero;     /* the user states that black was subtracted */
+    bool          accepts_repeats;   /* the user takes means of what contradicts itself */
     const char   *panel, *instrument; /* names for the manifest; NULL: the file's */
     double        white_reflectance; /* of the reference: Lambertian, 0 to 1 (default 1) */
     ImportSpectra spectra;

@@ -406,65 +406,115 @@ static void take_means(ImportTable *table, const int *leader, int rows, Arena *a
     import_rows_give_measured(&means, table);
 }
 
-#define REPEATS_APART 1.25 /* a factor: beyond it they are not one measurement, */
+#define REPEATS_APART 0.1  /* share: runs further apart are not one measurement, */
 #define REPEATS_SURE  3    /* where the sum of differences is so many times what noise makes */
+#define REPEATS_WORST 0.5  /* share: so far apart no single direction was measured twice */
+#define REPEATS_POLES 4    /* rows at theta 0: so many tell the fit which of them is wrong */
+#define REPEATS_FLOOR 0.05 /* of a channel's largest: what is less is compared with that */
 
 /* What stands again beside what stood first at the same directions. */
 typedef struct Repeats {
+    int    count;
     double ratio; /* of all values that stand again to those that stood first */
     double sure;  /* the sum of the differences over the root of the sum of their squares */
+    double worst; /* largest difference of two values of one direction, of the larger */
+    int    row;   /* that has it */
 } Repeats;
 
-static Repeats compare_repeats(const ImportTable *table, const int *leader)
+static double largest_of(const ImportTable *table, size_t channel)
 {
-    double first = 0, again = 0, squares = 0;
-    size_t size = (size_t)table->channels;
+    double most = 0;
+    for (int i = 0; i < table->rows; i++)
+        most = fmax(most, table->value[(size_t)i * (size_t)table->channels + channel]);
+    return most;
+}
+
+/* Adds channel c of a repetition; returns by how much it is more. */
+static double compare_value(double old, double value, double floor, int row, Repeats *out)
+{
+    double apart = fabs(value - old) / fmax(fmax(old, value), floor);
+    if (apart > out->worst) {
+        out->worst = apart;
+        out->row = row;
+    }
+    return value - old;
+}
+
+static void compare_repeats(const ImportTable *table, const int *leader, Arena scratch,
+                            Repeats *out)
+{
+    double  first = 0, again = 0, squares = 0;
+    size_t  size = (size_t)table->channels;
+    double *floor = ARENA_NEW(&scratch, double, size);
+    int     pole = -1, poles = 0;
+    for (int i = table->rows - 1; i >= 0; i--) {
+        if (STEPS(table->theta_deg[i])) continue;
+        pole = i;
+        poles++;
+    }
+    for (size_t c = 0; c < size; c++)
+        floor[c] = fmax(1e-30, REPEATS_FLOOR * largest_of(table, c));
     for (int i = 0; i < table->rows; i++) {
+        bool   is_pole = poles < REPEATS_POLES && !STEPS(table->theta_deg[i]);
+        int    older = is_pole ? pole : leader[i];
         double apart = 0;
-        for (size_t c = 0; c < size && leader[i] != i; c++) {
-            double old = table->value[(size_t)leader[i] * size + c];
+        for (size_t c = 0; c < size && older != i; c++) {
+            double old = table->value[(size_t)older * size + c];
+            double value = table->value[(size_t)i * size + c];
             first += old;
-            again += table->value[(size_t)i * size + c];
-            apart += table->value[(size_t)i * size + c] - old;
+            again += value;
+            apart += compare_value(old, value, floor[c], i, out);
         }
         squares += apart * apart;
     }
     bool is_light = first > 0 && again > 0 && squares > 0;
-    return (Repeats){is_light ? again / first : 1,
-                     is_light ? fabs(again - first) / sqrt(squares) : 0};
+    out->ratio = is_light ? again / first : 1;
+    out->sure = is_light ? fabs(again - first) / sqrt(squares) : 0;
 }
 
 /* Noise goes out of the sums; another scale of a second run does not. */
-static bool check_repeats(const ImportTable *table, int repeats, Repeats found, Error *err)
+static bool check_repeats(const ImportTable *table, const Repeats *found, Error *err)
 {
-    bool is_apart = found.ratio > REPEATS_APART || found.ratio < 1 / REPEATS_APART;
-    return !is_apart || found.sure < REPEATS_SURE ||
+    double apart = 1 - fmin(found->ratio, 1 / found->ratio);
+    if (apart > REPEATS_APART && found->sure >= REPEATS_SURE)
+        return error_at(err, ERROR_INPUT, table->file, "",
+                        "%d directions stand more than once, with %.3g times the light when "
+                        "they stand again: required within %g %% — leave one run out, or say "
+                        "--accept for their mean", found->count, found->ratio,
+                        100 * REPEATS_APART);
+    return found->worst <= REPEATS_WORST ||
            error_at(err, ERROR_INPUT, table->file, "",
-                    "%d directions stand more than once, with %.3g times the light when they "
-                    "stand again: required within %g times — leave one run out", repeats,
-                    found.ratio, REPEATS_APART);
+                    "theta %g, phi %g stands more than once, and its values are %.3g %% apart: "
+                    "required within %g %% (of what is at least %g %% of the table's largest) "
+                    "— leave one out, or say --accept for their mean",
+                    table->theta_deg[found->row], table->phi_deg[found->row],
+                    100 * found->worst, 100 * REPEATS_WORST, 100 * REPEATS_FLOOR);
 }
 
 bool import_merge_directions(ImportSet *set, Error *err)
 {
-    int    total = 0, tables = 0;
-    double most = 1;
+    int         total = 0, tables = 0;
+    double      most = -1;
+    const char *worst = "";
     for (int i = 0; i < set->count; i++) {
         ImportTable *table = &set->table[i];
-        Arena before = *set->arena;
-        int  *leader = ARENA_NEW(set->arena, int, table->rows);
-        int   repeats = find_repeats(table, *set->arena, leader);
-        Repeats found = compare_repeats(table, leader);
-        if (!check_repeats(table, repeats, found, err)) return false;
-        if (repeats) take_means(table, leader, table->rows - repeats, set->arena);
-        else *set->arena = before;
-        if (fabs(found.ratio - 1) > fabs(most - 1)) most = found.ratio;
-        total += repeats;
-        tables += repeats > 0;
+        int    *leader = ARENA_NEW(set->arena, int, table->rows);
+        Repeats found = {.count = find_repeats(table, *set->arena, leader)};
+        compare_repeats(table, leader, *set->arena, &found);
+        if (!set->accepts_repeats && !check_repeats(table, &found, err)) return false;
+        if (!found.count) continue;
+        if (found.worst > most)
+            worst = arena_format(set->arena, "%.2g %% (%s, theta %g, phi %g; its second values "
+                                 "have %.3g times the light)", 100 * found.worst,
+                                 path_name(table->file), table->theta_deg[found.row],
+                                 table->phi_deg[found.row], found.ratio);
+        most = fmax(most, found.worst);
+        take_means(table, leader, table->rows - found.count, set->arena);
+        total += found.count;
+        tables++;
     }
     if (total)
-        import_note(set,
-                    "%d directions of %d tables stood more than once, with up to %.3g times "
-                    "the light: their mean was taken", total, tables, most);
+        import_note(set, "%d directions of %d tables stood more than once and disagree by up "
+                    "to %s: their mean was taken", total, tables, worst);
     return true;
 }

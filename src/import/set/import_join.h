@@ -24,6 +24,7 @@ void import_remove_source(ImportSet *set, ImportSource source);
 bool import_join_parts(ImportSet *set, Error *err);
 
 /* A direction that stands more than once in a table becomes the mean of its values; theta 0
- * is left alone. Fails where what stands again is all in all another light than what stood
- * first: noise goes out of that sum, two runs of different scale do not. */
+ * is left alone. A note says how far they disagree. Unless the set accepts them, it fails where
+ * what stands again is all in all another light than what stood first (noise goes out of that
+ * sum, two runs of different scale do not), or one direction contradicts itself. */
 bool import_merge_directions(ImportSet *set, Error *err);

@@ -12,6 +12,18 @@
 #include "panel/query/panel_opened.h"
 #include "panel/query/panel_report.h"
 #include "panel/query/sampling_make.h"
+#include "spectrum/curve.h"
+
+/* Wavelengths are few in many real measurements (one, or three): said, not refused. */
+static void note_wavelengths(const Measurement *set, FitNotes *notes)
+{
+    double first = (double)set->wavelength_nm[0];
+    double last = (double)set->wavelength_nm[set->wavelength_count - 1];
+    double beyond = curve_beyond(first, last, (CurveEnds){false, false});
+    if (beyond > 0)
+        fit_note(notes, "reflection is measured from %g to %g nm: %.2g %% of V(lambda) is "
+                 "extrapolated, the end values stand there", first, last, 100 * beyond);
+}
 
 static void note_limits(const Measurement *set, FitNotes *notes)
 {
@@ -31,6 +43,10 @@ static void note_limits(const Measurement *set, FitNotes *notes)
             fit_note(notes, "%s is measured up to level %g only; above, its power law goes on",
                      primary_names[p],
                      set->primary[p].level[set->primary[p].level_count - 1]);
+    if (set->spectra_beyond > 0)
+        fit_note(notes, "%.2g %% of V(lambda) lies beyond the primaries' spectra, which end in "
+                 "light: dark is taken", 100 * set->spectra_beyond);
+    if (set->incidence_count) note_wavelengths(set, notes);
     if (set->incidence_count)
         fit_note(notes, "reflection beyond %.0f degrees of incidence is that of the two "
                  "directions exchanged where they were measured, else extrapolated: the haze "

@@ -512,7 +512,8 @@ static bool read_members(const JsonView *root, Measurement *out, Error *err)
         read_map(root, out, err);
     if (!ok || !primaries) return ok;
     out->has_spectra = json_view_file(root, "primaries", primaries, &primaries, err) &&
-                       primary_spectra_read(primaries, root->arena, out->spectrum, err);
+                       primary_spectra_read(primaries, root->arena, out->spectrum,
+                                            &out->spectra_beyond, err);
     share_spectra(out);
     return out->has_spectra;
 }

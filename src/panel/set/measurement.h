@@ -38,6 +38,7 @@ typedef struct Measurement {
     MeasuredPrimary primary[3];
     bool        has_spectra;
     float       spectrum[3][SPECTRAL_COUNT]; /* relative, every nm from SPECTRAL_FIRST_NM */
+    double      spectra_beyond; /* share of V(lambda) where light of them was not measured */
     int         incidence_count, wavelength_count; /* 0: no reflection data */
     double      incidence[MEASUREMENT_INCIDENCES_MAX]; /* radians, rising */
     float       wavelength_nm[MEASUREMENT_WAVELENGTHS_MAX]; /* rising */

@@ -8,8 +8,7 @@
 #include "spectrum/curve.h"
 #include "text/csv_table.h"
 
-#define NOISE_MOST 0.02   /* below zero, of a column's largest */
-#define LEFT_OUT_MOST 0.1 /* of what is seen, beyond the measured wavelengths */
+#define NOISE_MOST 0.02 /* below zero, of a column's largest */
 
 /* Linear between measured wavelengths, zero outside them. */
 static void resample_spectrum(const CsvTable *csv, int nm_column, int column, float *out)
@@ -42,10 +41,21 @@ static bool check_spectra(const CsvTable *csv, int nm_column, Arena *arena, Erro
     return true;
 }
 
+bool primary_spectrum_reaches(const PrimaryColumn *column, double *beyond, Error *err)
+{
+    double    first_nm = column->nm[0], last_nm = column->nm[column->count - 1];
+    CurveEnds dark = curve_dark_ends(column->value, column->count, NOISE_MOST);
+    *beyond = fmax(*beyond, curve_beyond(first_nm, last_nm, dark));
+    return curve_reaches(first_nm, last_nm, dark) ||
+           error_at(err, ERROR_INPUT, column->file, "", "column '%s' goes from %g to %g nm and "
+                    "ends in light, required %d to %d nm or beyond", column->name,
+                    first_nm, last_nm, CURVE_SEEN_FIRST_NM, CURVE_SEEN_LAST_NM);
+}
+
 /* Noise below zero is left out; more is no light. Wavelengths that are not measured count as
- * dark, so those that are seen are required. */
+ * dark. */
 static bool check_light(const CsvTable *csv, int nm_column, int column, Arena scratch,
-                        Error *err)
+                        double *beyond, Error *err)
 {
     double *nm = ARENA_NEW(&scratch, double, csv->rows);
     double *value = ARENA_NEW(&scratch, double, csv->rows), least = 0, most = 0;
@@ -61,13 +71,8 @@ static bool check_light(const CsvTable *csv, int nm_column, int column, Arena sc
         return error_at(err, ERROR_INPUT, csv->file, csv_table_place(csv, darkest, &scratch),
                         "column '%s' holds %g, required 0 or more (noise up to %g %% of its "
                         "largest, %g)", csv->name[column], least, 100 * NOISE_MOST, most);
-    double left_out = curve_held_share(nm, value, csv->rows);
-    return left_out <= LEFT_OUT_MOST ||
-           error_at(err, ERROR_INPUT, csv->file, "", "column '%s' goes from %g to %g nm and "
-                    "ends in light: %.0f %% of what is seen lies beyond, required at most "
-                    "%g %%",
-                    csv->name[column], nm[0], nm[csv->rows - 1], 100 * left_out,
-                    100 * LEFT_OUT_MOST);
+    return primary_spectrum_reaches(
+        &(PrimaryColumn){csv->file, csv->name[column], nm, value, csv->rows}, beyond, err);
 }
 
 static bool spectrum_has_light(const float *spectrum)
@@ -78,7 +83,7 @@ static bool spectrum_has_light(const float *spectrum)
 }
 
 bool primary_spectra_read(const char *file, Arena *arena, float spectrum[3][SPECTRAL_COUNT],
-                          Error *err)
+                          double *beyond, Error *err)
 {
     static const char *const known[] = {"nm", "red", "green", "blue", "black"};
     CsvTable csv;
@@ -92,7 +97,7 @@ bool primary_spectra_read(const char *file, Arena *arena, float spectrum[3][SPEC
     if (!check_spectra(&csv, nm, arena, err)) return false;
     for (int p = 0; p < 3; p++) {
         int column = csv_table_column(&csv, primary_names[p]);
-        if (!check_light(&csv, nm, column, *arena, err)) return false;
+        if (!check_light(&csv, nm, column, *arena, beyond, err)) return false;
         resample_spectrum(&csv, nm, column, spectrum[p]);
         if (!spectrum_has_light(spectrum[p]))
             return error_at(err, ERROR_INPUT, file, "", "column '%s' holds no light between "

@@ -33,21 +33,20 @@ static bool read_curve(RequestReading *reading, const JsonView *view, ReviewGlas
     FileBytes   bytes;
     Arena      *arena = view->arena;
     Curve      *curve = ARENA_NEW(arena, Curve, 1);
-    double      held;
+    double      beyond;
     if (!field_file(view, "transmittance", &path, err) ||
         !file_read(path, CURVE_FILE_BYTES_MAX, arena, &bytes, err) ||
         !curve_parse(arena_string(arena, (const char *)bytes.data, bytes.size), path,
-                     CURVE_SHARES, curve, &held, err) ||
+                     CURVE_SHARES, curve, &beyond, err) ||
         !request_note_file(reading, path, err))
         return false;
     bool lets_some = false;
     for (int i = 0; i < CURVE_COUNT; i++) lets_some |= curve->value[i] > 0;
     if (!lets_some)
         return field_fails(view, "transmittance", err, "lets no light through, wanted some");
-    if (held > CURVE_HELD_MOST)
-        problems_add(reading->problems, SEVERITY_WARNING, path, "", "measured wavelengths "
-                     "leave out %.0f %% of what is seen, required %d to %d nm: its end values "
-                     "are held there", 100 * held, CURVE_SEEN_FIRST_NM, CURVE_SEEN_LAST_NM);
+    if (beyond > 0)
+        problems_add(reading->problems, SEVERITY_WARNING, path, "", CURVE_BEYOND_WARNING,
+                     path_name(path), 100 * beyond, CURVE_WHOLE_FIRST_NM, CURVE_WHOLE_LAST_NM);
     out->curve = curve;
     out->words = arena_format(arena, "sunglasses as %s has them", path_name(path));
     return true;

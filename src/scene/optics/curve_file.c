@@ -20,24 +20,23 @@ static bool read_text(GltfFile *file, const GltfValue *uri, CurveText *out)
            file_error_within(file, uri, &err);
 }
 
-static void warn_of_held(GltfFile *file, const GltfValue *uri, const CurveText *from,
-                         double held)
+static void warn_of_beyond(GltfFile *file, const GltfValue *uri, const CurveText *from,
+                           double beyond)
 {
-    if (held > CURVE_HELD_MOST)
-        file_warning(file, uri, "%s: measured wavelengths leave out %.0f %% of what is seen of "
-                     "it, required %d to %d nm: its end values are held there", from->path,
-                     100 * held, CURVE_SEEN_FIRST_NM, CURVE_SEEN_LAST_NM);
+    if (beyond > 0)
+        file_warning(file, uri, CURVE_BEYOND_WARNING, from->path, 100 * beyond,
+                     CURVE_WHOLE_FIRST_NM, CURVE_WHOLE_LAST_NM);
 }
 
 bool curve_file_read(GltfFile *file, const GltfValue *uri, CurveRange range, Curve *out)
 {
     Error     err;
     CurveText from;
-    double    held;
+    double    beyond;
     if (!read_text(file, uri, &from)) return false;
-    if (!curve_parse(from.text, from.path, range, out, &held, &err))
+    if (!curve_parse(from.text, from.path, range, out, &beyond, &err))
         return file_error_within(file, uri, &err);
-    warn_of_held(file, uri, &from, held);
+    warn_of_beyond(file, uri, &from, beyond);
     return true;
 }
 
@@ -45,13 +44,13 @@ const OpticalConstants *curve_file_index(GltfFile *file, const GltfValue *uri)
 {
     Error     err;
     CurveText from;
-    double    held;
+    double    beyond;
     if (!uri || !read_text(file, uri, &from)) return NULL;
     OpticalConstants *out = ARENA_NEW(file->load->arena, OpticalConstants, 1);
-    if (!curve_parse_index(from.text, from.path, &out->n, &out->k, &held, &err)) {
+    if (!curve_parse_index(from.text, from.path, &out->n, &out->k, &beyond, &err)) {
         file_error_within(file, uri, &err);
         return NULL;
     }
-    warn_of_held(file, uri, &from, held);
+    warn_of_beyond(file, uri, &from, beyond);
     return out;
 }

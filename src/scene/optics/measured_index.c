@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "scene/gltf/document.h"
+#include "spectrum/curve.h"
 #include "spectrum/dispersion.h"
 
 #define ROOM_K 293.0
@@ -17,6 +18,7 @@ typedef struct IndexFile {
     const GltfValue *uri; /* where the scene names it */
     const char      *path;
     bool             ok;
+    double           beyond; /* share of V(lambda), of n or k */
 } IndexFile;
 
 /* A fault at a place of the table file. Always false. */
@@ -40,12 +42,13 @@ static bool read_pair(const GltfValue *pair, double *nm, double *value)
     return *nm > 0 && *value >= 0 && *value <= INDEX_MAX;
 }
 
-/* One of "n" and "k". False: there is no visible wavelength in it, or it is not read. */
+/* One of "n" and "k". False: it does not reach, or it is not read. */
 static bool read_curve(IndexFile *from, const GltfValue *list, Curve *out)
 {
     Arena  *scratch = &from->file->load->scratch;
     double *nm = ARENA_NEW(scratch, double, list->count);
     double *value = ARENA_NEW(scratch, double, list->count);
+    const CurveEnds lit = {false, false};
     for (int i = 0; i < list->count; i++) {
         if (!read_pair(&list->items[i], &nm[i], &value[i]))
             return fails(from, &list->items[i], "a pair of a wavelength in m, above 0, and a "
@@ -54,7 +57,8 @@ static bool read_curve(IndexFile *from, const GltfValue *list, Curve *out)
             return fails(from, &list->items[i], "wavelengths that rise are wanted");
     }
     curve_from_points(nm, value, list->count, out);
-    return nm[0] <= CURVE_LAST_NM && nm[list->count - 1] >= CURVE_FIRST_NM;
+    from->beyond = fmax(from->beyond, curve_beyond(nm[0], nm[list->count - 1], lit));
+    return curve_reaches(nm[0], nm[list->count - 1], lit);
 }
 
 /* The list of that name; NULL: reported. */
@@ -112,7 +116,7 @@ static void check_sum(IndexFile *from, const GltfValue *data, const OpticalConst
                               "wanted");
 }
 
-/* NULL: reported, or it has no visible wavelength. */
+/* NULL: reported, or it does not reach over what is seen. */
 static const OpticalConstants *read_table(GltfFile *file, const GltfValue *uri)
 {
     IndexFile from = {.file = file, .uri = uri, .ok = true};
@@ -122,14 +126,17 @@ static const OpticalConstants *read_table(GltfFile *file, const GltfValue *uri)
     if (!data || !(n = array_of(&from, data, "n")) || !(k = array_of(&from, data, "k")))
         return NULL;
     OpticalConstants *out = ARENA_NEW(file->load->arena, OpticalConstants, 1);
-    bool is_visible = read_curve(&from, n, &out->n);
-    is_visible = read_curve(&from, k, &out->k) && is_visible;
-    if (is_visible) check_sum(&from, data, out);
+    bool reaches = read_curve(&from, n, &out->n);
+    reaches = read_curve(&from, k, &out->k) && reaches;
+    if (reaches) check_sum(&from, data, out);
     if (!from.ok) return NULL;
-    if (is_visible) return out;
-    file_warning(file, uri, "%s holds no wavelength from %d to %d nm: it is not used",
-                 from.path, CURVE_FIRST_NM, CURVE_LAST_NM);
-    return NULL;
+    if (!reaches)
+        file_warning(file, uri, "%s does not reach from %d to %d nm: it is not used",
+                     from.path, CURVE_SEEN_FIRST_NM, CURVE_SEEN_LAST_NM);
+    else if (from.beyond > 0)
+        file_warning(file, uri, CURVE_BEYOND_WARNING, from.path, 100 * from.beyond,
+                     CURVE_WHOLE_FIRST_NM, CURVE_WHOLE_LAST_NM);
+    return reaches ? out : NULL;
 }
 
 /* ---- materials -------------------------------------------------------------------------- */
