@@ -16,8 +16,8 @@
 
 /* Keys besides those of the text tables. */
 static const char *const other_keys[] = {"roles", "skip", "format", "wavelength_nm", "area_mm",
-    "panel", "instrument", "primaries", "levels", "specular", "specular_aperture_deg", "gloss",
-    "isotropic", "symmetry", "no_black", "accept", "note"};
+    "panel", "instrument", "date", "operator", "conditions", "primaries", "levels", "specular",
+    "specular_aperture_deg", "gloss", "isotropic", "symmetry", "no_black", "accept", "note"};
 
 static bool wrong_kind(const JsonView *view, const char *key, const char *wanted, Error *err)
 {
@@ -165,6 +165,9 @@ static bool read_others(const JsonView *root, ImportRequest *request, Error *err
               json_view_pair(root, "area_mm", 1e-3, 1e6, request->options.area_mm, err) &&
               json_view_text(root, "panel", &request->panel, err) &&
               json_view_text(root, "instrument", &request->instrument, err) &&
+              json_view_text(root, "date", &request->date, err) &&
+              json_view_text(root, "operator", &request->operator_name, err) &&
+              json_view_text(root, "conditions", &request->conditions, err) &&
               json_view_text(root, "primaries", &request->primaries, err) &&
               json_view_text(root, "levels", &request->levels, err) &&
               read_specular(root, &request->specular, err) &&
@@ -235,6 +238,9 @@ bool import_run(const char *const *file, int count, const ImportRequest *request
 {
     set->panel = request->panel;
     set->instrument = request->instrument;
+    set->date = request->date;
+    set->operator_name = request->operator_name;
+    set->conditions = request->conditions;
     set->is_isotropic = request->is_isotropic;
     set->symmetry = request->symmetry;
     set->black_is_zero = request->black_is_zero;

@@ -20,7 +20,7 @@ typedef struct ImportRequest {
     const char     *levels;    /* a gamma table of a white-only set; NULL: none */
     ImportSpecular  specular;  /* of a reflection */
     const char     *root;      /* --root: where else such a file may name files; or NULL */
-    const char     *panel, *instrument;
+    const char     *panel, *instrument, *date, *operator_name, *conditions;
     ImportSymmetry  symmetry;
     bool            is_isotropic, black_is_zero, accepts_repeats;
     ImportStep     *step; /* NULL: nobody waits */

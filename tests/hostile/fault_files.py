@@ -66,7 +66,8 @@ def writers(bench, folder):
         ("sim", ("panel", "simulate", RECIPE, "-o", to("sim"), "--grid", "4x6", "--quiet")),
         ("set", ("panel", "export", panel, "-o", to("set"), "--quiet")),
         ("plot.svg", ("panel", "plot", panel, "--kind", "luminance", "-o", to("plot.svg"))),
-        ("r.html", ("panel", "plot", panel, "--report", to("r.html"))),
+        ("r.html", ("panel", "report", panel, "-o", to("r.html"))),
+        ("tables", ("panel", "report", panel, "--csv", to("tables"))),
         ("sky.exr", ("sky", *SKY, "-o", to("sky.exr"), "--size", "64x32")),
         ("sky.png", ("sky", *SKY, "-o", to("sky.png"))),
     ]

@@ -45,7 +45,10 @@ LINES = {
                       {"-o": ".csv"})],
     "panel plot": [("panel plot other.panel -o OUT.svg --kind luminance --measured "
                     "set/MANIFEST.json", "other.panel set/MANIFEST.json set/white.csv "
-                    "set/levels.csv", {"-o": ".svg", "--report": ".html"})],
+                    "set/levels.csv", {"-o": ".svg"})],
+    "panel report": [("panel report other.panel -o OUT.html --measured set/MANIFEST.json",
+                      "other.panel set/MANIFEST.json set/white.csv set/levels.csv",
+                      {"-o": ".html"})],
     "panel simulate": [("panel simulate recipe.json -o OUT", "recipe.json", {})],
     "panel wavelets": [("panel wavelets set/MANIFEST.json -o OUT",
                         "set/MANIFEST.json set/white.csv set/levels.csv", {})],

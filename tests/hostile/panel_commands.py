@@ -396,7 +396,7 @@ def check_verdict(report, commands, panel):
                  and "verdict    not usable" in commands.text("info", path),
                  f"the file keeps {kept['verdict']}")
     page = commands.file("unit.html")
-    commands.text("plot", path, "--report", page, "--quiet")
+    commands.text("report", path, "-o", page, "--quiet")
     with open(page) as file:
         report.claim("Why it is not usable" in file.read(), "the report hides the verdict")
 

@@ -171,6 +171,7 @@ def check_panels(work):
             f"{theta},{phi},0.1\n" for theta in range(10, 81, 10) for phi in range(0, 181, 30)))
     work.write(manifest, {
         "panel": named("panel"), "instrument": named("meter"), "note": named("note"),
+        "date": named("date"), "operator": named("operator"), "conditions": named("room"),
         "reflection": {"wavelengths_nm": [550], "incidence_deg": [20],
                        "files": table.replace("20", "{incidence}")}})
     panel = named("fitted") + NO_UTF8 + ".panel"
@@ -178,7 +179,7 @@ def check_panels(work):
     found = work.run("panel", "info", panel)
     work.report.claim(found.get("panel") == named("panel"), "a panel's name is not given back")
     work.run("panel", "plot", panel, "-o", named("plot") + ".svg", asks_json=False)
-    work.run("panel", "plot", panel, "--report", named("plot") + ".html", asks_json=False)
+    work.run("panel", "report", panel, "-o", named("plot") + ".html")
     work.run("panel", "export", panel, "-o", named("exported") + NO_UTF8, asks_json=False)
     work.run("panel", "import", os.path.join(SET, table), "-o", os.path.join(SET, "I.json"),
              "--role", "*=white", asks_json=False, status=None)

@@ -140,7 +140,7 @@ def check_panels(work):
     work.claim_same("table", ["panel", "export", PANEL, "--table", "white 255"], ".csv")
     for kind, ending in itertools.product(("luminance", "brdf"), (".svg", ".png")):
         work.claim_same("plot", ["panel", "plot", PANEL, "--kind", kind], f".{kind}{ending}")
-    work.claim_same("panel report", ["panel", "plot", PANEL], ".panel.html", "--report")
+    work.claim_same("panel report", ["panel", "report", PANEL], ".panel.html")
     tables = [f"a_set/emission/{name}" for name in sorted(os.listdir(work.path(
         "a_set/emission"))) if "255" in name or name.startswith("black")]
     work.claim_same("import", ["panel", "import", *tables], "_in/MANIFEST.json")

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* panel plot as a whole: pictures and reports of a small synthetic panel, and its errors. */
+/* panel plot and the page of panel report: pictures of a small synthetic panel, and errors. */
 #include "panel_fixture.h"
 
 #include <ctype.h>
@@ -55,21 +55,23 @@ static int end(void **state)
     return 0;
 }
 
-/* Runs `panel plot` with these arguments; a list that ends in NULL. */
-static bool run(Error *err, const char *first, ...)
+/* Runs a command with these arguments; a list that ends in NULL. */
+static bool run(const Command *command, Error *err, ...)
 {
-    char   *argv[24] = {(char *)"plot", (char *)first};
-    int     argc = 2;
+    char   *argv[24] = {(char *)command->name};
+    int     argc = 1;
     va_list list;
-    va_start(list, first);
+    va_start(list, err);
     for (char *a; (a = va_arg(list, char *)) && argc < 24; argc++) argv[argc] = a;
     va_end(list);
     ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 32);
-    return command_panel_plot.run(argc, argv, &arena, err);
+    return command->run(argc, argv, &arena, err);
 }
 
-#define RUN_FAILS(code, part, ...) assert_fails_as(run(&err, __VA_ARGS__, NULL), code, part)
-#define RUN_OK(...) assert_done(run(&err, __VA_ARGS__, NULL))
+#define RUN_FAILS(code, part, ...)                                                             \
+    assert_fails_as(run(&command_panel_plot, &err, __VA_ARGS__, NULL), code, part)
+#define RUN_OK(...) assert_done(run(&command_panel_plot, &err, __VA_ARGS__, NULL))
+#define REPORT_OK(...) assert_done(run(&command_panel_report, &err, __VA_ARGS__, NULL))
 
 /* Tags nest, attributes are quoted, no stray & or <. Returns the number of elements. */
 static int assert_well_formed(const char *p)
@@ -156,7 +158,8 @@ static void assert_ids_are_whole(const char *text)
 TEST(every_kind_draws_svg)
 {
     for (int kind = 0; kind < PLOT_KIND_COUNT; kind++) {
-        if (kind == PLOT_FIT || kind == PLOT_UNIFORMITY) continue; /* of other files */
+        if (kind == PLOT_FIT || kind == PLOT_UNIFORMITY || kind == PLOT_GREY_INVERSION)
+            continue; /* of other files */
         RUN_OK(ips.panel_path, "-o", fixture_path(&ips, "k.svg"), "--kind",
                plot_kind_name((PlotKind)kind));
         const char *svg = read_text(fixture_path(&ips, "k.svg"), &ips.arena);
@@ -206,10 +209,12 @@ TEST(the_same_call_writes_the_same_bytes)
         {"1.svg", "2.svg"}, {"1.png", "2.png"}, {"1.html", "2.html"}};
     Fixture *fixture = &reflects_nothing;
     for (int i = 0; i < 3; i++) {
-        for (int k = 0; k < 2; k++)
-            RUN_OK(fixture->panel_path, i == 2 ? "--report" : "-o", fixture_path(fixture,
-                                                                                 NAMES[i][k]),
-                   "--size", "640x480", "--kind", "luminance", "--threads", k ? "2" : "1");
+        for (int k = 0; k < 2; k++) {
+            const char *name = fixture_path(fixture, NAMES[i][k]), *threads = k ? "2" : "1";
+            if (i == 2) REPORT_OK(fixture->panel_path, "-o", name, "--threads", threads);
+            else RUN_OK(fixture->panel_path, "-o", name, "--size", "640x480", "--kind",
+                        "luminance", "--threads", threads);
+        }
         FileBytes a = read_bytes(fixture_path(fixture, NAMES[i][0]), &fixture->arena);
         FileBytes b = read_bytes(fixture_path(fixture, NAMES[i][1]), &fixture->arena);
         assert_int_equal(a.size, b.size);
@@ -221,7 +226,7 @@ TEST(the_same_call_writes_the_same_bytes)
 
 TEST(the_report_stands_alone)
 {
-    RUN_OK(reflects_nothing.panel_path, "--report", fixture_path(&reflects_nothing, "r.html"),
+    REPORT_OK(reflects_nothing.panel_path, "-o", fixture_path(&reflects_nothing, "r.html"),
            "--measured", fixture_path(&reflects_nothing, "MANIFEST.json"));
     const char *html = read_text(fixture_path(&reflects_nothing, "r.html"),
                                  &reflects_nothing.arena);
@@ -241,7 +246,7 @@ TEST(the_report_stands_alone)
 /* Both angle brackets inside the script would end up as tags here; it is taken out first. */
 TEST(the_report_is_well_formed)
 {
-    RUN_OK(ips.panel_path, "--report", fixture_path(&ips, "w.html"));
+    REPORT_OK(ips.panel_path, "-o", fixture_path(&ips, "w.html"));
     char *html = (char *)read_bytes(fixture_path(&ips, "w.html"), &ips.arena).data;
     char *script = strstr(html, "<script>"), *after = strstr(html, "</script>");
     assert_true(script && after && script < after);
@@ -261,7 +266,6 @@ TEST(a_wrong_command_line_says_what_is_wanted)
     RUN_FAILS(ERROR_USAGE, "contrast", panel, "-o", svg, "--kind", "luminanz");
     RUN_FAILS(ERROR_USAGE, "wants -o X.svg", panel);
     RUN_FAILS(ERROR_USAGE, ".svg or .png", panel, "-o", fixture_path(&ips, "e.pdf"));
-    RUN_FAILS(ERROR_USAGE, "ends in .html", panel, "--report", fixture_path(&ips, "e.txt"));
     RUN_FAILS(ERROR_USAGE, "--size is 20x20, wanted 160 to 20000", panel, "-o", svg, "--size",
               "20x20");
     RUN_FAILS(ERROR_USAGE, "--measured MANIFEST.json", panel, "-o", svg, "--kind", "fit");
@@ -293,8 +297,8 @@ TEST(a_panel_that_only_reflects_is_drawn)
     options.progress = PROGRESS_NONE;
     options.level = 5;
     assert_done(fixture_try(&ips, manifest, &options, panel, NULL, NULL, &err));
-    RUN_OK(panel, "-o", svg, "--report", fixture_path(&ips, "paper.html"), "--measured",
-           manifest);
+    RUN_OK(panel, "-o", svg, "--measured", manifest);
+    REPORT_OK(panel, "-o", fixture_path(&ips, "paper.html"), "--measured", manifest);
     RUN_FAILS(ERROR_INPUT, "has no emission data, wanted for --kind sections", panel, "-o", svg,
               "--kind", "sections");
 }
@@ -306,7 +310,6 @@ TEST(a_target_that_cannot_be_written_leaves_nothing)
               "--kind", "mirror");
     RUN_FAILS(ERROR_OUTPUT, "", ips.panel_path, "-o", fixture_path(&ips, "none/x.svg"),
               "--kind", "mirror");
-    RUN_FAILS(ERROR_OUTPUT, "", ips.panel_path, "--report", fixture_path(&ips, "none/x.html"));
     assert_int_equal(folder_count(ips.folder), before);
 }
 

@@ -79,12 +79,12 @@ static void print_summary(const ImportSet *set, const char *manifest, Arena *are
 /* ---- options ----------------------------------------------------------------------------- */
 
 #define KEYS_MAX 32
-#define OPTIONS_MAX (KEYS_MAX + 24)
+#define OPTIONS_MAX (KEYS_MAX + 32)
 
 /* The command line before it is put on top of the declaration file. */
 typedef struct Words {
-    const char *output, *layout, *root, *primaries, *levels, *panel, *instrument, *format,
-        *symmetry;
+    const char *output, *layout, *root, *primaries, *levels, *panel, *instrument, *date,
+        *operator_name, *conditions, *format, *symmetry;
     const char *specular;
     double      aperture_deg;
     CliTexts    roles, skip, gloss, list[KEYS_MAX];
@@ -146,6 +146,12 @@ static int list_options(Words *words, Option *option, Arena *arena)
         {"--panel", OPTION_TEXT, "NAME", "the panel's name in the manifest", &words->panel},
         {"--instrument", OPTION_TEXT, "NAME", "the instrument's name in the manifest",
          &words->instrument},
+        {"--date", OPTION_TEXT, "DATE", "of the measurement, as 2026-03-14, for the report",
+         &words->date},
+        {"--operator", OPTION_TEXT, "NAME", "who measured, for the report",
+         &words->operator_name},
+        {"--conditions", OPTION_TEXT, "TEXT", "room, warm-up, drive, for the report",
+         &words->conditions},
     };
     int count = COUNT_OF(fixed);
     memcpy(option, fixed, sizeof fixed);
@@ -237,6 +243,9 @@ static bool make_request(const Words *words, Arena *arena, ImportRequest *reques
     if (words->levels) request->levels = words->levels;
     if (words->panel) request->panel = words->panel;
     if (words->instrument) request->instrument = words->instrument;
+    if (words->date) request->date = words->date;
+    if (words->operator_name) request->operator_name = words->operator_name;
+    if (words->conditions) request->conditions = words->conditions;
     request->is_isotropic |= words->is_isotropic;
     request->black_is_zero |= words->black_is_zero;
     request->accepts_repeats |= words->accepts_repeats;

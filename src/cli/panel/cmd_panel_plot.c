@@ -12,7 +12,6 @@
 #include "panel/query/panel_open.h"
 #include "plot/panel/plot.h"
 #include "plot/panel/plot_answer.h"
-#include "plot/panel/report.h"
 #include "text/json_text.h"
 
 #define LEAST_SIZE 160
@@ -20,27 +19,19 @@
 
 /* The command line of `panel plot`. */
 typedef struct PlotRequest {
-    const char *panel, *measured, *root, *picture, *report, *contours, *ambient;
+    const char *panel, *measured, *root, *picture, *contours, *ambient, *directed;
     PanelLevel  level;
     PlotOptions options;
 } PlotRequest;
-
-static void note_file(json_t *answer, const char *key, const char *path, int figures)
-{
-    json_object_set_new(answer, key, json_pack("{s:o, s:i}", "file", json_text(path),
-                                               "figures", figures));
-}
 
 /* The lines and contrasts that were asked for, besides the pictures of them. */
 static bool add_numbers(const PlotRequest *request, const PlotInput *input, Arena *arena,
                         json_t *answer, Error *err)
 {
     json_t     *report = NULL;
-    PlotOptions options = request->options;
-    if (request->report) options.kind = PLOT_ALL;
-    PlotData *data = plot_ask(input, &options, arena, &report, err);
+    PlotData *data = plot_ask(input, &request->options, arena, &report, err);
     if (!data) return false;
-    plot_answer_add(data, options.kind, answer);
+    plot_answer_add(data, request->options.kind, answer);
     json_decref(report);
     return true;
 }
@@ -49,17 +40,12 @@ static bool draw(const PlotRequest *request, const PlotInput *input, Arena *aren
                  json_t *answer, Error *err)
 {
     int count = 0;
-    if (request->picture) {
-        if (!plot_write(input, &request->options, request->picture, arena, &count, err))
-            return false;
-        note_file(answer, "picture", request->picture, count);
-    }
-    if (request->report) {
-        if (!plot_write_report(input, &request->options, request->report, arena, &count, err))
-            return false;
-        note_file(answer, "report", request->report, count);
-    }
-    return (!request->contours && !request->ambient) ||
+    if (!plot_write(input, &request->options, request->picture, arena, &count, err))
+        return false;
+    json_object_set_new(answer, "picture", json_pack("{s:o, s:i}", "file",
+                                                     json_text(request->picture), "figures",
+                                                     count));
+    return (!request->contours && !request->options.ambient.count) ||
            add_numbers(request, input, arena, answer, err);
 }
 
@@ -90,20 +76,21 @@ static bool read_lists(PlotRequest *request, Error *err)
     if (request->contours && !has_contrast && options->kind != PLOT_LUMINANCE)
         return error_set(err, ERROR_USAGE, "--contour draws over luminance and contrast, "
                          "not over --kind %s", plot_kind_name(options->kind));
-    if (request->ambient && !has_contrast)
-        return error_set(err, ERROR_USAGE, "--ambient is for --kind contrast or all, not for "
-                         "--kind %s", plot_kind_name(options->kind));
+    if ((request->ambient || request->directed) && !has_contrast)
+        return error_set(err, ERROR_USAGE, "%s is for --kind contrast or all, not for "
+                         "--kind %s", request->ambient ? "--ambient" : "--directed",
+                         plot_kind_name(options->kind));
     return (!request->contours ||
             plot_contours_read(request->contours, &options->contours, err)) &&
-           (!request->ambient || plot_ambient_read(request->ambient, &options->ambient, err));
+           plot_ambient_read(request->ambient, request->directed, &options->ambient, err);
 }
 
 static bool check_request(const PlotRequest *request, Error *err)
 {
     int w = request->options.width, h = request->options.height;
-    if (!request->picture && !request->report)
-        return error_set(err, ERROR_USAGE,
-                         "panel plot wants -o X.svg, -o X.png or --report X.html");
+    if (!request->picture)
+        return error_set(err, ERROR_USAGE, "panel plot wants -o X.svg or -o X.png; a page of "
+                         "all figures is 'panel report'");
     if (w > 0 && (w < LEAST_SIZE || h < LEAST_SIZE || w > LARGEST_SIZE || h > LARGEST_SIZE))
         return error_set(err, ERROR_USAGE, "--size is %dx%d, wanted %d to %d each way", w, h,
                          LEAST_SIZE, LARGEST_SIZE);
@@ -137,13 +124,11 @@ static bool run_plot(int argc, char **argv, Arena *arena, Error *err)
          "the set that the panel was fitted from: its points over the curves, and the errors",
          &request.measured},
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &request.root},
-        {"--report", OPTION_TEXT, "X.html", "one page with every figure and all numbers",
-         &request.report, .file = OPTION_OUTPUT},
         {"--contour", OPTION_TEXT, "V[,V...]",
          "lines of luminance (cd/m2) or contrast at these values, with % of that on the axis",
          &request.contours},
-        {"--ambient", OPTION_TEXT, "LUX[,LUX...]",
-         "contrast also in even diffuse light of this illuminance", &request.ambient},
+        {"--ambient", OPTION_TEXT, "LUX[,LUX...]", AMBIENT_HELP, &request.ambient},
+        {"--directed", OPTION_TEXT, "LUX[,DEG]", DIRECTED_HELP, &request.directed},
         {"--incidence-phi", OPTION_NUMBER, "DEG",
          "azimuth of the light for reflection (default 180: from the left)", &incidence_phi,
          -360, 360},
@@ -153,7 +138,7 @@ static bool run_plot(int argc, char **argv, Arena *arena, Error *err)
     };
     const CliCommand command = {"panel plot",
         "pictures of a panel: luminance, contrast, colour, grey levels, reflection, fit",
-        "X.panel -o X.svg|X.png [--kind KIND] [--measured MANIFEST.json] | --report X.html",
+        "X.panel -o X.svg|X.png [--kind KIND] [--measured MANIFEST.json]",
         "parhelion panel plot assets/panels/ips_cluster.panel --kind luminance "
         "-o luminance.png", options, COUNT_OF(options), 1, 1};
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
@@ -170,4 +155,4 @@ static bool run_plot(int argc, char **argv, Arena *arena, Error *err)
 }
 
 const Command command_panel_plot = {
-    "plot", "pictures of a panel, one by one or all in a report", run_plot};
+    "plot", "pictures of a panel, one by one or on one sheet", run_plot};

@@ -13,6 +13,7 @@
 #include "panel/query/panel_place.h"
 #include "panel/query/panel_reflection.h"
 #include "panel/set/display_traits.h"
+#include "spectrum/gamut.h"
 #include "spectrum/photometry.h"
 
 static const float WHITE[3] = {255, 255, 255}, BLACK[3] = {0, 0, 0};
@@ -31,77 +32,21 @@ static void put(json_t *out, const char *key, double value)
 
 /* ---- gamut ------------------------------------------------------------------------------- */
 
-typedef struct Polygon {
-    int    count;
-    double x[8], y[8];
-} Polygon;
-
-static double side_of(const Polygon *clip, int edge, double x, double y)
-{
-    int next = (edge + 1) % clip->count;
-    return (clip->x[next] - clip->x[edge]) * (y - clip->y[edge]) -
-           (clip->y[next] - clip->y[edge]) * (x - clip->x[edge]);
-}
-
-static double area_of(const Polygon *p)
-{
-    double sum = 0;
-    for (int i = 0; i < p->count; i++) {
-        int k = (i + 1) % p->count;
-        sum += p->x[i] * p->y[k] - p->x[k] * p->y[i];
-    }
-    return 0.5 * sum;
-}
-
-static void append(Polygon *out, double x, double y)
-{
-    if (out->count < 8) out->x[out->count] = x, out->y[out->count++] = y;
-}
-
-/* I. E. Sutherland and G. W. Hodgman, Reentrant polygon clipping, CACM 17 (1974): one edge. */
-static Polygon clipped(const Polygon *p, const Polygon *clip, int edge)
-{
-    Polygon out = {0};
-    for (int i = 0; i < p->count; i++) {
-        int    k = (i + 1) % p->count;
-        double a = side_of(clip, edge, p->x[i], p->y[i]);
-        double b = side_of(clip, edge, p->x[k], p->y[k]);
-        if (a >= 0) append(&out, p->x[i], p->y[i]);
-        if ((a >= 0) == (b >= 0)) continue;
-        double t = a / (a - b);
-        append(&out, p->x[i] + t * (p->x[k] - p->x[i]), p->y[i] + t * (p->y[k] - p->y[i]));
-    }
-    return out;
-}
-
-/* Share of the standard's triangle in xy that the panel's covers. */
-static double coverage(const Polygon *panel, const Polygon *standard)
-{
-    Polygon both = *panel;
-    if (area_of(panel) <= 0) return 0; /* the primaries are no triangle of that order */
-    for (int edge = 0; edge < 3; edge++) both = clipped(&both, standard, edge);
-    return area_of(&both) / area_of(standard);
-}
-
-/* IEC 61966-2-1; SMPTE RP 431-2. */
-static const Polygon SRGB = {3, {0.64, 0.30, 0.15}, {0.33, 0.60, 0.06}};
-static const Polygon DCI_P3 = {3, {0.680, 0.265, 0.150}, {0.320, 0.690, 0.060}};
-
 static void add_gamut(const Panel *panel, json_t *out)
 {
-    Polygon own = {.count = 3};
+    GamutTriangle own, srgb = gamut_triangle(GAMUT_SRGB), p3 = gamut_triangle(GAMUT_DCI_P3);
     json_t *list = json_array();
     for (int p = 0; p < 3; p++) {
         float rgb[3] = {0, 0, 0}, xyz[3], xy[2];
         rgb[p] = 255;
         panel_emission_xyz(panel, vec3(0, 0, 1), rgb, xyz);
         xy_from_xyz(xyz, xy);
-        own.x[p] = (double)xy[0], own.y[p] = (double)xy[1];
-        json_array_append_new(list, json_pack("[f, f]", own.x[p], own.y[p]));
+        for (int c = 0; c < 2; c++) own.at[p][c] = (double)xy[c];
+        json_array_append_new(list, json_pack("[f, f]", own.at[p][0], own.at[p][1]));
     }
     json_object_set_new(out, "primaries_xy", list);
-    put(out, "srgb_coverage", coverage(&own, &SRGB));
-    put(out, "dci_p3_coverage", coverage(&own, &DCI_P3));
+    put(out, "srgb_coverage", gamut_coverage(&own, &srgb));
+    put(out, "dci_p3_coverage", gamut_coverage(&own, &p3));
 }
 
 /* ---- emission ---------------------------------------------------------------------------- */

@@ -80,6 +80,7 @@ typedef struct ImportSet {
     bool          black_is_zero;     /* the user states that black was subtracted */
     bool          accepts_repeats;   /* the user takes means of what contradicts itself */
     const char   *panel, *instrument; /* names for the manifest; NULL: the file's */
+    const char   *date, *operator_name, *conditions; /* of the measurement; NULL: not stated */
     double        white_reflectance; /* of the reference: Lambertian, 0 to 1 (default 1) */
     ImportSpectra spectra;
     const struct LevelTable *levels; /* of white alone (panel/set/level_table.h); NULL: none */

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/count.h"
 #include "base/file.h"
 #include "panel/set/level_table.h"
 #include "panel/set/set_writer.h"
@@ -219,8 +220,11 @@ static json_t *manifest_object(SetOutput *out)
         note = arena_format(&out->scratch, "%s%s%s", note, i ? "; " : "", set->note[i]);
     json_t *root = json_object(), *emission = emission_object(out);
     json_object_set_new(root, "panel", json_text(panel_name(out)));
-    if (set->instrument)
-        json_object_set_new(root, "instrument", json_text(set->instrument));
+    const struct { const char *key, *text; } stated[] = {
+        {"instrument", set->instrument}, {"date", set->date}, {"operator", set->operator_name},
+        {"conditions", set->conditions}};
+    for (int i = 0; i < COUNT_OF(stated); i++)
+        if (stated[i].text) json_object_set_new(root, stated[i].key, json_text(stated[i].text));
     if (*note) json_object_set_new(root, "note", json_text(note));
     if (json_object_size(emission)) json_object_set(root, "emission", emission);
     json_decref(emission);

@@ -129,6 +129,32 @@ static int count_falling(const Panel *panel)
     return count;
 }
 
+#define FEW_AZIMUTHS 8
+
+/* The azimuths of a table where they are so few that most lie between them: [] where they are
+ * more, or nowhere further than 45 degrees apart. Degrees, rising. */
+static json_t *few_azimuths(const AngleTable *table)
+{
+    double found[FEW_AZIMUTHS + 1], widest = 0;
+    int    count = 0;
+    for (int i = 0; i < table->rows && count <= FEW_AZIMUTHS; i++) {
+        double phi = degrees_from_radians((double)table->phi[i]);
+        phi -= 360 * floor(phi / 360 + 1e-6);
+        int at = 0;
+        while (at < count && found[at] < phi - 0.5) at++;
+        if (!(table->theta[i] > 1e-4f) || (at < count && found[at] < phi + 0.5)) continue;
+        memmove(found + at + 1, found + at, sizeof *found * (size_t)(count - at));
+        found[at] = phi;
+        count++;
+    }
+    json_t *out = json_array();
+    for (int i = 0; i < count; i++)
+        widest = fmax(widest, (i + 1 < count ? found[i + 1] : found[0] + 360) - found[i]);
+    for (int i = 0; i < count && count <= FEW_AZIMUTHS && widest > 45.5; i++)
+        json_array_append_new(out, json_real(round(100 * found[i]) / 100));
+    return out;
+}
+
 /* The emission's parameters, and its size in bytes. */
 static json_t *describe_emission(const FitParts *parts, const FitTable *total, int falling)
 {
@@ -389,8 +415,9 @@ json_t *fit_report_measure(const FitParts *parts, const Panel *panel, size_t fil
     FitTable total = {.name = "total", .bytes = (double)file_bytes};
     FitDeviations all = {0};
     char     hash[32];
-    json_t  *out = json_pack("{s:s, s:s, s:s, s:s, s:[f,f], s:[f,f], s:s}",
-        "panel", set->panel, "instrument", set->instrument, "note", set->note,
+    json_t  *out = json_pack("{s:s, s:s, s:s*, s:s*, s:s*, s:s, s:s, s:[f,f], s:[f,f], s:s}",
+        "panel", set->panel, "instrument", set->instrument, "date", set->date,
+        "operator", set->operator_name, "conditions", set->conditions, "note", set->note,
         "source", path_name(set->file), "pixels", set->pixels[0], set->pixels[1],
         "size_mm", set->size_mm[0], set->size_mm[1],
         "basis", parts->options->basis == FIT_HAAR ? "haar" : "vertex");
@@ -402,7 +429,11 @@ json_t *fit_report_measure(const FitParts *parts, const Panel *panel, size_t fil
         if (falling)
             fit_note(parts->notes, "%d codes, over directions and primaries, give less light "
                      "than the code below", falling);
-        json_object_set_new(out, "emission", describe_emission(parts, &total, falling));
+        json_t *emission = describe_emission(parts, &total, falling);
+        json_t *azimuths = few_azimuths(emission_samples_table(set, true, 0).table);
+        if (json_array_size(azimuths)) json_object_set(emission, "azimuths_deg", azimuths);
+        json_decref(azimuths);
+        json_object_set_new(out, "emission", emission);
         json_object_set_new(out, "outliers", flags_json(&parts->emission->outliers, true));
         json_object_set_new(out, "holes", flags_json(&parts->emission->holes, false));
     }

@@ -278,13 +278,14 @@ static void add_subpixels(const Panel *panel, json_t *manifest)
 /* The panel's names, sizes and note, from its report. */
 static bool add_names(Export *export, const char *name, json_t *manifest)
 {
-    static const char *const keys[] = {"panel", "instrument", "pixels", "size_mm"};
+    static const char *const keys[] = {"panel", "instrument", "date", "operator", "conditions",
+                                       "pixels", "size_mm"};
     json_t *report = NULL;
     if (!panel_report(export->panel, &report, export->err)) return false;
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
         json_t *value = json_object_get(report, keys[i]);
         bool    has_size = json_number_value(json_array_get(value, 0)) > 0;
-        if (json_is_string(value) || has_size) json_object_set(manifest, keys[i], value);
+        if (json_string_length(value) || has_size) json_object_set(manifest, keys[i], value);
     }
     json_t *note = json_object_get(report, "note");
     json_object_set_new(manifest, "note", json_sprintf("%s%sexported from %s",

@@ -493,13 +493,17 @@ static bool read_traits(const JsonView *root, Measurement *out, Error *err)
 
 static bool read_members(const JsonView *root, Measurement *out, Error *err)
 {
-    static const char *const keys[] = {"panel", "instrument", "note", "pixels", "size_mm",
+    static const char *const keys[] = {"panel", "instrument", "date", "operator", "conditions",
+        "note", "pixels", "size_mm",
         "instrument_fwhm_deg", "emission", "primaries", "reflection", "polarisation",
         "subpixels", "spots", "uniformity"};
     const char *primaries = NULL;
     bool ok = json_view_check_keys(root, keys, COUNT_OF(keys), err) &&
         json_view_text(root, "panel", &out->panel, err) &&
         json_view_text(root, "instrument", &out->instrument, err) &&
+        json_view_text(root, "date", &out->date, err) &&
+        json_view_text(root, "operator", &out->operator_name, err) &&
+        json_view_text(root, "conditions", &out->conditions, err) &&
         json_view_text(root, "note", &out->note, err) &&
         json_view_text(root, "primaries", &primaries, err) &&
         json_view_pair(root, "pixels", 1, 65536, out->pixels, err) &&
@@ -538,7 +542,8 @@ bool measurement_read_below(const char *path, const char *folder, Arena *arena,
     JsonView     root;
     Measurement *set = ARENA_NEW(arena, Measurement, 1);
     *set = (Measurement){.file = arena_string(arena, path, strlen(path)), .panel = "",
-                         .instrument = "", .note = "", .inputs = {.arena = arena}};
+                         .instrument = "", .date = "", .operator_name = "",
+                         .conditions = "", .note = "", .inputs = {.arena = arena}};
     bool ok;
     lines_put(&set->inputs, set->file);
     if (!strcmp(path_ending(path), ".csv")) {

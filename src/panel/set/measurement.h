@@ -24,7 +24,8 @@
 typedef struct Measurement {
     const char *file; /* the manifest */
     Lines       inputs; /* that, and every file that it names */
-    const char *panel, *instrument, *note;
+    const char *panel, *instrument, *note; /* "": not stated */
+    const char *date, *operator_name, *conditions; /* of the measurement; likewise */
     double      pixels[2], size_mm[2];
     double      instrument_fwhm_deg; /* width of its own response; 0: not declared */
     DisplayTraits traits;       /* of the emission */

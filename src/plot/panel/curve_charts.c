@@ -2,6 +2,7 @@
 /* Luminance along two sections of the hemisphere, and over the grey levels. */
 #include <math.h>
 
+#include "base/count.h"
 #include "base/units.h"
 #include "plot/panel/panel_chart.h"
 
@@ -188,8 +189,11 @@ static void fill_grey(const PlotData *s, double theta, double phi, GreyCurve *ou
     }
 }
 
-static const int GREY_ANGLES[] = {0, 15, 30, 45, 60};
-enum { ANGLES = sizeof GREY_ANGLES / sizeof *GREY_ANGLES };
+static const int  GREY_ANGLES[] = {0, 15, 30, 45, 60};
+static const int  GREY_PLANES[] = {0, 90, 270};
+static const Dash GREY_DASHES[] = {DASH_NONE, DASH_SHORT, DASH_DOT};
+enum { ANGLES = COUNT_OF(GREY_ANGLES), PLANES = COUNT_OF(GREY_PLANES),
+       CURVES = ANGLES * PLANES };
 
 static Ink angle_ink(const Canvas *canvas, int i, int count)
 {
@@ -222,7 +226,7 @@ static void fit_gamma_axis(AxisSpec *y, const GreyCurve *curve, int count)
             low = fmin(low, floor(curve[k].gamma[i] * 5) / 5);
             high = fmax(high, ceil(curve[k].gamma[i] * 5) / 5);
         }
-    y->low = fmax(low, 0);
+    y->low = fmax(low, -2); /* below 0 where greys are inverted */
     y->high = fmin(high, 6);
 }
 
@@ -281,24 +285,26 @@ static void mark_levels(Chart *chart, const PlotData *s, const GreyCurve *normal
 static void draw_grey(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
 {
     const PlotData *s = shown->data;
-    GreyCurve *curve = ARENA_NEW(canvas->arena, GreyCurve, 2 * ANGLES);
+    GreyCurve *curve = ARENA_NEW(canvas->arena, GreyCurve, CURVES);
     AxisSpec   x, y;
-    for (int k = 0; k < 2 * ANGLES; k++)
-        fill_grey(s, radians_from_degrees(GREY_ANGLES[k / 2]), k % 2 ? PI / 2 : 0, &curve[k]);
+    for (int k = 0; k < CURVES; k++)
+        fill_grey(s, radians_from_degrees(GREY_ANGLES[k / PLANES]),
+                  radians_from_degrees(GREY_PLANES[k % PLANES]), &curve[k]);
     grey_axes(shown->index, &x, &y);
-    if (shown->index == GREY_GAMMA) fit_gamma_axis(&y, curve, 2 * ANGLES);
+    if (shown->index == GREY_GAMMA) fit_gamma_axis(&y, curve, CURVES);
     Chart chart = chart_open(canvas, box, x, y, shown->index == GREY_GAMMA ? 62 : 14);
     double first = first_level(s);
     if (shown->index != GREY_LINEAR) chart_hatch(&chart, 0, first);
     draw_reference_gamma(&chart, shown->index);
-    for (int k = 2 * ANGLES - 1; k >= 0; k--) {
-        if (k == 1) continue; /* at the normal there is but one azimuth */
+    for (int k = CURVES - 1; k >= 0; k--) {
+        if (k > 0 && k < PLANES) continue; /* at the normal there is but one azimuth */
         const double *values = shown->index == GREY_GAMMA ? curve[k].gamma : curve[k].relative;
-        Ink           ink = angle_ink(canvas, k / 2, ANGLES);
+        Ink           ink = angle_ink(canvas, k / PLANES, ANGLES);
         chart_curve(&chart, curve[k].code, values, GREY_POINTS,
-                    (Stroke){ink, k == 0 ? 1.9 : 1.3, k % 2 ? DASH_SHORT : DASH_NONE});
+                    (Stroke){ink, k == 0 ? 1.9 : 1.3, GREY_DASHES[k % PLANES]});
         const char *name = k == 0 ? "θ 0°" : arena_format(canvas->arena, "%d°, φ %d°",
-                                               GREY_ANGLES[k / 2], k % 2 ? 90 : 0);
+                                               GREY_ANGLES[k / PLANES],
+                                               GREY_PLANES[k % PLANES]);
         if (shown->index == GREY_GAMMA)
             chart_name_curve(&chart, curve[k].code, values, GREY_POINTS, ink, name);
     }
@@ -315,14 +321,14 @@ static void add_grey(PanelChartList *list, const PlotData *s)
     static const char *const TITLES[] = {"Grey levels", "Grey levels, logarithmic",
                                          "Local gamma"};
     static const char *const SUBTITLES[] = {
-        "solid: φ 0°, dashed: φ 90°; dotted: a power of 2.2; dots: measured",
-        "solid: φ 0°, dashed: φ 90°; dotted: a power of 2.2; dots: measured",
-        "solid: φ 0°, dashed: φ 90°; dotted: 2.2; hatched: below the levels"};
+        "solid: φ 0° (right), dashed: 90° (up), dotted: 270° (down); dots: measured",
+        "solid: φ 0° (right), dashed: 90° (up), dotted: 270° (down); dots: measured",
+        "solid: φ 0° (right), dashed: 90° (up), dotted: 270° (down)"};
     static const char TABLE_SUBTITLE[] =
         "a gamma table of the normal, taken for every angle; dotted: 2.2";
     static const char *const CAPTIONS[] = {
         "Luminance of grey (red, green and blue at one code) above that of black, divided by "
-        "that of white, at several angles.",
+        "that of white, at several angles. Thin dots: a power of 2.2.",
         "The same over logarithmic axes: a power law is a straight line. Hatched: below the "
         "first measured level.",
         "Slope of the logarithmic curves: the exponent that a small step of the code sees. "

@@ -44,12 +44,18 @@ static bool take_contours(Canvas *canvas, PolarMap *map, const PlotContours *wan
 
 /* ---- luminance -------------------------------------------------------------------------- */
 
+/* Within two percent everywhere: over all colours that would be a map of noise. */
+static bool is_even(FieldRange range)
+{
+    return range.high - range.low < 0.02 * range.high;
+}
+
 static void draw_luminance(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
 {
     const PlotData *s = shown->data;
     const Field   *field = &s->xyz[shown->index][1];
     FieldRange     range = field_range(field, s->cone);
-    double low = range.low > 0.6 * range.high ? range.low : 0;
+    double low = is_even(range) ? 0.9 * range.low : range.low > 0.6 * range.high ? range.low : 0;
     PolarMap map = {.field = field, .map = MAP_AMOUNT, .low = low, .high = range.high,
                     .strong = NAN, .theta_measured = s->cone, .unit = "cd/m²"};
     double normal = (double)s->normal[shown->index][1], half = 0.5 * normal;
@@ -59,7 +65,8 @@ static void draw_luminance(Canvas *canvas, Box box, const PanelChart *shown, Pan
         map.strong = half;
         map.strong_text = "½";
     }
-    if (!is_labelled) choose_levels(&map, fmax(range.low, low), range.high, 8);
+    if (!is_labelled && !is_even(range))
+        choose_levels(&map, fmax(range.low, low), range.high, 8);
     panel_chart_polar(canvas, box, &map, out);
 }
 
@@ -69,8 +76,8 @@ static void add_luminance(PanelChartList *list, const PlotData *s, Pattern patte
     char       normal[32], high[32];
     if (!(range.high > 0)) return;
     double      at_normal = (double)s->normal[pattern][1];
-    const char *subtitle = arena_format(s->arena, "%s cd/m² at the normal%s",
-        figure_text(at_normal, normal), range.high > 1.002 * at_normal
+    const char *subtitle = arena_format(s->arena, "%s cd/m² at the normal%s%s",
+        figure_text(at_normal, normal), is_even(range) ? ", nearly constant" : "", range.high > 1.002 * at_normal
             ? arena_format(s->arena, ", at most %s %s", figure_text(range.high, high),
                            at_angles(s->arena, range.theta, range.phi)) : "");
     panel_chart_add(list, &(PanelChart){PLOT_LUMINANCE,
@@ -84,13 +91,13 @@ static void add_luminance(PanelChartList *list, const PlotData *s, Pattern patte
 /* index 0: in the dark; else under the light before it in the user's list. */
 static Field contrast_field(const PlotData *s, int index, Arena *arena)
 {
-    return index ? ambient_contrast_field(s, s->source.ambient.lux[index - 1], arena)
+    return index ? ambient_contrast_field(s, &s->source.ambient.light[index - 1], arena)
                  : plot_data_contrast(s, arena);
 }
 
 static double contrast_on_axis(const PlotData *s, int index)
 {
-    return index ? ambient_contrast(s, 0, 0, s->source.ambient.lux[index - 1])
+    return index ? ambient_contrast(s, 0, 0, &s->source.ambient.light[index - 1])
                  : (double)(s->normal[PATTERN_WHITE][1] / s->normal[PATTERN_BLACK][1]);
 }
 
@@ -122,16 +129,18 @@ static void draw_contrast(Canvas *canvas, Box box, const PanelChart *shown, Pane
 
 static void add_ambient(PanelChartList *list, const PlotData *s, int index)
 {
-    double     lux = s->source.ambient.lux[index - 1];
+    const PlotLight *light = &s->source.ambient.light[index - 1];
     Field      field = contrast_field(s, index, s->arena);
     FieldRange range = field_range(&field, s->cone);
     char       normal[32], low[32];
     panel_chart_add(list, &(PanelChart){PLOT_CONTRAST,
-        arena_format(s->arena, "Contrast ratio, %.6g lx", lux),
-        arena_format(s->arena, "in even diffuse light: %s at the normal, at least %s",
+        arena_format(s->arena, "Contrast ratio, %s", ambient_text(light, s->arena)),
+        arena_format(s->arena, "in %s light: %s at the normal, at least %s",
+                     light->directed_lux <= 0 ? "even diffuse" : light->lux <= 0 ? "directed"
+                                                               : "even and directed",
                      figure_text(contrast_on_axis(s, index), normal),
                      figure_text(range.low, low)),
-        "Contrast in even diffuse light, " AMBIENT_FORMULA ". Logarithmic colours.",
+        "Contrast in ambient light, " AMBIENT_FORMULA ". Logarithmic colours.",
         draw_contrast, s, index, SHEET_ALWAYS, false});
 }
 

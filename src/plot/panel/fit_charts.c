@@ -49,17 +49,13 @@ static double residual_percent(const PlotData *s, const FitTableRef *ref, int ro
     return 100 * (xyz[1] - measured) / fmax(0.025 * peak, measured);
 }
 
-/* The bound that was asked of the fit, percent; for a file that states none, the largest error
- * of its emission tables. */
-static double stated_bound_percent(const PlotData *s)
+/* The largest error of X, Y and Z that the file states of its emission tables, percent. */
+static double stated_error_percent(const PlotData *s)
 {
-    const json_t *report = s->source.report;
-    const json_t *bound = json_object_get(json_object_get(report, "emission"), "bound");
-    if (json_number_value(bound) > 0) return 100 * json_number_value(bound);
     size_t  i;
     json_t *table;
     double  most = 0;
-    json_array_foreach(json_object_get(report, "tables"), i, table) {
+    json_array_foreach(json_object_get(s->source.report, "tables"), i, table) {
         const char *name = json_string_value(json_object_get(table, "name"));
         if (name && !strncmp(name, "brdf", 4)) continue;
         most = fmax(most, json_number_value(json_object_get(table, "max_error")));
@@ -205,8 +201,7 @@ static void draw_fit_levels(Canvas *canvas, Box box, const PanelChart *shown,
 typedef struct Residuals {
     double      bin[BINS], highest; /* samples, over the logarithm of the error */
     double      reach;              /* percent, of the last bin's end */
-    double      most, rms, count;
-    double      worst_theta, worst_phi;
+    double      most, count;
     FitTableRef worst; /* the table with the largest */
 } Residuals;
 
@@ -229,13 +224,10 @@ static void pass_over(const PlotData *s, const FitTableRef *ref, bool counts, Re
             count_residual(out, r);
             continue;
         }
-        out->rms += r * r;
         out->count += 1;
         if (r <= out->most) continue;
         out->most = r;
         out->worst = *ref;
-        out->worst_theta = (double)ref->table->theta[i];
-        out->worst_phi = (double)ref->table->phi[i];
     }
 }
 
@@ -244,8 +236,7 @@ static void measure_residuals(const PlotData *s, Residuals *out)
     FitTableRef *ref = ARENA_NEW(s->arena, FitTableRef, FIT_TABLES_MAX);
     int          tables = emission_tables(s->source.measured, ref);
     for (int t = 0; t < tables; t++) pass_over(s, &ref[t], false, out);
-    out->rms = sqrt(out->rms / fmax(out->count, 1));
-    out->reach = round_up(1.3 * fmax(fmax(out->most, stated_bound_percent(s)), 0.01));
+    out->reach = round_up(1.3 * fmax(fmax(out->most, stated_error_percent(s)), 0.01));
     for (int t = 0; t < tables; t++) pass_over(s, &ref[t], true, out);
     for (int i = 0; i < BINS; i++) out->highest = fmax(out->highest, out->bin[i]);
 }
@@ -259,7 +250,7 @@ static void draw_histogram(Canvas *canvas, Box box, const PanelChart *shown, Pan
 {
     const PlotData *s = shown->data;
     Residuals     *r = ARENA_NEW(canvas->arena, Residuals, 1);
-    double         bound = stated_bound_percent(s);
+    double         most = stated_error_percent(s);
     measure_residuals(s, r);
     Chart chart = chart_open(canvas, box,
         (AxisSpec){.low = LEAST_PERCENT, .high = r->reach, .is_log = true, .suffix = " %",
@@ -274,10 +265,8 @@ static void draw_histogram(Canvas *canvas, Box box, const PanelChart *shown, Pan
                         chart.plot.y + chart.plot.h - y);
         canvas_fill(canvas, ink_mix(canvas->theme.primary[2], canvas->theme.paper, 0.35));
     }
-    chart_mark_x(&chart, r->rms, (Stroke){canvas->theme.ink, 1.1, DASH_DOT},
-                 arena_format(canvas->arena, "rms %.2g %%", r->rms));
-    chart_mark_x(&chart, bound, (Stroke){canvas->theme.accent, 1.3, DASH_SHORT},
-                 arena_format(canvas->arena, "bound %.3g %%", bound));
+    chart_mark_x(&chart, most, (Stroke){canvas->theme.accent, 1.3, DASH_SHORT},
+                 arena_format(canvas->arena, "largest error %.3g %%", most));
     panel_chart_map_axes(out, &chart);
 }
 
@@ -425,7 +414,6 @@ static void draw_fit_brdf(Canvas *canvas, Box box, const PanelChart *shown, Pane
 static void add_emission_fit(PanelChartList *list, const PlotData *s)
 {
     Residuals *r = ARENA_NEW(s->arena, Residuals, 1);
-    char       most[32], rms[32];
     measure_residuals(s, r);
     for (int i = 0; i < 2; i++)
         panel_chart_add(list, &(PanelChart){PLOT_FIT, i ? "Measured and fitted, vertical"
@@ -440,19 +428,17 @@ static void add_emission_fit(PanelChartList *list, const PlotData *s)
             "The source's luminance at the normal (rings) over the panel file's (lines), for "
             "every measured level of each primary.", draw_fit_levels, s, 0, SHEET_SPARE, true});
     panel_chart_add(list, &(PanelChart){PLOT_FIT, "Residuals of all samples",
-        arena_format(s->arena, "%.0f samples: rms %s %%, at most %s %%; line: the file's bound",
-                     r->count, figure_text(r->rms, rms), figure_text(r->most, most)),
-        "Fitted less measured luminance of every sample of every emission table, relative to "
-        "the measured one (to a fortieth of the table's peak where that is more), and the "
-        "largest error of X, Y and Z that the file states, noise of the source included.",
+        arena_format(s->arena, "luminance of %.0f samples; line: the file's largest error",
+                     r->count),
+        "How often fitted less measured luminance is how large, over every sample of every "
+        "emission table, relative to the measured one (to a fortieth of the table's peak where "
+        "that is more). The line is the largest error of X, Y and Z that the file states.",
         draw_histogram, s, 0, SHEET_ALWAYS, false});
     if (r->worst.table)
         panel_chart_add(list, &(PanelChart){PLOT_FIT, "Residual of the worst table",
-            arena_format(s->arena, "%s: at most %s %% at θ %.0f°, φ %.0f°",
-                         r->worst.table->name, most, degrees_from_radians(r->worst_theta),
-                         degrees_from_radians(r->worst_phi)),
-            "Fitted less measured luminance in percent for the table with the largest error; "
-            "the colours hold all but one direction in fifty.", draw_residual_map, s, 0,
+            arena_format(s->arena, "%s, luminance", r->worst.table->name),
+            "Where fitted less measured luminance, in percent, lies of the table in which it is "
+            "largest; the colours hold all but one direction in fifty.", draw_residual_map, s, 0,
             SHEET_ALWAYS,
             false});
 }

@@ -48,13 +48,17 @@ static double value_at(const PlotData *s, int index, const float place[2])
 typedef struct SurfaceMap {
     int    columns, rows;
     float *value;
-    double low, high;
+    double low, high; /* of the colours */
+    bool   is_even;   /* no more than half a percent between the least and the most */
 } SurfaceMap;
+
+#define EVEN_SHARE 0.005
+#define EVEN_REACH 0.05 /* of an even map's colours about its value: rounding shows none */
 
 static SurfaceMap surface_map(const PlotData *s, int index, Arena *arena)
 {
     int        share = index == 2 ? 6 : 1; /* angles change slowly, and cost */
-    SurfaceMap out = {COLUMNS / share, ROWS / share, NULL, INFINITY, 0};
+    SurfaceMap out = {COLUMNS / share, ROWS / share, NULL, INFINITY, 0, false};
     out.value = ARENA_NEW(arena, float, out.columns * out.rows);
     for (int i = 0; i < out.columns * out.rows; i++) {
         float place[2] = {((float)(i % out.columns) + 0.5f) / (float)out.columns,
@@ -63,6 +67,12 @@ static SurfaceMap surface_map(const PlotData *s, int index, Arena *arena)
         out.value[i] = (float)value;
         out.low = fmin(out.low, value);
         out.high = fmax(out.high, value);
+    }
+    out.is_even = out.high - out.low <= EVEN_SHARE * out.high;
+    if (out.is_even) {
+        double middle = 0.5 * (out.low + out.high);
+        out.low = middle * (1 - EVEN_REACH);
+        out.high = middle * (1 + EVEN_REACH);
     }
     return out;
 }
@@ -124,7 +134,7 @@ static void mark_spots(Canvas *canvas, const Box *box, const PlotData *s)
 
 static void draw_scale(Canvas *canvas, Box box, const SurfaceMap *map, const char *unit)
 {
-    SurfaceMap bar = {1, 64, ARENA_NEW(canvas->arena, float, 64), map->low, map->high};
+    SurfaceMap bar = {1, 64, ARENA_NEW(canvas->arena, float, 64), map->low, map->high, false};
     char       text[2][32];
     Letters    letters = {.size = SIZE_TICK, .ink = canvas->theme.soft};
     for (int i = 0; i < 64; i++)
@@ -157,14 +167,17 @@ static void draw_surface(Canvas *canvas, Box box, const PanelChart *shown, Panel
 
 /* ---- the charts -------------------------------------------------------------------------- */
 
-static void add_surface(PanelChartList *list, const PlotData *s, int index)
+/* angle: "" or what is to be said of the viewing angle. */
+static void add_surface(PanelChartList *list, const PlotData *s, int index, const char *angle)
 {
     PanelEvenness e = panel_evenness(s->source.panel, codes[index]);
     char          text[4][32];
-    const char   *subtitle = arena_format(s->arena, "nine points: least %s, most %s, mean %s "
-        "cd/m², non-uniformity %s %%", figure_text(e.nine_least, text[0]),
-        figure_text(e.nine_most, text[1]), figure_text(e.nine_mean, text[2]),
-        figure_text(100 * panel_non_uniformity(e.nine_least, e.nine_most), text[3]));
+    bool          is_even = e.most - e.least <= EVEN_SHARE * e.most;
+    const char   *subtitle = arena_format(s->arena, "%snine points: least %s, most %s, mean %s "
+        "cd/m², non-uniformity %s %%%s", is_even ? "nearly constant; " : "",
+        figure_text(e.nine_least, text[0]), figure_text(e.nine_most, text[1]),
+        figure_text(e.nine_mean, text[2]),
+        figure_text(100 * panel_non_uniformity(e.nine_least, e.nine_most), text[3]), angle);
     panel_chart_add(list, &(PanelChart){PLOT_UNIFORMITY,
         index ? "Black over the active area" : "White over the active area", subtitle,
         "Luminance along the local normal over the active area, as someone facing the display "
@@ -176,8 +189,13 @@ static void add_surface(PanelChartList *list, const PlotData *s, int index)
 static void add_place(PanelChartList *list, const PlotData *s)
 {
     if (!s->emits || !panel_varies(s->source.panel)) return;
-    add_surface(list, s, 0);
-    if (s->has_black) add_surface(list, s, 1);
+    SurfaceMap  angle = surface_map(s, 2, s->arena);
+    char        text[32];
+    const char *everywhere = arena_format(s->arena, "; half luminance over %s° at every place",
+                                          figure_text((double)angle.value[0], text));
+    add_surface(list, s, 0, angle.is_even ? everywhere : "");
+    if (s->has_black) add_surface(list, s, 1, "");
+    if (angle.is_even) return;
     panel_chart_add(list, &(PanelChart){PLOT_UNIFORMITY, "Viewing angle by place",
         "degrees, left to right, over which white has half the light of the local normal",
         "The whole horizontal angle, from left to right, inside which white has at least half "

@@ -16,8 +16,8 @@ static bool is_among(PlotKind kind, PlotKind first, PlotKind last)
 
 PanelChartList *plot_charts(const PlotData *data, PlotKind kind, Arena *arena)
 {
-    static const PanelCharts *const all[] = {&emission_charts, &curve_charts, &colour_charts,
-                                             &reflection_charts, &fit_charts, &place_charts};
+    static const PanelCharts *const all[] = {&emission_charts, &curve_charts, &angle_charts,
+                                             &colour_charts, &reflection_charts, &fit_charts, &place_charts};
     PanelChartList *list = ARENA_NEW(arena, PanelChartList, 1);
     for (int i = 0; i < COUNT_OF(all); i++)
         if (is_among(kind, all[i]->first, all[i]->last)) all[i]->add(list, data);
@@ -73,6 +73,9 @@ static bool fails_empty(const PlotData *s, PlotKind kind, Error *err)
         return error_at(err, ERROR_INPUT, file, "", "its black emits nothing, so there is no "
                         "contrast ratio to draw in the dark; --ambient LUX draws one in the "
                         "light");
+    if (kind == PLOT_GREY_INVERSION)
+        return error_at(err, ERROR_INPUT, file, "", "has no grey inversion to draw: of its "
+                        "measured levels none is brighter than a higher one by 1 %% or more");
     if (kind == PLOT_MIRROR)
         return error_at(err, ERROR_INPUT, file, "", "has no mirror part to draw");
     return error_at(err, ERROR_INPUT, file, "", "has nothing to draw for --kind %s", name);
@@ -100,7 +103,8 @@ PlotData *plot_ask(const PlotInput *input, const PlotOptions *options, Arena *ar
         .incidence_phi = options->incidence_phi,
         .wants_maps = is_among(options->kind, PLOT_LUMINANCE, PLOT_COLOUR_SHIFT),
         .threads = options->threads, .contours = options->contours,
-        .ambient = options->ambient}, arena);
+        .ambient = options->ambient,
+        .wants_reflectance = options->wants_reflectance}, arena);
     if (can_be_lit(data, err)) return data;
     json_decref(*report);
     return NULL;

@@ -19,6 +19,7 @@ typedef struct PlotOptions {
     int      threads;       /* at least 1 */
     PlotContours contours;  /* of luminance and contrast; none: chosen */
     PlotAmbient  ambient;   /* contrast also under these */
+    bool         wants_reflectance; /* of PlotSource */
 } PlotOptions;
 
 typedef struct PlotInput {

@@ -5,7 +5,6 @@
 
 #include "base/count.h"
 #include "base/units.h"
-#include "page/page.h"
 
 /* ---- lines ------------------------------------------------------------------------------ */
 
@@ -70,10 +69,10 @@ static void add_contrast_contours(json_t *out, const PlotData *s)
                      (double)(s->normal[PATTERN_WHITE][1] / s->normal[PATTERN_BLACK][1]));
     }
     for (int i = 0; i < s->source.ambient.count; i++) {
-        double lux = s->source.ambient.lux[i];
-        Field  lit = ambient_contrast_field(s, lux, s->arena);
-        add_contours(out, s, arena_format(s->arena, "contrast %.6g lx", lux), &lit,
-                     ambient_contrast(s, 0, 0, lux));
+        const PlotLight *light = &s->source.ambient.light[i];
+        Field lit = ambient_contrast_field(s, light, s->arena);
+        add_contours(out, s, arena_format(s->arena, "contrast %s", ambient_text(light, s->arena)),
+                     &lit, ambient_contrast(s, 0, 0, light));
     }
 }
 
@@ -95,26 +94,26 @@ static const struct { int theta, phi; } asked[] = {
     {75, 0}, {75, 90}, {75, 180}, {75, 270},
 };
 
-static double contrast_at(const PlotData *s, int i, double lux)
-{
-    return ambient_contrast(s, radians_from_degrees(asked[i].theta),
-                            radians_from_degrees(asked[i].phi), lux);
-}
-
-static double reflectance_at(const PlotData *s, int i)
-{
-    return ambient_reflectance(s, radians_from_degrees(asked[i].theta));
-}
-
-static json_t *ambient_json(const PlotData *s, double lux)
+static json_t *ambient_json(const PlotData *s, const PlotLight *light)
 {
     json_t *rows = json_array();
-    for (int i = 0; i < COUNT_OF(asked); i++)
-        json_array_append_new(rows, json_pack("{s:i, s:i, s:f, s:f}", "theta_deg",
-            asked[i].theta, "phi_deg", asked[i].phi, "reflectance", reflectance_at(s, i),
-            "contrast", contrast_at(s, i, lux)));
-    return json_pack("{s:f, s:s, s:o}", "illuminance_lx", lux, "formula", AMBIENT_FORMULA,
-                     "angles", rows);
+    for (int i = 0; i < COUNT_OF(asked); i++) {
+        double theta = radians_from_degrees(asked[i].theta);
+        double phi = radians_from_degrees(asked[i].phi);
+        json_array_append_new(rows, json_pack("{s:i, s:i, s:f, s:f, s:f}", "theta_deg",
+            asked[i].theta, "phi_deg", asked[i].phi, "reflectance",
+            ambient_reflectance(s, theta), "reflected_cd_m2",
+            ambient_reflected(s, theta, phi, light), "contrast",
+            ambient_contrast(s, theta, phi, light)));
+    }
+    json_t *out = json_pack("{s:f, s:s, s:o}", "illuminance_lx", light->lux, "formula",
+                            AMBIENT_FORMULA, "angles", rows);
+    if (light->directed_lux > 0)
+        json_object_update_new(out, json_pack("{s:f, s:f, s:f}", "directed_lx",
+            light->directed_lux, "directed_theta_deg",
+            degrees_from_radians(light->directed_theta), "directed_phi_deg",
+            degrees_from_radians(s->source.incidence_phi)));
+    return out;
 }
 
 void plot_answer_add(const PlotData *data, PlotKind kind, json_t *answer)
@@ -124,35 +123,7 @@ void plot_answer_add(const PlotData *data, PlotKind kind, json_t *answer)
     if (data->source.contours.count && data->emits)
         json_object_set_new(answer, "contours", contours_json(data, kind));
     for (int i = 0; i < ambient->count; i++)
-        json_array_append_new(list, ambient_json(data, ambient->lux[i]));
+        json_array_append_new(list, ambient_json(data, &ambient->light[i]));
     if (ambient->count) json_object_set(answer, "ambient", list);
     json_decref(list);
-}
-
-static void add_row(Text *html, const PlotData *data, int i)
-{
-    const PlotAmbient *ambient = &data->source.ambient;
-    page_row_begin(html, "");
-    page_cell_format(html, "n", "%d°", asked[i].theta);
-    page_cell_format(html, "n", "%d°", asked[i].phi);
-    page_cell_format(html, "n", "%.3g", 100 * reflectance_at(data, i));
-    for (int k = 0; k < ambient->count; k++)
-        page_cell_format(html, "n", "%.4g", contrast_at(data, i, ambient->lux[k]));
-    page_row_end(html);
-}
-
-void plot_answer_table(Text *html, const PlotData *data)
-{
-    const PlotAmbient *ambient = &data->source.ambient;
-    PageColumn columns[3 + PLOT_AMBIENT_MAX] = {{"θ", true, NULL}, {"φ", true, NULL},
-                                                {"R, %", true, NULL}};
-    if (!ambient->count) return;
-    page_element(html, "h2", "Contrast in even diffuse light");
-    page_element(html, "p class=\"sub\"", AMBIENT_FORMULA ".");
-    for (int i = 0; i < ambient->count; i++)
-        columns[3 + i] = (PageColumn){arena_format(data->arena, "%.6g lx", ambient->lux[i]),
-                                      true, NULL};
-    page_table_begin(html, "", "", columns, 3 + ambient->count);
-    for (int i = 0; i < COUNT_OF(asked); i++) add_row(html, data, i);
-    page_table_end(html);
 }

@@ -7,11 +7,7 @@
 #include <jansson.h>
 
 #include "plot/panel/plot_data.h"
-#include "text/text.h"
 
 /* "contours": one object for each chart and value, its lines as lists of [theta, phi];
  * "ambient": for each illuminance the reflectance and the contrast at a grid of angles. */
 void plot_answer_add(const PlotData *data, PlotKind kind, json_t *answer);
-
-/* A table of the contrast at angles, of a report. */
-void plot_answer_table(Text *html, const PlotData *data);

@@ -2,7 +2,8 @@
 #include "plot/panel/plot_choice.h"
 
 #include <stdlib.h>
-#include <string.h>
+
+#include "base/units.h"
 
 #define LARGEST 1e7
 
@@ -64,12 +65,23 @@ bool plot_contours_read(const char *text, PlotContours *out, Error *err)
     return read_list("--contour", text, PLOT_CONTOURS_MAX, true, out, err);
 }
 
-bool plot_ambient_read(const char *text, PlotAmbient *out, Error *err)
+#define DIRECTED_DEG 45.0
+
+bool plot_ambient_read(const char *ambient, const char *directed, PlotAmbient *out, Error *err)
 {
-    PlotContours found;
-    if (!read_list("--ambient", text, PLOT_AMBIENT_MAX, false, &found, err)) return false;
-    out->count = found.count;
-    memcpy(out->lux, found.value, sizeof out->lux);
+    PlotContours even = {.count = 0}, beam = {.value = {0, DIRECTED_DEG}};
+    if ((ambient && !read_list("--ambient", ambient, PLOT_AMBIENT_MAX, false, &even, err)) ||
+        (directed && !read_list("--directed", directed, 2, false, &beam, err)))
+        return false;
+    if (beam.count < 2) beam.value[1] = DIRECTED_DEG;
+    if (directed && !(beam.value[1] < 90))
+        return error_set(err, ERROR_USAGE, "--directed is '%s': %g degrees, required below 90",
+                         directed, beam.value[1]);
+    if (directed && !ambient) even.count = 1;
+    out->count = even.count;
+    for (int i = 0; i < even.count; i++)
+        out->light[i] = (PlotLight){even.value[i], directed ? beam.value[0] : 0,
+                                    radians_from_degrees(beam.value[1])};
     return true;
 }
 
@@ -81,7 +93,7 @@ double plot_contours_level(const PlotContours *contours, int i, double on_axis)
 const char *plot_kind_name(PlotKind kind)
 {
     static const char *const NAMES[] = {"all", "luminance", "contrast", "colour-shift",
-        "grey-levels", "sections", "chromaticity", "spectra", "brdf", "brdf-spectrum",
+        "grey-inversion", "grey-levels", "sections", "chromaticity", "spectra", "brdf", "brdf-spectrum",
         "brdf-map", "mirror", "fit", "uniformity"};
     return NAMES[kind];
 }

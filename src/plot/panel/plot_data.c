@@ -177,7 +177,7 @@ PlotData *plot_data_new(const PlotSource *source, Arena *arena)
     s->reflects = panel_reflects(source->panel);
     if (s->emits) sample_emission(s);
     if (s->reflects) look_at_reflection(s);
-    if (s->reflects && source->ambient.count)
+    if (s->reflects && (source->ambient.count || source->wants_reflectance))
         parallel_for(source->threads, PLOT_REFLECTANCES, sample_even_light, s);
     return s;
 }
@@ -276,6 +276,22 @@ Field plot_data_brdf_field(const PlotData *data, double incidence, Arena *arena)
     return work.field;
 }
 
+double plot_data_albedo(const PlotData *data, double theta)
+{
+    return (double)panel_haze_albedo(data->source.panel, (float)cos(theta));
+}
+
+double plot_data_lambertian(const PlotData *data, double theta)
+{
+    PanelLanes  at;
+    Wavelengths wavelengths = lanes(0);
+    Vec3        wi = direction(theta, data->source.incidence_phi);
+    Vec3        wo = direction(theta, data->source.incidence_phi + PI);
+    panel_lanes(data->source.panel, &wavelengths, &at);
+    Spectrum brdf = panel_brdf_at(data->source.panel, wo, wi, &at);
+    return luminous_mean(panel_lambertian_at(data->source.panel, brdf, wi, &at), &wavelengths);
+}
+
 double plot_data_mirror(const PlotData *data, double theta, double nm)
 {
     Wavelengths wavelengths = lanes(nm);
@@ -299,12 +315,32 @@ static double contrast_of(double white, double black, double reflected)
     return black + reflected > 0 ? (white + reflected) / (black + reflected) : NAN;
 }
 
-double ambient_contrast(const PlotData *data, double theta, double phi, double lux)
+/* f of the directed source, sr^-1; 0 without one. */
+static double directed_brdf(const PlotData *data, Vec3 d, const PlotLight *light)
+{
+    return light->directed_lux > 0 ? brdf(data, light->directed_theta, d, 0) : 0;
+}
+
+double ambient_reflected(const PlotData *data, double theta, double phi, const PlotLight *light)
+{
+    double even = ambient_reflectance(data, fabs(theta)) * light->lux / PI;
+    return even + directed_brdf(data, direction(theta, phi), light) * light->directed_lux;
+}
+
+double ambient_contrast(const PlotData *data, double theta, double phi, const PlotLight *light)
 {
     double white[3], black[3];
     plot_data_xyz(data, theta, phi, (float[3]){255, 255, 255}, white);
     plot_data_xyz(data, theta, phi, (float[3]){0, 0, 0}, black);
-    return contrast_of(white[1], black[1], ambient_reflectance(data, fabs(theta)) * lux / PI);
+    return contrast_of(white[1], black[1], ambient_reflected(data, theta, phi, light));
+}
+
+const char *ambient_text(const PlotLight *light, Arena *arena)
+{
+    if (!(light->directed_lux > 0)) return arena_format(arena, "%.6g lx", light->lux);
+    const char *even = light->lux > 0 ? arena_format(arena, "%.6g lx and ", light->lux) : "";
+    return arena_format(arena, "%s%.6g lx from %.3g°", even, light->directed_lux,
+                        degrees_from_radians(light->directed_theta));
 }
 
 /* R at every half degree: it depends on theta alone. */
@@ -324,7 +360,7 @@ static double reflectance_at(const double value[AMBIENT_STEPS], double theta)
     return value[i] + (value[i + 1] - value[i]) * (at - i);
 }
 
-Field ambient_contrast_field(const PlotData *data, double lux, Arena *arena)
+Field ambient_contrast_field(const PlotData *data, const PlotLight *light, Arena *arena)
 {
     const Field *white = &data->xyz[PATTERN_WHITE][1], *black = &data->xyz[PATTERN_BLACK][1];
     Field  field = field_new(white->side, white->theta_rim, arena);
@@ -333,8 +369,10 @@ Field ambient_contrast_field(const PlotData *data, double lux, Arena *arena)
     for (int i = 0; i < field.side * field.side; i++) {
         Vec3   d = field_direction(&field, i / field.side, i % field.side);
         double theta = atan2(hypot((double)d.x, (double)d.y), (double)d.z);
+        double reflected = reflectance_at(reflectance, theta) * light->lux / PI +
+                           directed_brdf(data, d, light) * light->directed_lux;
         field.value[i] = (float)contrast_of((double)white->value[i], (double)black->value[i],
-                                            reflectance_at(reflectance, theta) * lux / PI);
+                                            reflected);
     }
     return field;
 }

@@ -29,6 +29,7 @@ typedef struct PlotSource {
     const Measurement *measured; /* NULL: none given */
     double             incidence_phi; /* azimuth of the light, radians; PI: from the left */
     bool               wants_maps;    /* samples emission over the hemisphere */
+    bool               wants_reflectance; /* into every angle, though no ambient is given */
     int                threads;
     PlotContours       contours;      /* lines that the user wants in place of ours */
     PlotAmbient        ambient;       /* light in which contrast is asked besides the dark */
@@ -93,14 +94,20 @@ const Field *plot_data_brdf_measured(const PlotData *data, double incidence, Are
 /* The weighted one over the hemisphere. */
 Field plot_data_brdf_field(const PlotData *data, double incidence, Arena *arena);
 
+/* Directional-hemispherical reflectance without the mirror part, weighted by the eye. */
+double plot_data_albedo(const PlotData *data, double theta);
+
+/* The lambertian part of the BRDF, sr^-1, weighted by the eye, for light from theta. */
+double plot_data_lambertian(const PlotData *data, double theta);
+
 /* Mirror reflectance, weighted by the eye (nm 0) or at a wavelength. */
 double plot_data_mirror(const PlotData *data, double theta, double nm);
 
-/* ---- contrast under diffuse light that comes evenly from the whole hemisphere --------------
+/* ---- contrast in ambient light --------------------------------------------------------------
  *
- *   C(d) = (L_white(d) + R(d) E / pi) / (L_black(d) + R(d) E / pi)
+ *   C(d) = (L_white(d) + L_r(d)) / (L_black(d) + L_r(d)),  L_r(d) = R(d) E / pi + f(d, s) E_s
  *
- * E the illuminance on the panel, E / pi the luminance of the surround. R(d) is the panel's
+ * E the illuminance of a uniform surround on the panel, E / pi its luminance. R(d) is the panel's
  * hemispherical-directional luminous reflectance: what it sends into direction d from a
  * uniform surround, over what a perfect white diffuser would send,
  *   R(d) = integral of f(d, w) cos theta_w over the hemisphere of w, plus the mirror part,
@@ -108,21 +115,34 @@ double plot_data_mirror(const PlotData *data, double theta, double nm);
  * drawn like it, to about 0.3 %; light from beyond the last measured incidence (beyond 70
  * degrees 12 % of it) is extrapolated. The mirror part counts, since a uniform surround is
  * mirrored too (specular included). Of an anisotropic panel the mean over eight azimuths of d.
- * Weighted by V(lambda) for equal-energy light: lamps of other spectra change R where it
- * depends on the wavelength. Source: E. F. Kelley, M. Lindfors, J. Penczek, Display daylight
+ * E_s is the illuminance on the panel of a small directed source (sun, lamp) that stands at s;
+ * pi f(d, s) is the panel's luminance factor in that geometry. The source's image in the mirror
+ * part is seen in one direction only, which a render shows, and counts in none here.
+ * Weighted by V(lambda) for equal-energy light: lamps of other spectra change R and f where
+ * they depend on the wavelength. Source: E. F. Kelley, M. Lindfors, J. Penczek, Display daylight
  * ambient contrast measurement methods and daylight readability, J. Soc. Inf. Display 14
- * (2006); also SID's Information Display Measurements Standard. */
+ * (2006): sky as a uniform surround and sun as a directed source are measured apart, scaled to
+ * the illuminances and added; also SID's Information Display Measurements Standard. */
 
 #define AMBIENT_FORMULA                                                                        \
-    "(Lw + R E/π) / (Lb + R E/π): white and black at an angle, E the illuminance of an even "  \
-    "diffuse surround, R the panel's hemispherical-directional reflectance into that angle, "  \
-    "mirror included (Kelley, Lindfors, Penczek 2006)"
+    "(Lw + Lr) / (Lb + Lr), Lr = R E/π + f Es: white and black at an angle, E the illuminance " \
+    "of an even diffuse surround, R the panel's hemispherical-directional reflectance into "   \
+    "that angle, mirror included, Es the illuminance of a directed source on the panel, f the " \
+    "BRDF from it into that angle (Kelley, Lindfors, Penczek 2006)"
 
 /* R above, at theta. */
 double ambient_reflectance(const PlotData *data, double theta);
 
+/* L_r above at an angle, cd m^-2. */
+double ambient_reflected(const PlotData *data, double theta, double phi,
+                         const PlotLight *light);
+
 /* C above at an angle. */
-double ambient_contrast(const PlotData *data, double theta, double phi, double lux);
+double ambient_contrast(const PlotData *data, double theta, double phi,
+                        const PlotLight *light);
 
 /* The same over the hemisphere. */
-Field ambient_contrast_field(const PlotData *data, double lux, Arena *arena);
+Field ambient_contrast_field(const PlotData *data, const PlotLight *light, Arena *arena);
+
+/* "500 lx", "15000 lx and 65000 lx from 45°". */
+const char *ambient_text(const PlotLight *light, Arena *arena);

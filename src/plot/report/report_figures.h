@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* report_figures.h -- the charts of a panel under their headings, each with the values that a
+ * reader sees at the pointer.
+ *
+ * Memory   the arena's. Threads: one at a time per arena. Fails: with cairo's reason.
+ */
+#pragma once
+#include "plot/panel/panel_chart.h"
+#include "text/text.h"
+
+bool report_figures(Text *html, const PanelChartList *list, bool is_dark, Arena *arena,
+                    Error *err);
