@@ -89,6 +89,7 @@ DECLARATION = {"delimiter": "semicolon", "decimal": "comma", "azimuth_zero": "to
                "azimuth_sense": "cw", "mask": [-999], "level_max": 255, "skip": ["log_*"],
                "columns": ["theta", "phi", "X", "Y", "Z"], "roles": {"m01*.txt": "black"},
                "isotropic": True, "symmetry": "both", "area_mm": [10, 20], "instrument": "C",
+               "date": "2026-03-14", "operator": "A", "conditions": "23 C",
                "levels": "levels.csv", "specular_aperture_deg": 0}
 WRONG_RECIPES = [("emission/red/peaks_nm", []), ("emission/red/peaks_nm", None),
                  ("emission/green", None), ("emission/gama", 2.2), ("emission/gamma", 9),
@@ -116,7 +117,7 @@ WRONG_MANIFESTS = [("emission/black", None), ("emission/red", {}), ("emission/re
                    ("reflection/specular/aperture_deg", 40),
                    ("reflection/specular/aperture", 1), ("reflection/gloss", []),
                    ("reflection/gloss", [{"geometry_deg": 60, "gu": 1}]),
-                   ("instrument_fwhm_deg", 40), ("pannel", "x"), ("polarisation", 0.5),
+                   ("instrument_fwhm_deg", 40), ("date", 2026), ("operator", []), ("pannel", "x"), ("polarisation", 0.5),
                    ("polarisation", {"degree": 1.5, "azimuth_deg": 0}),
                    ("polarisation", {"degree": "1", "azimuth_deg": 0}),
                    ("polarisation", {"degree": 1, "azimuth_deg": 400}),

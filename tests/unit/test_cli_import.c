@@ -55,11 +55,15 @@ LAB_TEST(options_reach_the_files)
     lab_write(lab, "m1.txt", TABLE);
     if (!RUN(lab, &printed, "@m1.txt", "--role", "m1*=white", "--azimuth-zero", "top",
              "--azimuth-sense=cw", "--mask", "-999", "--unit", "fL", "--panel", "P 7",
-             "--instrument", "C 88", "-o", "@out/M.json"))
+             "--instrument", "C 88", "--date", "2026-03-14", "--operator", "A. Name",
+             "--conditions", "23 C", "-o", "@out/M.json"))
         fail_msg("%s", lab->err.text);
     const Measurement *set = read_set(lab);
     assert_string_equal(set->panel, "P 7");
     assert_string_equal(set->instrument, "C 88");
+    assert_string_equal(set->date, "2026-03-14");
+    assert_string_equal(set->operator_name, "A. Name");
+    assert_string_equal(set->conditions, "23 C");
     assert_true(set->is_white_only);
     const AngleTable *table = &set->primary[1].table[0];
     assert_int_equal(table->rows, 3);

@@ -135,8 +135,9 @@ static double true_value(int limit, double theta, double phi)
 static double asked_value(int limit, double theta, double phi)
 {
     float white[3], black[3], normal[3];
-    panel_emission_xyz(emits.panel, direction_deg(theta, phi), (float[3]){255, 255, 255}, white);
-    panel_emission_xyz(emits.panel, direction_deg(theta, phi), (float[3]){0, 0, 0}, black);
+    Vec3  d = direction_deg(theta, phi);
+    panel_emission_xyz(emits.panel, d, (float[3]){255, 255, 255}, white);
+    panel_emission_xyz(emits.panel, d, (float[3]){0, 0, 0}, black);
     panel_emission_xyz(emits.panel, vec3(0, 0, 1), (float[3]){255, 255, 255}, normal);
     if (limit < 2) return (double)(white[1] / black[1]);
     if (limit == 2) return (double)(white[1] / normal[1]);
@@ -384,7 +385,7 @@ TEST(ambient_contrast_has_both_lights)
     }
 }
 
-/* ---- the same everywhere ------------------------------------------------------------------ */
+/* ---- the same everywhere ----------------------------------------------------------------- */
 
 /* A cell as JSON has it, as the page and CSV write it. */
 static void assert_written(const json_t *cell, const char **csv, const char **html)

@@ -36,7 +36,8 @@ static bool open_and_write(ReportRequest *request, const Cli *cli, Arena *arena,
     if (!panel_level_open(request->panel, &request->level, arena, &panel, err)) return false;
     PlotInput input = {panel, request->panel, measured,
                        panel_level_words(&request->level, arena)};
-    bool ok = panel_report_write(&input, &request->options, &request->output, arena, answer, err);
+    bool ok = panel_report_write(&input, &request->options, &request->output, arena, answer,
+                                 err);
     if (ok) panel_level_add(&request->level, *answer);
     panel_close(panel);
     return ok;

@@ -221,8 +221,8 @@ json_t *panel_report_open_tables(const void *bytes, size_t size)
 /* Usual values, which a file omits; panel_report adds them again. */
 static json_t *unsaid(void)
 {
-    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:[f,f], s:[f,f]}", "instrument", "", "date", "",
-                     "operator", "", "conditions", "", "note", "", "pixels", 0.0, 0.0,
+    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:[f,f], s:[f,f]}", "instrument", "", "date",
+                     "", "operator", "", "conditions", "", "note", "", "pixels", 0.0, 0.0,
                      "size_mm", 0.0, 0.0);
 }
 

@@ -17,6 +17,13 @@ typedef struct AngleCurve {
     double      value[POINTS];
 } AngleCurve;
 
+/* What stands over one section. */
+typedef struct AngleCurves {
+    const char       *title; /* of the axis */
+    int               count;
+    const AngleCurve *curve;
+} AngleCurves;
+
 static double angle_deg(int i)
 {
     return -88 + 0.5 * i;
@@ -53,9 +60,11 @@ static void find_range(const PlotData *s, const AngleCurve *curve, int count, Ax
 }
 
 static void draw_curves(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out,
-                        const AngleCurve *curve, int count, const char *title)
+                        const AngleCurves *curves)
 {
-    AxisSpec y = {.is_log = true, .title = title};
+    const AngleCurve *curve = curves->curve;
+    int      count = curves->count;
+    AxisSpec y = {.is_log = true, .title = curves->title};
     double   deg[POINTS];
     for (int i = 0; i < POINTS; i++) deg[i] = angle_deg(i);
     find_range(shown->data, curve, count, &y);
@@ -94,7 +103,7 @@ static void draw_luminances(Canvas *canvas, Box box, const PanelChart *shown,
             curve[count].value[i] = luminance_at(s, i, plane_of(shown), rgb);
         count++;
     }
-    draw_curves(canvas, box, shown, out, curve, count, "Luminance, cd/m²");
+    draw_curves(canvas, box, shown, out, &(AngleCurves){"Luminance, cd/m²", count, curve});
 }
 
 /* In the dark, and in the light that was asked for. */
@@ -113,10 +122,11 @@ static void draw_contrasts(Canvas *canvas, Box box, const PanelChart *shown, Pan
             curve[count].value[i] = ambient_contrast(s, radians_from_degrees(angle_deg(i)),
                                                      plane_of(shown), &light);
     }
-    draw_curves(canvas, box, shown, out, curve, count, "Contrast ratio, white over black");
+    draw_curves(canvas, box, shown, out,
+                &(AngleCurves){"Contrast ratio, white over black", count, curve});
 }
 
-/* ---- grey levels -------------------------------------------------------------------------- */
+/* ---- grey levels ------------------------------------------------------------------------- */
 
 static void draw_greys(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
 {
@@ -131,9 +141,11 @@ static void draw_greys(Canvas *canvas, Box box, const PanelChart *shown, PanelCh
         curve[k].stroke = (Stroke){panel_chart_series_ink(canvas, k, count), 1.4,
                                    k % 2 ? DASH_LONG : DASH_NONE};
         for (int i = 0; i < POINTS; i++)
-            curve[k].value[i] = luminance_at(s, i, plane_of(shown), (float[3]){code, code, code});
+            curve[k].value[i] = luminance_at(s, i, plane_of(shown),
+                                             (float[3]){code, code, code});
     }
-    draw_curves(canvas, box, shown, out, curve, count, "Luminance of grey, cd/m²");
+    draw_curves(canvas, box, shown, out,
+                &(AngleCurves){"Luminance of grey, cd/m²", count, curve});
 }
 
 static void draw_inversion(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)

@@ -8,6 +8,7 @@
 #include "panel/query/panel_emission.h"
 #include "plot/draw/ticks.h"
 #include "plot/panel/panel_chart.h"
+#include "spectrum/gamut.h"
 #include "spectrum/photometry.h"
 
 /* ---- the diagram ------------------------------------------------------------------------ */
@@ -17,13 +18,6 @@ static void locus(int nm, double uv[2])
 {
     const SpectralRow *row = &spectral_table[nm - SPECTRAL_FIRST_NM];
     uv_of((double[3]){(double)row->x, (double)row->y, (double)row->z}, uv);
-}
-
-static void uv_of_xy(const double xy[2], double uv[2])
-{
-    double d = -2 * xy[0] + 12 * xy[1] + 3;
-    uv[0] = 4 * xy[0] / d;
-    uv[1] = 9 * xy[1] / d;
 }
 
 /* The path of the horseshoe, closed by the purple line. */
@@ -103,11 +97,6 @@ static void draw_locus(const Chart *chart)
     }
 }
 
-typedef struct Gamut {
-    const char *name;
-    double      xy[3][2];
-} Gamut;
-
 static void draw_triangle(const Chart *chart, double uv[3][2], Stroke stroke)
 {
     cairo_t *cr = chart->canvas->cr;
@@ -117,27 +106,17 @@ static void draw_triangle(const Chart *chart, double uv[3][2], Stroke stroke)
     canvas_stroke(chart->canvas, stroke);
 }
 
-static double triangle_area(double uv[3][2])
+static GamutTriangle standard_uv(int i)
 {
-    return 0.5 * fabs((uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) -
-                      (uv[2][0] - uv[0][0]) * (uv[1][1] - uv[0][1]));
+    GamutTriangle xy = gamut_triangle((GamutStandard)i);
+    return gamut_in_uv(&xy);
 }
 
-/* ITU-R BT.709 (also sRGB) and SMPTE RP 431-2 (DCI-P3). */
-static const Gamut GAMUTS[2] = {
-    {"sRGB", {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}}},
-    {"DCI-P3", {{0.68, 0.32}, {0.265, 0.69}, {0.15, 0.06}}}};
-
-static void gamut_uv(int i, double uv[3][2])
+static bool panel_triangle(const PlotData *s, GamutTriangle *uv)
 {
-    for (int k = 0; k < 3; k++) uv_of_xy(GAMUTS[i].xy[k], uv[k]);
-}
-
-static bool panel_triangle(const PlotData *s, double uv[3][2])
-{
-    for (int p = 0; p < 3; p++) plot_data_normal_uv(s, (Pattern)(PATTERN_RED + p), uv[p]);
-    return !s->is_white_only && isfinite(uv[0][0] + uv[1][0] + uv[2][0]) &&
-           triangle_area(uv) > 1e-5;
+    GamutTriangle srgb = standard_uv(GAMUT_SRGB);
+    for (int p = 0; p < 3; p++) plot_data_normal_uv(s, (Pattern)(PATTERN_RED + p), uv->at[p]);
+    return !s->is_white_only && gamut_area(uv, &srgb) > 1e-4;
 }
 
 /* From the normal to 80 degrees (or the cone's edge), along one azimuth. */
@@ -188,16 +167,17 @@ static void draw_chromaticity(Canvas *canvas, Box box, const PanelChart *shown,
                               PanelChartMap *out)
 {
     const PlotData *s = shown->data;
-    double uv[3][2];
+    GamutTriangle uv;
     Chart  chart = square_chart(canvas, box, (double[2]){-0.02, -0.01},
                                 (double[2]){0.66, 0.62}, UV_TITLES);
     draw_locus(&chart);
     for (int i = 0; i < 2; i++) {
-        gamut_uv(i, uv);
-        draw_triangle(&chart, uv, (Stroke){canvas->theme.soft, 0.9, i ? DASH_SHORT : DASH_DOT});
+        uv = standard_uv(i);
+        draw_triangle(&chart, uv.at,
+                      (Stroke){canvas->theme.soft, 0.9, i ? DASH_SHORT : DASH_DOT});
     }
-    if (panel_triangle(s, uv)) {
-        draw_triangle(&chart, uv, (Stroke){canvas->theme.ink, 1.7, DASH_NONE});
+    if (panel_triangle(s, &uv)) {
+        draw_triangle(&chart, uv.at, (Stroke){canvas->theme.ink, 1.7, DASH_NONE});
         for (int p = 1; p < 4; p++)
             draw_paths(&chart, s, (Pattern)p, canvas->theme.primary[p - 1]);
     }
@@ -217,14 +197,12 @@ static void draw_chromaticity(Canvas *canvas, Box box, const PanelChart *shown,
 
 static void add_chromaticity(PanelChartList *list, const PlotData *s)
 {
-    double uv[3][2], white[2], srgb[3][2], p3[3][2];
+    double        white[2];
+    GamutTriangle uv, srgb = standard_uv(GAMUT_SRGB), p3 = standard_uv(GAMUT_DCI_P3);
     plot_data_normal_uv(s, PATTERN_WHITE, white);
-    gamut_uv(0, srgb);
-    gamut_uv(1, p3);
-    const char *area = panel_triangle(s, uv)
-        ? arena_format(s->arena, ", area %.0f %% of sRGB, %.0f %% of DCI-P3",
-                       100 * triangle_area(uv) / triangle_area(srgb),
-                       100 * triangle_area(uv) / triangle_area(p3)) : "";
+    const char *area = panel_triangle(s, &uv)
+        ? arena_format(s->arena, ", area %.0f %% of sRGB, %.0f %% of DCI-P3 in u′v′",
+                       100 * gamut_area(&uv, &srgb), 100 * gamut_area(&uv, &p3)) : "";
     panel_chart_add(list, &(PanelChart){PLOT_CHROMATICITY, "Chromaticity",
         arena_format(s->arena, "white u′ %.4f v′ %.4f%s", white[0], white[1], area),
         "Primaries and white in the CIE 1976 u′v′ diagram; the short paths run from the normal "

@@ -55,7 +55,8 @@ static void draw_luminance(Canvas *canvas, Box box, const PanelChart *shown, Pan
     const PlotData *s = shown->data;
     const Field   *field = &s->xyz[shown->index][1];
     FieldRange     range = field_range(field, s->cone);
-    double low = is_even(range) ? 0.9 * range.low : range.low > 0.6 * range.high ? range.low : 0;
+    double low = range.low > 0.6 * range.high ? range.low : 0;
+    if (is_even(range)) low = 0.9 * range.low;
     PolarMap map = {.field = field, .map = MAP_AMOUNT, .low = low, .high = range.high,
                     .strong = NAN, .theta_measured = s->cone, .unit = "cd/m²"};
     double normal = (double)s->normal[shown->index][1], half = 0.5 * normal;
@@ -76,10 +77,12 @@ static void add_luminance(PanelChartList *list, const PlotData *s, Pattern patte
     char       normal[32], high[32];
     if (!(range.high > 0)) return;
     double      at_normal = (double)s->normal[pattern][1];
+    const char *most = range.high > 1.002 * at_normal
+        ? arena_format(s->arena, ", at most %s %s", figure_text(range.high, high),
+                       at_angles(s->arena, range.theta, range.phi)) : "";
     const char *subtitle = arena_format(s->arena, "%s cd/m² at the normal%s%s",
-        figure_text(at_normal, normal), is_even(range) ? ", nearly constant" : "", range.high > 1.002 * at_normal
-            ? arena_format(s->arena, ", at most %s %s", figure_text(range.high, high),
-                           at_angles(s->arena, range.theta, range.phi)) : "");
+                                        figure_text(at_normal, normal),
+                                        is_even(range) ? ", nearly constant" : "", most);
     panel_chart_add(list, &(PanelChart){PLOT_LUMINANCE,
         arena_format(s->arena, "Luminance, %s", pattern_word(pattern)), subtitle,
         "Luminance in cd/m² over the viewing hemisphere: θ from the normal outwards, "

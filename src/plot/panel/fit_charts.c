@@ -437,10 +437,9 @@ static void add_emission_fit(PanelChartList *list, const PlotData *s)
     if (r->worst.table)
         panel_chart_add(list, &(PanelChart){PLOT_FIT, "Residual of the worst table",
             arena_format(s->arena, "%s, luminance", r->worst.table->name),
-            "Where fitted less measured luminance, in percent, lies of the table in which it is "
-            "largest; the colours hold all but one direction in fifty.", draw_residual_map, s, 0,
-            SHEET_ALWAYS,
-            false});
+            "Fitted less measured luminance, in percent, of the table in which it is largest; "
+            "the colours hold all but one direction in fifty.", draw_residual_map, s, 0,
+            SHEET_ALWAYS, false});
 }
 
 static const char *azimuth_text(const PlotData *s)

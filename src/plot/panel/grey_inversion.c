@@ -17,8 +17,8 @@ GreyLevels grey_levels(const PlotData *data)
     return out;
 }
 
-GreyInversion grey_inversion_at(const PlotData *data, const GreyLevels *levels, double theta,
-                                double phi)
+static GreyInversion inversion_at(const PlotData *data, const GreyLevels *levels, double theta,
+                                  double phi)
 {
     GreyInversion out = {.theta = theta, .phi = phi};
     double brightest = 0, code = 0; /* of the levels before */
@@ -35,7 +35,7 @@ GreyInversion grey_inversion_at(const PlotData *data, const GreyLevels *levels, 
 
 static bool inverts(const PlotData *data, const GreyLevels *levels, double theta, double phi)
 {
-    return grey_inversion_at(data, levels, theta, phi).share >= GREY_INVERSION_LEAST;
+    return inversion_at(data, levels, theta, phi).share >= GREY_INVERSION_LEAST;
 }
 
 /* Between a theta without and one with it. */
@@ -54,10 +54,10 @@ GreyInversion grey_inversion_along(const PlotData *data, const GreyLevels *level
                                    double *first)
 {
     GreyInversion most = {.phi = phi};
-    double step = radians_from_degrees(0.5);
+    double step = radians_from_degrees(0.5), theta = 0, before = 0;
     *first = NAN;
-    for (double theta = 0, before = 0;; before = theta, theta = fmin(theta + step, data->cone)) {
-        GreyInversion one = grey_inversion_at(data, levels, theta, phi);
+    for (;; before = theta, theta = fmin(theta + step, data->cone)) {
+        GreyInversion one = inversion_at(data, levels, theta, phi);
         if (one.share > most.share) most = one;
         if (isnan(*first) && one.share >= GREY_INVERSION_LEAST)
             *first = theta > 0 ? where_it_begins(data, levels, before, theta, phi) : 0;
@@ -92,7 +92,7 @@ static void sample_row(void *context, int row, int worker)
     for (int column = 0; column < SIDE; column++) {
         Vec3   d = field_direction(&work->field, row, column);
         double theta = atan2(hypot((double)d.x, (double)d.y), (double)d.z);
-        double share = grey_inversion_at(work->data, work->levels, theta,
+        double share = inversion_at(work->data, work->levels, theta,
                                          atan2((double)d.y, (double)d.x)).share;
         work->field.value[row * SIDE + column] =
             share >= GREY_INVERSION_LEAST ? (float)(100 * share) : 0;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* grey_inversion.h -- where a higher grey level gives less light than a lower one, and how much.
+/* grey_inversion.h -- where a higher grey level gives less light than a lower one, and by how
+ * much.
  *
  * Grey is red, green and blue at one code. At a direction the pair of measured levels that is
  * wrong the most counts: share = 1 - L(higher) / L(lower), black included. What is below
@@ -25,11 +26,8 @@ typedef struct GreyInversion {
     double theta, phi; /* where */
 } GreyInversion;
 
-GreyInversion grey_inversion_at(const PlotData *data, const GreyLevels *levels, double theta,
-                                double phi);
-
-/* The largest along an azimuth, by half degrees up to the measured cone; *first: the theta where
- * it begins, to a hundredth of a degree, NaN where there is none. */
+/* The largest along an azimuth, by half degrees up to the measured cone. *first: the theta
+ * where it begins, to a hundredth of a degree, NaN where there is none. */
 GreyInversion grey_inversion_along(const PlotData *data, const GreyLevels *levels, double phi,
                                    double *first);
 

@@ -17,7 +17,8 @@ static bool is_among(PlotKind kind, PlotKind first, PlotKind last)
 PanelChartList *plot_charts(const PlotData *data, PlotKind kind, Arena *arena)
 {
     static const PanelCharts *const all[] = {&emission_charts, &curve_charts, &angle_charts,
-                                             &colour_charts, &reflection_charts, &fit_charts, &place_charts};
+                                             &colour_charts, &reflection_charts, &fit_charts,
+                                             &place_charts};
     PanelChartList *list = ARENA_NEW(arena, PanelChartList, 1);
     for (int i = 0; i < COUNT_OF(all); i++)
         if (is_among(kind, all[i]->first, all[i]->last)) all[i]->add(list, data);

@@ -71,8 +71,8 @@ static void add_contrast_contours(json_t *out, const PlotData *s)
     for (int i = 0; i < s->source.ambient.count; i++) {
         const PlotLight *light = &s->source.ambient.light[i];
         Field lit = ambient_contrast_field(s, light, s->arena);
-        add_contours(out, s, arena_format(s->arena, "contrast %s", ambient_text(light, s->arena)),
-                     &lit, ambient_contrast(s, 0, 0, light));
+        const char *name = arena_format(s->arena, "contrast %s", ambient_text(light, s->arena));
+        add_contours(out, s, name, &lit, ambient_contrast(s, 0, 0, light));
     }
 }
 

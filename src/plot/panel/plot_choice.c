@@ -93,7 +93,7 @@ double plot_contours_level(const PlotContours *contours, int i, double on_axis)
 const char *plot_kind_name(PlotKind kind)
 {
     static const char *const NAMES[] = {"all", "luminance", "contrast", "colour-shift",
-        "grey-inversion", "grey-levels", "sections", "chromaticity", "spectra", "brdf", "brdf-spectrum",
-        "brdf-map", "mirror", "fit", "uniformity"};
+        "grey-inversion", "grey-levels", "sections", "chromaticity", "spectra", "brdf",
+        "brdf-spectrum", "brdf-map", "mirror", "fit", "uniformity"};
     return NAMES[kind];
 }

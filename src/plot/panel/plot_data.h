@@ -107,8 +107,8 @@ double plot_data_mirror(const PlotData *data, double theta, double nm);
  *
  *   C(d) = (L_white(d) + L_r(d)) / (L_black(d) + L_r(d)),  L_r(d) = R(d) E / pi + f(d, s) E_s
  *
- * E the illuminance of a uniform surround on the panel, E / pi its luminance. R(d) is the panel's
- * hemispherical-directional luminous reflectance: what it sends into direction d from a
+ * E the illuminance of a uniform surround on the panel, E / pi its luminance. R(d) is the
+ * panel's hemispherical-directional luminous reflectance: what it sends into direction d from a
  * uniform surround, over what a perfect white diffuser would send,
  *   R(d) = integral of f(d, w) cos theta_w over the hemisphere of w, plus the mirror part,
  * f the panel's own BRDF (haze and lambertian part, as a renderer asks it), by 2048 directions
@@ -119,16 +119,16 @@ double plot_data_mirror(const PlotData *data, double theta, double nm);
  * pi f(d, s) is the panel's luminance factor in that geometry. The source's image in the mirror
  * part is seen in one direction only, which a render shows, and counts in none here.
  * Weighted by V(lambda) for equal-energy light: lamps of other spectra change R and f where
- * they depend on the wavelength. Source: E. F. Kelley, M. Lindfors, J. Penczek, Display daylight
- * ambient contrast measurement methods and daylight readability, J. Soc. Inf. Display 14
- * (2006): sky as a uniform surround and sun as a directed source are measured apart, scaled to
- * the illuminances and added; also SID's Information Display Measurements Standard. */
+ * they depend on the wavelength. Source: E. F. Kelley, M. Lindfors, J. Penczek, Display
+ * daylight ambient contrast measurement methods and daylight readability, J. Soc. Inf. Display
+ * 14 (2006): sky as a uniform surround and sun as a directed source are measured apart, scaled
+ * to the illuminances and added; also SID's Information Display Measurements Standard. */
 
 #define AMBIENT_FORMULA                                                                        \
-    "(Lw + Lr) / (Lb + Lr), Lr = R E/π + f Es: white and black at an angle, E the illuminance " \
-    "of an even diffuse surround, R the panel's hemispherical-directional reflectance into "   \
-    "that angle, mirror included, Es the illuminance of a directed source on the panel, f the " \
-    "BRDF from it into that angle (Kelley, Lindfors, Penczek 2006)"
+    "(Lw + Lr) / (Lb + Lr), Lr = R E/π + f Es: white and black at an angle, E the "            \
+    "illuminance of an even diffuse surround, R the panel's hemispherical-directional "        \
+    "reflectance into that angle, mirror included, Es the illuminance of a directed source "   \
+    "on the panel, f the BRDF from it into that angle (Kelley, Lindfors, Penczek 2006)"
 
 /* R above, at theta. */
 double ambient_reflectance(const PlotData *data, double theta);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Primaries and gamut. */
+#include "plot/report/colour_tables.h"
+
 #include <math.h>
 
-#include "plot/report/report_parts.h"
 #include "spectrum/gamut.h"
 
 static GamutTriangle own_triangle(const PlotData *s)
@@ -20,7 +21,7 @@ static void add_primaries(Report *report, const PlotData *s, const GamutTriangle
 {
     GamutTriangle uv = gamut_in_uv(xy);
     ReportTable  *table = report_add(report, "primaries", "Primaries",
-                                     "At the normal, each alone at full drive, black included.");
+        "At the normal, each alone at full drive, black included.");
     report_column(table, "primary", "Primary");
     report_column(table, "luminance_cd_m2", "L, cd/m²");
     report_column(table, "x", "x");

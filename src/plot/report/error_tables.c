@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* How far the panel file is from what was measured: one figure, explained. */
+#include "plot/report/error_tables.h"
+
 #include <math.h>
 #include <string.h>
 
-#include "plot/report/report_parts.h"
 
 typedef struct PartError {
     double      most, squares;

@@ -7,7 +7,6 @@
 
 #include "page/page.h"
 #include "plot/draw/ticks.h"
-#include "plot/report/report_parts.h"
 
 /* ---- the panel's own report --------------------------------------------------------------
  *
@@ -234,8 +233,8 @@ static void add_notes(Text *html, const json_t *report, Arena scratch)
 void report_of_file(Text *html, const json_t *report, Arena scratch)
 {
     page_element(html, "h2", "Sizes and errors, table by table");
-    page_element(html, "p class=\"sub\"", "Errors as defined above; trees are shared by tables, "
-                 "whose part is an even share.");
+    page_element(html, "p class=\"sub\"", "Errors as defined above; trees are shared by "
+                 "tables, whose part is an even share.");
     add_tables(html, report, scratch);
     page_element(html, "h2", "Choices and provenance");
     add_choices(html, report, scratch);

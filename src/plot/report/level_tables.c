@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Gamma by angle, and grey inversion. */
+#include "plot/report/level_tables.h"
+
 #include <math.h>
 
 #include "base/count.h"
 #include "base/units.h"
 #include "plot/panel/grey_inversion.h"
-#include "plot/report/report_parts.h"
+#include "plot/report/report_azimuth.h"
 
 static const int ANGLES_DEG[] = {0, 15, 30, 45, 60};
 

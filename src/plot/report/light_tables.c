@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Reflectance by incidence and in the usual geometries; contrast in ambient light. */
+#include "plot/report/light_tables.h"
+
 #include <math.h>
 
 #include "base/count.h"
 #include "base/units.h"
-#include "plot/report/report_parts.h"
+#include "plot/report/report_azimuth.h"
 
 #define WITHOUT_REFLECTION                                                                     \
-    "The reflection was not measured: no reflectance and no contrast in ambient light are "     \
+    "The reflection was not measured: no reflectance and no contrast in ambient light are "    \
     "stated."
 
 /* ---- reflectance ------------------------------------------------------------------------- */
@@ -38,7 +40,8 @@ static void add_incidences(Report *report, const PlotData *s)
         {"brdf_mirror_direction_sr", "BRDF in the mirror direction without specular, sr⁻¹"}};
     for (int i = 0; i < COUNT_OF(COLUMNS); i++)
         report_column(table, COLUMNS[i].key, COLUMNS[i].title);
-    for (int i = 0; i < s->incidence_count; i++) add_incidence(report, table, s, s->incidence[i]);
+    for (int i = 0; i < s->incidence_count; i++)
+        add_incidence(report, table, s, s->incidence[i]);
 }
 
 static void add_factor(Report *report, ReportTable *table, const char *const texts[2],
@@ -58,9 +61,9 @@ static void add_factors(Report *report, const PlotData *s)
     bool   has_45 = panel_info_brdf_is_measured(panel, at_45, 0);
     double diffuse = plot_data_albedo(s, at_8);
     ReportTable *table = report_add(report, "reflectance_factors", "Reflectance factors",
-        "Luminous factors over a perfect white diffuser, geometries of CIE 15. 8:de takes off "
-        "the mirror part alone: the haze that would fall into an instrument's gloss trap, whose "
-        "size no standard fixes, stays in it.");
+        "Luminous factors over a perfect white diffuser, geometries of CIE 15. 8/de takes off "
+        "the mirror part alone: the haze that would fall into an instrument's gloss trap, "
+        "whose size no standard fixes, stays in it.");
     report_column(table, "geometry", "Geometry");
     report_column(table, "meaning", "Light : view");
     report_column(table, "factor_percent", "Factor, %");
@@ -116,12 +119,12 @@ static const char *ambient_note(Report *report, const PlotData *s)
     const char *black = s->has_black ? "" : " Black was not measured, or gives no light: it "
                         "counts as 0, so contrasts are upper limits, and the dark has none.";
     bool is_seen = s->last_incidence >= radians_from_degrees(45);
-    return arena_format(report->arena, "Contrast = " AMBIENT_FORMULA ". The source stands at the "
-        "angle given, at azimuth φ %.4g°; its mirror image is seen in one direction only and is "
-        "in no figure.%s SAE J1757-1 states the two lights apart: CRd = (Ldark,w + Lamb-d) / "
-        "(Ldark,k + Lamb-d), CRh = (Ldark,w + Lamb-s) / (Ldark,k + Lamb-s), of full white w and "
-        "full black k, and sets no limits. The illuminances of both standards are those that "
-        "public summaries quote; others by --ambient and --directed.%s",
+    return arena_format(report->arena, "Contrast = " AMBIENT_FORMULA ". The source stands at "
+        "the angle given, at azimuth φ %.4g°; its mirror image is seen in one direction only "
+        "and is in no figure.%s SAE J1757-1 states the two lights apart: CRd = (Ldark,w + "
+        "Lamb-d) / (Ldark,k + Lamb-d), CRh = (Ldark,w + Lamb-s) / (Ldark,k + Lamb-s), of full "
+        "white w and full black k, and sets no limits. The illuminances of both standards are "
+        "those that public summaries quote; others by --ambient and --directed.%s",
         degrees_from_radians(s->source.incidence_phi), is_seen ? "" : " Light from 45° was not "
         "measured: its part is extrapolated.", black);
 }

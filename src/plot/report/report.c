@@ -11,9 +11,14 @@
 #include "page/page.h"
 #include "plot/draw/ticks.h"
 #include "plot/panel/grey_inversion.h"
+#include "plot/report/colour_tables.h"
+#include "plot/report/error_tables.h"
 #include "plot/report/file_report.h"
+#include "plot/report/level_tables.h"
+#include "plot/report/light_tables.h"
+#include "plot/report/place_tables.h"
 #include "plot/report/report_figures.h"
-#include "plot/report/report_parts.h"
+#include "plot/report/viewing_tables.h"
 #include "spectrum/gamut.h"
 #include "text/json_text.h"
 
@@ -22,7 +27,7 @@
 /* report.css and report.js beside this file; the build embeds them. */
 extern const char PANEL_STYLE[], PANEL_SCRIPT[];
 
-/* ---- what was measured, by whom, when ----------------------------------------------------- */
+/* ---- what was measured, by whom, when ---------------------------------------------------- */
 
 static const struct { const char *key, *name; } STATED[] = {
     {"panel", "Panel"}, {"instrument", "Instrument"}, {"date", "Date"},
@@ -104,7 +109,8 @@ static void add_white_keys(Text *html, const PlotData *s, Arena *arena)
              "u′ v′ of white at the normal", false);
     if (white.is_defined)
         page_key(html, arena_format(arena, "%.0f K", white.kelvin),
-                 arena_format(arena, "colour temperature of white, Duv %.4f", white.duv), false);
+                 arena_format(arena, "colour temperature of white, Duv %.4f", white.duv),
+                 false);
 }
 
 static void add_inversion_key(Text *html, const PlotData *s, Arena *arena)
@@ -170,9 +176,11 @@ static void add_head(Text *html, const PlotData *s, bool is_dark)
     add_facts(html, s);
 }
 
-static bool add_page(Text *html, const PlotData *s, const PanelChartList *list,
-                     const Report *report, bool is_dark, Arena *arena, Error *err)
+static bool add_page(Text *html, const PlotData *s, const Report *report, bool is_dark,
+                     Error *err)
 {
+    Arena          *arena = s->arena;
+    PanelChartList *list = plot_charts(s, PLOT_ALL, arena);
     add_head(html, s, is_dark);
     add_keys(html, s, arena);
     add_legend(html, s);
@@ -193,6 +201,7 @@ static Report *make_tables(const PlotData *data, Arena *arena)
     report_levels(report, data);
     report_reflection(report, data);
     report_ambient(report, data);
+    report_places(report, data);
     report_errors(report, data);
     return report;
 }
@@ -200,11 +209,9 @@ static Report *make_tables(const PlotData *data, Arena *arena)
 static bool write_page(const PlotData *data, const Report *report, const PlotOptions *options,
                        const char *path, Error *err)
 {
-    Arena          *arena = data->arena;
-    PanelChartList *list = plot_charts(data, PLOT_ALL, arena);
-    Arena           own = arena_reserve(PAGE_BYTES);
-    Text            html = {.arena = &own};
-    bool ok = add_page(&html, data, list, report, options->is_dark, arena, err) &&
+    Arena own = arena_reserve(PAGE_BYTES);
+    Text  html = {.arena = &own};
+    bool  ok = add_page(&html, data, report, options->is_dark, err) &&
               text_write(&html, path, err);
     arena_release(&own);
     return ok;

@@ -91,8 +91,10 @@ static const struct { PlotKind first, last; const char *title; } CHAPTERS[] = {
     {PLOT_UNIFORMITY, PLOT_UNIFORMITY, "Over the active area"},
     {PLOT_FIT, PLOT_FIT, "Measured against fitted"}};
 
+/* Charts of what was assumed and not measured are for panel plot. */
 static bool is_in_chapter(const PanelChart *chart, int chapter)
 {
+    if (chart->needs_primaries && chart->data->is_white_only) return false;
     return chart->kind >= CHAPTERS[chapter].first && chart->kind <= CHAPTERS[chapter].last;
 }
 

@@ -1,34 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* At which angle a display falls below a limit, and its colour at an angle. */
+#include "plot/report/viewing_tables.h"
+
 #include <math.h>
 
 #include "base/count.h"
 #include "base/units.h"
-#include "plot/report/report_parts.h"
+#include "plot/report/report_azimuth.h"
 #include "spectrum/gamut.h"
-
-/* ---- azimuths ---------------------------------------------------------------------------- */
-
-/* emission.azimuths_deg of the file: those measured, where they stand 45 degrees apart or
- * more; without it every azimuth has a measured one near. */
-bool report_has_azimuth(const PlotData *data, int index)
-{
-    const json_t *emission = json_object_get(data->source.report, "emission");
-    const json_t *list = json_object_get(emission, "azimuths_deg"), *one;
-    size_t        i;
-    json_array_foreach(list, i, one)
-        if (fabs(remainder(json_number_value(one) - 45 * index, 360)) < 22.5 + 1e-6)
-            return true;
-    return json_array_size(list) == 0;
-}
-
-void report_azimuth_columns(Report *report, ReportTable *table)
-{
-    static const char *const WORDS[] = {" right", "", " up", "", " left", "", " down", ""};
-    for (int i = 0; i < REPORT_AZIMUTHS; i++)
-        report_column(table, arena_format(report->arena, "phi_%d", 45 * i),
-                      arena_format(report->arena, "φ %d°%s", 45 * i, WORDS[i]));
-}
 
 /* ---- crossings --------------------------------------------------------------------------- */
 
@@ -66,8 +45,8 @@ static double margin_at(const PlotData *s, int criterion, double theta, double p
     }
 }
 
-/* The first theta, degrees, at which the limit is crossed, by quarters and then halved; 0: it is
- * not held at the normal. NaN: it is held as far as was measured. */
+/* The first theta, degrees, at which the limit is crossed, by quarters and then halved; 0: it
+ * is not held at the normal. NaN: it is held as far as was measured. */
 static double crossing_deg(const PlotData *s, int criterion, double phi)
 {
     double last = degrees_from_radians(s->cone), low = 0, high = 0;
@@ -106,14 +85,15 @@ static void add_viewing_angles(Report *report, const PlotData *s)
         "normal outwards, at which the limit is first crossed; “> %.4g”: it is held as far "
         "as was measured; “not at 0”: not even at the normal. Full white over black in the "
         "dark; Δu′v′ from white at the normal.%s", degrees_from_radians(s->cone),
-        s->has_black ? "" : " Black was not measured, or gives no light: no contrast is stated.");
+        s->has_black ? "" : " Black was not measured, or gives no light: no contrast is "
+        "stated.");
     ReportTable *table = report_add(report, "viewing_angle", "Viewing angle", note);
     report_column(table, "limit", "Limit");
     report_azimuth_columns(report, table);
     for (int i = 0; i < COUNT_OF(CRITERIA); i++) add_crossings(report, table, s, i);
 }
 
-/* ---- colour at 30, 45 and 60 degrees ------------------------------------------------------ */
+/* ---- colour at 30, 45 and 60 degrees ----------------------------------------------------- */
 
 static const int ANGLES_DEG[] = {30, 45, 60};
 
