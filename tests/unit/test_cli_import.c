@@ -64,6 +64,7 @@ LAB_TEST(options_reach_the_files)
     assert_string_equal(set->date, "2026-03-14");
     assert_string_equal(set->operator_name, "A. Name");
     assert_string_equal(set->conditions, "23 C");
+    assert_null(strstr(printed, "not stated"));
     assert_true(set->is_white_only);
     const AngleTable *table = &set->primary[1].table[0];
     assert_int_equal(table->rows, 3);

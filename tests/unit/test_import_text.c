@@ -204,12 +204,15 @@ LAB_TEST(azimuths_are_turned_to_the_viewers_right)
 LAB_TEST(a_file_says_its_own_azimuths_and_units)
 {
     import_white(lab, "[Conoscope export]\nPanel;Type 7\nInstrument;Cone 88\n"
+                      "Date;2026-03-14 09:30\nOperator;A. Name\n"
                       "Azimuth;0 = 12 o'clock; clockwise\nUnit;fL\n\n"
                       "theta;phi;X;Y;Z\n0;0;1;2;3\n40;30;4;5;6\n40;60;7;8;9\n");
     assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 40, 60, 1), 5 * 3.4262590996,
                  1e-9);
     assert_string_equal(lab->set.panel, "Type 7");
     assert_string_equal(lab->set.instrument, "Cone 88");
+    assert_string_equal(lab->set.date, "2026-03-14 09:30");
+    assert_string_equal(lab->set.operator_name, "A. Name");
     assert_false(lab_noted(lab, "azimuth 0 is taken"));
     import_white(lab, "theta;phi;X;Y;Z\n0;0;1;2;3\n40;30;4;5;6\n40;60;7;8;9\n");
     assert_true(lab_noted(lab, "azimuth 0 is taken to point right"));

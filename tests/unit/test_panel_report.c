@@ -454,6 +454,18 @@ TEST(what_was_not_measured_is_said)
     assert_true(json_number_at(half, "phi_0") > 30);
     assert_string_equal(json_text_at(half, "phi_90"), "not measured");
     assert_string_equal(json_text_at(row_of(report, "viewing_angle", 1), "phi_0"), "no black");
+    const char *levels = fixture_file(&emits, "levels.csv",
+                                      "level,luminance\n0,0.5\n0.5,80\n1,380\n");
+    fixture_read(&emits, table); /* black on the axis alone: no contrast at an angle */
+    assert_done(measurement_read_levels(emits.set, levels, &emits.arena, &err));
+    json_decref(emits.report);
+    panel_close(emits.panel);
+    fixture_fit(&emits, &options);
+    json_auto_t *axis = report_of(&emits, emits.panel_path, false);
+    assert_string_equal(json_text_at(row_of(axis, "viewing_angle", 1), "phi_0"),
+                        "not measured");
+    assert_true(json_number_at(row_of(axis, "gamma", 0), "phi_0") > 1.8);
+    assert_string_equal(json_text_at(row_of(axis, "gamma", 2), "phi_0"), "not measured");
     const char *const missing[] = {"gamut", "gamma", "grey_inversion", "reflectance",
                                    "ambient_contrast"};
     for (size_t i = 0; i < 5; i++)

@@ -61,6 +61,21 @@ static json_t *summary(const ImportSet *set, const char *manifest, Arena *arena)
                      json_texts(set->note, set->note_count));
 }
 
+/* What a report of the panel would lack. */
+static void print_unstated(const ImportSet *set)
+{
+    const struct { const char *option, *text; } words[] = {
+        {"--instrument", set->instrument}, {"--date", set->date},
+        {"--operator", set->operator_name}, {"--conditions", set->conditions}};
+    bool is_begun = false;
+    for (int i = 0; i < COUNT_OF(words); i++) {
+        if (words[i].text) continue;
+        print("%s%s", is_begun ? ", " : "not stated, for a report: ", words[i].option);
+        is_begun = true;
+    }
+    if (is_begun) print("\n");
+}
+
 static void print_summary(const ImportSet *set, const char *manifest, Arena *arena)
 {
     double rows = 0, masked = 0;
@@ -73,6 +88,7 @@ static void print_summary(const ImportSet *set, const char *manifest, Arena *are
         masked += table->masked;
     }
     for (int i = 0; i < set->note_count; i++) print("note: %s\n", set->note[i]);
+    print_unstated(set);
     print("%s: %d tables, %.0f directions, %.0f masked\n", manifest, set->count, rows, masked);
 }
 

@@ -183,6 +183,8 @@ static void note_names(TextReader *in)
 {
     if (!in->set->panel) in->set->panel = in->metadata.panel;
     if (!in->set->instrument) in->set->instrument = in->metadata.instrument;
+    if (!in->set->date) in->set->date = in->metadata.date;
+    if (!in->set->operator_name) in->set->operator_name = in->metadata.operator_name;
     if (in->metadata.unused_columns)
         import_note(in->set, "%s: %d columns with other names are not used",
                     path_name(in->file), in->metadata.unused_columns);

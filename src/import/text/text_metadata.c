@@ -125,11 +125,14 @@ static void read_names(TextMetadata *metadata, const KeyValue *pair, Arena *aren
     static const char *const panel[] = {"panel", "display", "device", "dut", "model", NULL};
     static const char *const instrument[] = {"instrument", "messger\xC3\xA4t", "conoscope",
                                              NULL};
+    static const char *const date[] = {"date", "datum", "measurementdate", "messdatum", NULL};
+    static const char *const person[] = {"operator", "bediener", "measuredby", NULL};
     if (pair->value.length < 1 || pair->value.length > 200) return;
     char *value = arena_string(arena, pair->value.text, (size_t)pair->value.length);
     if (key_is(pair, panel) && !metadata->panel) metadata->panel = value;
-    if (key_is(pair, instrument) && !metadata->instrument)
-        metadata->instrument = value;
+    if (key_is(pair, instrument) && !metadata->instrument) metadata->instrument = value;
+    if (key_is(pair, date) && !metadata->date) metadata->date = value;
+    if (key_is(pair, person) && !metadata->operator_name) metadata->operator_name = value;
 }
 
 TextMetadata text_metadata(void)

@@ -19,7 +19,7 @@ typedef struct TextMetadata {
     double       incidence_deg;
     char         words[256];     /* of pattern, colour and level */
     int          words_line;
-    const char  *panel, *instrument; /* NULL: not there */
+    const char  *panel, *instrument, *date, *operator_name; /* NULL: not there */
     int          unused_columns;
 } TextMetadata;
 

@@ -92,7 +92,8 @@ static void draw_luminances(Canvas *canvas, Box box, const PanelChart *shown,
     int         count = 0;
     for (int p = 0; p < PATTERN_COUNT; p++) {
         bool is_primary = p != PATTERN_WHITE && p != PATTERN_BLACK;
-        if ((is_primary && s->is_white_only) || !(s->normal[p][1] > 0)) continue;
+        bool is_assumed = s->is_white_only && p != PATTERN_WHITE;
+        if (is_assumed || !(s->normal[p][1] > 0)) continue;
         float rgb[3];
         Ink   ink = is_primary ? canvas->theme.primary[p - PATTERN_RED]
                   : p == PATTERN_WHITE ? canvas->theme.ink : canvas->theme.soft;
@@ -220,7 +221,7 @@ static void add_angle(PanelChartList *list, const PlotData *s)
     add_pair(list, s, &(PanelChart){.kind = PLOT_SECTIONS, .subtitle = "logarithmic",
         .caption = "Luminance in cd/m² over the angle from the normal, logarithmic.",
         .draw = draw_luminances}, "Luminance", SHEET_NEVER);
-    if (s->has_black || s->source.ambient.count)
+    if ((s->has_black && !s->is_white_only) || s->source.ambient.count)
         add_pair(list, s, &(PanelChart){.kind = PLOT_SECTIONS, .subtitle = light_list(s),
             .caption = "Contrast ratio over the angle from the normal, logarithmic.",
             .draw = draw_contrasts}, "Contrast ratio", SHEET_NEVER);

@@ -88,7 +88,7 @@ static void add_luminance(PanelChartList *list, const PlotData *s, Pattern patte
         "Luminance in cd/m² over the viewing hemisphere: θ from the normal outwards, "
         "φ counter-clockwise from the viewer's right. The strong ring, where there is one, is "
         "half the luminance of the normal.", draw_luminance, s, pattern,
-        SHEET_ALWAYS, pattern != PATTERN_WHITE && pattern != PATTERN_BLACK});
+        SHEET_ALWAYS, pattern != PATTERN_WHITE});
 }
 
 /* index 0: in the dark; else under the light before it in the user's list. */
@@ -157,7 +157,7 @@ static void add_contrast(PanelChartList *list, const PlotData *s)
                      figure_text(contrast_on_axis(s, 0), normal),
                      figure_text(range.low, low)),
         "Luminance of white over that of black in a dark room, logarithmic colours.",
-        draw_contrast, s, 0, SHEET_ALWAYS, false});
+        draw_contrast, s, 0, SHEET_ALWAYS, true});
 }
 
 /* ---- colour shift ----------------------------------------------------------------------- */

@@ -106,7 +106,8 @@ static void add_condition(Report *report, ReportTable *table, const PlotData *s,
     report_figure(report, table, ambient_reflected(s, 0, 0, light));
     report_figure(report, table, ambient_contrast(s, 0, 0, light));
     for (int i = 0; i < REPORT_AZIMUTHS; i += 2) {
-        bool is_measured = s->cone >= radians_from_degrees(30) && report_has_azimuth(s, i);
+        bool is_measured = s->cone >= radians_from_degrees(30) && report_has_azimuth(s, i) &&
+                           !(s->has_black && s->is_white_only); /* black on the axis alone */
         if (is_measured)
             report_figure(report, table, ambient_contrast(s, radians_from_degrees(30),
                                                           i * PI / 4, light));

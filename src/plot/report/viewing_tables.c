@@ -68,11 +68,13 @@ static void add_crossings(Report *report, ReportTable *table, const PlotData *s,
 {
     report_row(report, table);
     report_text(table, CRITERIA[criterion].text);
+    bool is_contrast = CRITERIA[criterion].kind == VIEWING_CONTRAST;
     for (int i = 0; i < REPORT_AZIMUTHS; i++) {
-        bool   has_black = CRITERIA[criterion].kind != VIEWING_CONTRAST || s->has_black;
         double deg = crossing_deg(s, criterion, i * PI / 4);
         if (!report_has_azimuth(s, i)) report_text(table, NOT_MEASURED);
-        else if (!has_black) report_text(table, "no black");
+        else if (is_contrast && !s->has_black) report_text(table, "no black");
+        else if (is_contrast && s->is_white_only && !(deg <= 0))
+            report_text(table, NOT_MEASURED); /* black on the axis alone */
         else if (isnan(deg)) report_beyond(report, table, degrees_from_radians(s->cone));
         else if (deg <= 0) report_text(table, "not at 0");
         else report_fixed(report, table, deg, 2);
@@ -85,8 +87,9 @@ static void add_viewing_angles(Report *report, const PlotData *s)
         "normal outwards, at which the limit is first crossed; “> %.4g”: it is held as far "
         "as was measured; “not at 0”: not even at the normal. Full white over black in the "
         "dark; Δu′v′ from white at the normal.%s", degrees_from_radians(s->cone),
-        s->has_black ? "" : " Black was not measured, or gives no light: no contrast is "
-        "stated.");
+        !s->has_black ? " Black was not measured, or gives no light: no contrast is stated."
+        : s->is_white_only ? " Black was measured at the normal only: no contrast is stated at "
+                             "other angles." : "");
     ReportTable *table = report_add(report, "viewing_angle", "Viewing angle", note);
     report_column(table, "limit", "Limit");
     report_azimuth_columns(report, table);
