@@ -27,13 +27,21 @@ static void add_incidence(Report *report, ReportTable *table, const PlotData *s,
     report_figure(report, table, plot_data_brdf(s, theta, theta, 0, 0));
 }
 
+/* How wavelengths are weighted. */
+static const char *weights_text(Report *report, const PlotData *s)
+{
+    if (s->wavelength_count != 1) return "weighted by V(λ) for equal-energy light";
+    return arena_format(report->arena, "at %.4g nm, the only wavelength that was measured",
+                        (double)s->wavelength_nm[0]);
+}
+
 static void add_incidences(Report *report, const PlotData *s)
 {
-    ReportTable *table = report_add(report, "reflectance", "Reflectance by incidence",
-        "Directional-hemispherical, weighted by V(λ) for equal-energy light. Specular: the "
-        "mirror part. Lambertian: the floor that is the same into every direction. Haze: what "
-        "is left, spread about the mirror direction. What leaves beyond the last measured "
-        "angle is extrapolated. One row for each measured incidence.");
+    const char *note = arena_format(report->arena, "Directional-hemispherical, %s. Specular: "
+        "the mirror part. Lambertian: the floor that is the same into every direction. Haze: "
+        "what is left, spread about the mirror direction. What leaves beyond the last measured "
+        "angle is extrapolated. One row for each measured incidence.", weights_text(report, s));
+    ReportTable *table = report_add(report, "reflectance", "Reflectance by incidence", note);
     static const ReportColumn COLUMNS[] = {{"incidence_deg", "Incidence, °"},
         {"specular_percent", "Specular, %"}, {"haze_percent", "Haze, %"},
         {"lambertian_percent", "Lambertian, %"}, {"total_percent", "Total, %"},
@@ -61,9 +69,10 @@ static void add_factors(Report *report, const PlotData *s)
     bool   has_45 = panel_info_brdf_is_measured(panel, at_45, 0);
     double diffuse = plot_data_albedo(s, at_8);
     ReportTable *table = report_add(report, "reflectance_factors", "Reflectance factors",
-        "Luminous factors over a perfect white diffuser, geometries of CIE 15. 8/de takes off "
-        "the mirror part alone: the haze that would fall into an instrument's gloss trap, "
-        "whose size no standard fixes, stays in it.");
+        arena_format(report->arena, "Factors over a perfect white diffuser, %s, geometries of "
+            "CIE 15. 8/de takes off the mirror part alone: the haze that would fall into an "
+            "instrument's gloss trap, whose size no standard fixes, stays in it.",
+            weights_text(report, s)));
     report_column(table, "geometry", "Geometry");
     report_column(table, "meaning", "Light : view");
     report_column(table, "factor_percent", "Factor, %");
