@@ -459,6 +459,17 @@ def check_plot_numbers(report, commands, _):
                      f"{lit['illuminance_lx']} lx: {far[:2]} instead of {wanted}")
     report.claim([lit["illuminance_lx"] for lit in done["ambient"]] == [300, 20000],
                  "not every --ambient is answered")
+    done = json.loads(commands.text("plot", lambertian, "--kind", "contrast", "-o",
+                                    commands.file("s.svg"), "--ambient", "300", "--directed",
+                                    "20000,45", "--json"))["ambient"][0]
+    reflected = ALBEDO * (done["illuminance_lx"] + done["directed_lx"]) / math.pi
+    report.claim(done["directed_theta_deg"] == 45 and done["directed_phi_deg"] == 180 and all(
+        abs(a["contrast"] * (BLACK + reflected) / (WHITE + reflected) - 1) < 0.01
+        for a in done["angles"] if a["theta_deg"] <= 60), f"sky and sun: {done['angles'][:2]}")
+    page = commands.file("lambertian.html")
+    commands.text("report", lambertian, "-o", page, "--quiet")
+    with open(page) as file:
+        report.claim("nearly constant" in file.read(), "a constant map does not say so")
     lobe = make_closed_form(commands, "lobe", COSINES)
     done = json.loads(commands.text("plot", lobe, "-o", commands.file("l.svg"), "--contour",
                                     "300,50%,25%", "--ambient", "5000", "--json"))
