@@ -65,8 +65,8 @@ static void add_factors(Report *report, const PlotData *s)
 {
     const Panel *panel = s->source.panel;
     double at_8 = radians_from_degrees(8), at_45 = radians_from_degrees(45);
-    bool   has_8 = panel_info_brdf_is_measured(panel, at_8, at_8);
-    bool   has_45 = panel_info_brdf_is_measured(panel, at_45, 0);
+    bool   has_8 = plot_data_brdf_is_measured(s, at_8, at_8, PI);
+    bool   has_45 = plot_data_brdf_is_measured(s, at_45, 0, 0);
     double diffuse = plot_data_albedo(s, at_8);
     ReportTable *table = report_add(report, "reflectance_factors", "Reflectance factors",
         arena_format(report->arena, "Factors over a perfect white diffuser, %s, geometries of "

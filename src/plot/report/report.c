@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/units.h"
 #include "page/page.h"
+#include "panel/query/panel_info.h"
 #include "plot/draw/ticks.h"
 #include "plot/panel/grey_inversion.h"
 #include "plot/report/colour_tables.h"
@@ -164,6 +165,9 @@ static void add_legend(Text *html, const PlotData *s)
         text_format(html, " Reflection was measured up to an incidence of %.4g° and a leaving "
                     "angle of %.4g°.", degrees_from_radians(s->last_incidence),
                     degrees_from_radians(s->brdf_cone));
+    if (s->reflects && panel_info_has_hulls(s->source.panel))
+        text_add(html, " At some incidences its samples do not surround all of these: what "
+                 "they leave out is hatched, and pale in lines.");
     text_add(html, "</p>\n");
 }
 

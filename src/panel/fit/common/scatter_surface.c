@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/mathd.h"
-#include "panel/fit/common/small_matrix.h"
+#include "panel/shape/least_squares.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/set/measurement.h"
 
