@@ -77,7 +77,8 @@ static void add_luminance(PanelChartList *list, const PlotData *s, Pattern patte
     char       normal[32], high[32];
     if (!(range.high > 0)) return;
     double      at_normal = (double)s->normal[pattern][1];
-    const char *most = range.high > 1.002 * at_normal
+    const char *most = s->azimuths ? arena_format(s->arena, "; %s", s->azimuths)
+        : range.high > 1.002 * at_normal
         ? arena_format(s->arena, ", at most %s %s", figure_text(range.high, high),
                        at_angles(s->arena, range.theta, range.phi)) : "";
     const char *subtitle = arena_format(s->arena, "%s cd/m² at the normal%s%s",
@@ -130,19 +131,27 @@ static void draw_contrast(Canvas *canvas, Box box, const PanelChart *shown, Pane
     panel_chart_polar(canvas, box, &map, out);
 }
 
+/* What is said behind the contrast at the normal. */
+static const char *least_text(const PlotData *s, double low)
+{
+    char text[32];
+    return s->azimuths ? arena_format(s->arena, "; %s", s->azimuths)
+                       : arena_format(s->arena, ", at least %s", figure_text(low, text));
+}
+
 static void add_ambient(PanelChartList *list, const PlotData *s, int index)
 {
     const PlotLight *light = &s->source.ambient.light[index - 1];
     Field      field = contrast_field(s, index, s->arena);
     FieldRange range = field_range(&field, s->cone);
-    char       normal[32], low[32];
+    char       normal[32];
     panel_chart_add(list, &(PanelChart){PLOT_CONTRAST,
         arena_format(s->arena, "Contrast ratio, %s", ambient_text(light, s->arena)),
-        arena_format(s->arena, "in %s light: %s at the normal, at least %s",
+        arena_format(s->arena, "in %s light: %s at the normal%s",
                      light->directed_lux <= 0 ? "even diffuse" : light->lux <= 0 ? "directed"
                                                                : "even and directed",
                      figure_text(contrast_on_axis(s, index), normal),
-                     figure_text(range.low, low)),
+                     least_text(s, range.low)),
         "Contrast in ambient light, " AMBIENT_FORMULA ". Logarithmic colours.",
         draw_contrast, s, index, SHEET_ALWAYS, false});
 }
@@ -151,11 +160,10 @@ static void add_contrast(PanelChartList *list, const PlotData *s)
 {
     Field      field = plot_data_contrast(s, s->arena);
     FieldRange range = field_range(&field, s->cone);
-    char       normal[32], low[32];
+    char       normal[32];
     panel_chart_add(list, &(PanelChart){PLOT_CONTRAST, "Contrast ratio",
-        arena_format(s->arena, "white over black: %s at the normal, at least %s",
-                     figure_text(contrast_on_axis(s, 0), normal),
-                     figure_text(range.low, low)),
+        arena_format(s->arena, "white over black: %s at the normal%s",
+                     figure_text(contrast_on_axis(s, 0), normal), least_text(s, range.low)),
         "Luminance of white over that of black in a dark room, logarithmic colours.",
         draw_contrast, s, 0, SHEET_ALWAYS, true});
 }
@@ -187,9 +195,10 @@ static void add_shift(PanelChartList *list, const PlotData *s, Pattern pattern)
     char       high[32];
     panel_chart_add(list, &(PanelChart){PLOT_COLOUR_SHIFT,
         arena_format(s->arena, "Colour shift, %s", pattern_word(pattern)),
-        arena_format(s->arena, "Δu′v′ from the normal, at most %s %s",
-                     figure_text(range.high, high),
-                     at_angles(s->arena, range.theta, range.phi)),
+        s->azimuths ? s->azimuths
+                    : arena_format(s->arena, "Δu′v′ from the normal, at most %s %s",
+                                   figure_text(range.high, high),
+                                   at_angles(s->arena, range.theta, range.phi)),
         "Distance Δu′v′ in the CIE 1976 chromaticity plane between the colour at an angle and "
         "the colour at the normal.", draw_shift, s, pattern,
         pattern == PATTERN_WHITE ? SHEET_ALWAYS : SHEET_NEVER, pattern != PATTERN_WHITE});

@@ -69,9 +69,13 @@ GreyInversion grey_inversion_along(const PlotData *data, const GreyLevels *level
 GreyInversion grey_inversion_most(const PlotData *data, const GreyLevels *levels)
 {
     GreyInversion most = {.share = 0};
-    for (int i = 0; i < 72; i++) {
-        double        unused;
-        GreyInversion one = grey_inversion_along(data, levels, i * PI / 36, &unused);
+    const json_t *emission = json_object_get(data->source.report, "emission");
+    const json_t *few = json_object_get(emission, "azimuths_deg");
+    size_t        count = json_array_size(few) ? json_array_size(few) : 72;
+    for (size_t i = 0; i < count; i++) {
+        double unused, deg = few ? json_number_value(json_array_get(few, i)) : 5 * (double)i;
+        double phi = radians_from_degrees(deg);
+        GreyInversion one = grey_inversion_along(data, levels, phi, &unused);
         if (one.share > most.share) most = one;
     }
     return most;

@@ -31,7 +31,7 @@ typedef struct GreyInversion {
 GreyInversion grey_inversion_along(const PlotData *data, const GreyLevels *levels, double phi,
                                    double *first);
 
-/* The largest of all directions: of 72 azimuths. */
+/* The largest of all directions: of 72 azimuths, or of those measured where they are few. */
 GreyInversion grey_inversion_most(const PlotData *data, const GreyLevels *levels);
 
 /* Percent, over the hemisphere. */

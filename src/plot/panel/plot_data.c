@@ -159,6 +159,17 @@ static void sample_even_light(void *context, int item, int worker)
     s->diffuse_reflectance[item] = sum / EVEN_SAMPLES;
 }
 
+/* emission.azimuths_deg of the file's report: there where most lies between them. */
+static const char *few_azimuths(const json_t *emission, Arena *arena)
+{
+    const json_t *list = json_object_get(emission, "azimuths_deg"), *one;
+    const char   *text = "measured at φ";
+    size_t        i;
+    json_array_foreach(list, i, one)
+        text = arena_format(arena, "%s%s %.4g°", text, i ? "," : "", json_number_value(one));
+    return json_array_size(list) ? arena_format(arena, "%s alone", text) : NULL;
+}
+
 PlotData *plot_data_new(const PlotSource *source, Arena *arena)
 {
     PlotData    *s = ARENA_NEW(arena, PlotData, 1);
@@ -170,6 +181,7 @@ PlotData *plot_data_new(const PlotSource *source, Arena *arena)
     if (source->reading)
         s->file_name = arena_format(arena, "%s, %s", s->file_name, source->reading);
     const json_t *emission = json_object_get(source->report, "emission");
+    s->azimuths = few_azimuths(emission, arena);
     s->is_white_only = json_is_true(json_object_get(emission, "white_only"));
     s->has_gamma_table = s->is_white_only &&
                          json_is_true(json_object_get(emission, "levels_measured"));

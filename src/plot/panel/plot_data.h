@@ -43,6 +43,7 @@ typedef struct PlotData {
     bool   has_gamma_table;     /* white only, with levels measured on the axis */
     bool   is_white_only;       /* its primaries and levels are assumed, not measured */
     double cone;                /* emission is measured up to this theta */
+    const char *azimuths;       /* "measured at φ 0°, 90° alone", where they are few; or NULL */
     float  normal[PATTERN_COUNT][3];  /* XYZ at the normal */
     Field  xyz[PATTERN_COUNT][3];     /* over the hemisphere; without maps empty */
     int    wavelength_count;    /* of the measured reflection */

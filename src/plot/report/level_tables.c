@@ -89,7 +89,8 @@ static void add_inversion(Report *report, const PlotData *s, const GreyLevels *l
     ReportTable *table = report_add(report, "grey_inversion", "Grey inversion",
         "Where a higher grey level gives less light than a lower one: the largest of all pairs "
         "of measured levels, 1 − L(higher) / L(lower), black included. Less than 1 % counts as "
-        "none. The last row is the largest of all azimuths, every 5°.");
+        "none. The last row is the largest of all azimuths, every 5°, or of those measured "
+        "where they are few.");
     for (int i = 0; i < COUNT_OF(COLUMNS); i++)
         report_column(table, COLUMNS[i].key, COLUMNS[i].title);
     double first = NAN;
