@@ -77,9 +77,9 @@ static void draw_levels(Canvas *canvas, const void *context)
     Field      finest = field_of(study, study->level, true, canvas->arena);
     FieldRange range = field_range(&finest, (double)study->source->theta_max);
     draw_heading(canvas, study, arena_format(canvas->arena,
-        "means over the triangles of a level, and barycentric interpolation between them; %.3g "
-        "%% of the table's %zu numbers are kept", 100 * study->kept.share,
-        study->source_bytes / sizeof(float)));
+        "means over the triangles of a level, and barycentric interpolation between them: of "
+        "%u triangles %u rows are kept", study->levels[study->level].triangles,
+        study->kept.rows));
     for (int level = first_level(study); level <= study->level; level++)
         for (int smooth = 0; smooth < 2; smooth++)
             draw_level(canvas, study, level, smooth, &range);
