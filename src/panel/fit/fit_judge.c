@@ -280,11 +280,13 @@ static void judge_held_out(Judge *judge, const FitParts *parts)
     double      incidence = set->incidence[worst % set->incidence_count];
     double      degrees = degrees_from_radians(incidence);
     PeakSpacing spacing = peak_window_spacing(&r->parts.haze[worst], incidence, *judge->arena);
-    judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "every second ring or azimuth left out "
-                     "near the mirror direction is missed by %.2g %% (light from %.4g degrees, "
-                     "theta %.4g, phi %.4g): with all of them, %.2g degrees apart, the panel "
-                     "may miss by %.2g %% between them, wanted at most %.0f %%: measure the "
-                     "BRDF every %.1g degrees there", 100 * most->error, degrees,
+    const char *left = most->is_quarter ? "a quarter of the samples"
+                                        : "every second ring or azimuth";
+    judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "%s left out near the mirror direction is "
+                     "missed by %.2g %% (light from %.4g degrees, theta %.4g, phi %.4g): with "
+                     "all of them, %.2g degrees apart, the panel may miss by %.2g %% between "
+                     "them, wanted at most %.0f %%: measure the BRDF every %.1g degrees there",
+                     left, 100 * most->error, degrees,
                      degrees_from_radians(most->theta), degrees_from_radians(most->phi),
                      degrees_from_radians(spacing.widest), 100 * most->estimate,
                      100 * JUDGE_HELD_OUT_CARE, 0.5 * degrees_from_radians(spacing.widest));

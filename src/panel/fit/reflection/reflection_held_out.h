@@ -4,6 +4,7 @@
  *
  * Every second ring is left out, then every second azimuth, each both ways; what is left is
  * read as the fit reads tables: a cubic, whose error falls with the third power of the step. Of
+ * a table without rings a quarter of the rows is left out, four ways, by lot. Of
  * a table with a guide a quarter of the rows near the mirror direction is left out, four ways,
  * and the guide is fitted anew without them. Rows under the mirror's image do not count: the
  * fit made them.
@@ -19,6 +20,7 @@ typedef struct HeldOut {
     double between;    /* of the tree halfway between rows, relative */
     double theta, phi; /* radians, in the table's frame */
     int    rows;       /* that were left out and counted */
+    bool   is_quarter; /* of a table without rings: a quarter of its rows, by lot */
 } HeldOut;
 
 HeldOut reflection_held_out(const ReflectionModel *model, int table, Arena scratch);
