@@ -293,9 +293,8 @@ static void judge_held_out(Judge *judge, const FitParts *parts)
     json_object_set_new(judge->figures, "held_out_error", json_real(most->error));
 }
 
-/* With none left out the gaps are half as wide. A pattern that neighbours nearly resolve is then
- * missed by a quarter, one that they do not by a half (measured on beams, moving edges and lobes
- * of 4 to 36 azimuths: tests/image/between_azimuths.py). */
+/* With none left out the gaps are half as wide. A pattern that neighbours nearly resolve is
+ * then missed by a quarter, one that they do not by a half: tests/image/foreign_layouts.py. */
 static void judge_left_out(Judge *judge, const EmissionTree *tree)
 {
     const PanelFollowing *f = &tree->edges.following;

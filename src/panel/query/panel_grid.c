@@ -30,8 +30,8 @@ static size_t cells_of(const PanelGridHead *head)
 size_t panel_grid_bytes(const PanelGridHead *head)
 {
     size_t floats = (size_t)head->thetas + head->phis + head->components;
-    size_t size = sizeof *head + 4 * floats + 2 * cells_of(head) * head->components + head->phis;
-    return (size + 7) / 8 * 8;
+    size_t cells = 2 * cells_of(head) * head->components;
+    return (sizeof *head + 4 * floats + cells + head->phis + 7) / 8 * 8;
 }
 
 /* A cell of the grid among the stored ones: the pole is one. */
@@ -74,7 +74,7 @@ const void *panel_grid_pack(const PanelGridCells *in, Arena *arena)
 /* ---- checked and read -------------------------------------------------------------------- */
 
 /* A grid, its tree's vertices, and what a component is in channels. */
-typedef struct Grid {
+typedef struct GridExpansion {
     const PanelEmission *emission;
     PanelGridHead head;
     PanelAxes     axes;
@@ -86,7 +86,7 @@ typedef struct Grid {
     VertexLattice lattice;
     uint32_t      vertices;
     float        *value;  /* vertices x components */
-} Grid;
+} GridExpansion;
 
 static bool rises(const float *list, int count, float most)
 {
@@ -99,13 +99,15 @@ static bool head_is_good(const PanelGridHead *h, size_t size, const PanelEmissio
 {
     return h->version == PANEL_GRID_VERSION && h->components == (uint32_t)e->components &&
            h->thetas >= 3 && h->thetas <= PANEL_GRID_SIDE_MAX && h->phis >= 1 &&
-           h->phis <= PANEL_GRID_SIDE_MAX && h->level >= 1 && h->level <= PANEL_GRID_LEVEL_MAX &&
+           h->phis <= PANEL_GRID_SIDE_MAX && h->level >= 1 &&
+           h->level <= PANEL_GRID_LEVEL_MAX &&
            h->rest > 0 && h->rest < 1 && h->least_share > 0 && h->least_share < 1 &&
-           h->tolerance > 0 && h->tolerance < 10 && h->size == size && panel_grid_bytes(h) == size;
+           h->tolerance > 0 && h->tolerance < 10 && h->size == size &&
+           panel_grid_bytes(h) == size;
 }
 
 /* What stands behind a good head. */
-static bool read_grid(const void *data, Arena *arena, Grid *g)
+static bool read_grid(const void *data, Arena *arena, GridExpansion *g)
 {
     const unsigned char *at = data;
     const PanelGridHead *h = &g->head;
@@ -153,7 +155,7 @@ static void channel_logs(const PanelEmission *e, const float *components, float 
 #define LOG_MOST 60.0
 
 /* E of all cells of the grid. */
-static float *light_of_cells(const Grid *g, Arena *arena)
+static float *light_of_cells(const GridExpansion *g, Arena *arena)
 {
     const PanelEmission *e = g->emission;
     size_t phis = g->head.phis, cells = g->head.thetas * phis, n = g->head.components;
@@ -171,7 +173,7 @@ static float *light_of_cells(const Grid *g, Arena *arena)
 }
 
 /* So that logarithms become components: L^T L, a little more on its diagonal, factored. */
-static void factor_loadings(Grid *g, Arena *arena)
+static void factor_loadings(GridExpansion *g, Arena *arena)
 {
     const PanelEmission *e = g->emission;
     int n = e->components;
@@ -186,7 +188,8 @@ static void factor_loadings(Grid *g, Arena *arena)
 }
 
 /* Components of light, by least squares over the channels. */
-static void components_of(const Grid *g, const float *light, double fall, float *components)
+static void components_of(const GridExpansion *g, const float *light, double fall,
+                          float *components)
 {
     const PanelEmission *e = g->emission;
     int    n = e->components;
@@ -201,7 +204,7 @@ static void components_of(const Grid *g, const float *light, double fall, float 
 
 /* ---- the tree ---------------------------------------------------------------------------- */
 
-static void fill_vertices(Grid *g, Arena *arena)
+static void fill_vertices(GridExpansion *g, Arena *arena)
 {
     Vec3  *direction = ARENA_NEW(arena, Vec3, g->vertices);
     float *light = ARENA_NEW(arena, float, g->emission->channels);
@@ -217,7 +220,7 @@ static void fill_vertices(Grid *g, Arena *arena)
 }
 
 /* The largest change of a channel's logarithm by components. */
-static float most_of(const Grid *g, const float *components)
+static float most_of(const GridExpansion *g, const float *components)
 {
     const PanelEmission *e = g->emission;
     float most = 0;
@@ -232,7 +235,7 @@ static float most_of(const Grid *g, const float *components)
 
 /* Triangles are linear where the light between samples is not: what that does to a cell its
  * three vertices take, each by its share (Kaczmarz's method). Returns how many cells did. */
-static int settle_cells(Grid *g, const Geodesic *geodesic)
+static int settle_cells(GridExpansion *g, const Geodesic *geodesic)
 {
     size_t n = g->head.components, phis = g->head.phis;
     int    moved = 0;
@@ -246,7 +249,8 @@ static int settle_cells(Grid *g, const Geodesic *geodesic)
         for (int q = 0; q < 3; q++) squares += at.weight[q] * at.weight[q];
         for (size_t k = 0; k < n; k++) {
             miss[k] = g->cell[i * n + k];
-            for (int q = 0; q < 3; q++) miss[k] -= at.weight[q] * g->value[at.vertex[q] * n + k];
+            for (int q = 0; q < 3; q++)
+                miss[k] -= at.weight[q] * g->value[at.vertex[q] * n + k];
         }
         if (!(most_of(g, miss) > (float)SETTLED * g->head.tolerance)) continue;
         moved++;
@@ -260,7 +264,7 @@ static int settle_cells(Grid *g, const Geodesic *geodesic)
 bool panel_grid_expand(const void *data, size_t size, const PanelEmission *emission,
                        const Geodesic *geodesic, Arena *arena, Tree *out)
 {
-    Grid grid = {.emission = emission}, *g = &grid;
+    GridExpansion grid = {.emission = emission}, *g = &grid;
     memcpy(&g->head, data, sizeof g->head);
     if (!head_is_good(&g->head, size, emission)) return false;
     g->lattice = (VertexLattice){g->head.level, 4};

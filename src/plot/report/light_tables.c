@@ -63,7 +63,6 @@ static void add_factor(Report *report, ReportTable *table, const char *const tex
 
 static void add_factors(Report *report, const PlotData *s)
 {
-    const Panel *panel = s->source.panel;
     double at_8 = radians_from_degrees(8), at_45 = radians_from_degrees(45);
     bool   has_8 = plot_data_brdf_is_measured(s, at_8, at_8, PI);
     bool   has_45 = plot_data_brdf_is_measured(s, at_45, 0, 0);

@@ -2,7 +2,8 @@
 /* small_matrix.h -- symmetric matrices of a fit: axes by Jacobi's rotations, principal
  * components with weights.
  *
- * Matrices are n x n, row after row. Memory: the arena's. Threads: pure functions. Fails: never.
+ * Matrices are n x n, row after row. Memory: the arena's. Threads: pure functions. Fails:
+ * never.
  */
 #pragma once
 #include <stddef.h>

@@ -56,7 +56,8 @@ static void find_raise(EmissionColour *o, Arena scratch)
 {
     const EmissionRank *rank = o->model->rank;
     int     n = rank->components;
-    double *normal = ARENA_NEW(&scratch, double, n * n), *right = ARENA_NEW(&scratch, double, n);
+    double *normal = ARENA_NEW(&scratch, double, n * n);
+    double *right = ARENA_NEW(&scratch, double, n);
     double  bright = 0;
     for (int c = 0; c < o->model->samples->channels; c++)
         for (int i = 0; i < n; i++) {

@@ -6,11 +6,11 @@
  * the brightest Y is held to the range that the samples around the direction span (the ends of
  * its interval of rings and of azimuths), with COLOUR_SIGMAS of their noise and widened at
  * either end by COLOUR_SHARE of itself, at least by COLOUR_LEAST: so far a smooth curve through
- * samples passes beyond a turning point between two of them. Where a
- * ratio leaves its range, those of all channels move together, on the line to their linear
- * interpolation, as far as is necessary; the brightest Y stays what it was.
+ * samples passes beyond a turning point between two of them. Where a ratio leaves its range,
+ * those of all channels move together, on the line to their linear interpolation, as far as is
+ * necessary; the brightest Y stays what it was. Beyond the last ring nothing is held.
  *
- * Beyond the last ring nothing is held. Units: as emission_model.h. Memory: the arena's. Threads: const once made. Fails: never.
+ * Units    as emission_model.h. Memory: the arena's. Threads: const once made. Fails: never.
  */
 #pragma once
 #include "panel/fit/common/direction_grid.h"

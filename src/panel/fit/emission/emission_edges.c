@@ -91,8 +91,8 @@ void emission_edges_note(const EmissionEdges *e, FitNotes *notes)
 {
     bool has_azimuths = e->grid.phis >= LEAST_AZIMUTHS;
     if (e->are_there)
-        fit_note(notes, "the light ends sharply: between samples it is interpolated as it is, not "
-                 "as its logarithm%s", !has_azimuths ? "" : e->following.intervals
+        fit_note(notes, "the light ends sharply: between samples it is interpolated as it is, "
+                 "not as its logarithm%s", !has_azimuths ? "" : e->following.intervals
                      ? ", and edges are followed from azimuth to azimuth" : "");
     if (has_azimuths)
         fit_note(notes, "between azimuths: each one left out, its neighbours miss %.2g %% of "

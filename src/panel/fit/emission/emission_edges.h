@@ -25,8 +25,8 @@ typedef struct EmissionEdges {
 bool emission_edges_are_there(const EmissionModel *model, Arena scratch);
 
 /* False: the samples are no grid with a pole. rest: radians, so near a sample its value
- * stands. Of a table that is neither small nor has edges the profiles are those of its brightest
- * table alone. */
+ * stands. Of tables that are neither small nor have edges the profiles are those of the
+ * brightest one alone. */
 bool emission_edges_find(const EmissionModel *model, double rest, bool is_small, Arena *arena,
                          EmissionEdges *out);
 

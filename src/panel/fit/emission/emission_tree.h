@@ -6,18 +6,7 @@
  * Fails    with what the coder cannot store (ERROR_INPUT).
  */
 #pragma once
-#include "hemisphere/tree.h"
-#include "panel/fit/common/fit_options.h"
-#include "panel/fit/emission/emission_edges.h"
-
-typedef struct EmissionTree {
-    const void *bytes; /* as in the file */
-    TreeReport  report;
-    int         level;
-    int         missed; /* samples beyond tolerance and noise */
-    bool        has_grid;
-    EmissionEdges edges; /* of a grid */
-} EmissionTree;
+#include "panel/fit/emission/emission_coder.h"
 
 /* Where triangles miss the samples by far the model gets beams. */
 bool emission_tree_build(EmissionModel *model, const FitOptions *options, Arena *arena,
