@@ -10,6 +10,7 @@
 #include "import/importers.h"
 #include "import/primaries.h"
 #include "import/set/import_complete.h"
+#include "panel/set/primary_bands.h"
 #include "text/json_view.h"
 
 #define KEYS_MAX 64
@@ -17,7 +18,8 @@
 /* Keys besides those of the text tables. */
 static const char *const other_keys[] = {"roles", "skip", "format", "wavelength_nm", "area_mm",
     "panel", "instrument", "date", "operator", "conditions", "primaries", "levels", "specular",
-    "specular_aperture_deg", "gloss", "isotropic", "symmetry", "no_black", "accept", "note"};
+    "specular_aperture_deg", "gloss", "isotropic", "symmetry", "no_black", "accept",
+    "backlight", "peaks_nm", "note"};
 
 static bool wrong_kind(const JsonView *view, const char *key, const char *wanted, Error *err)
 {
@@ -158,6 +160,7 @@ static bool read_specular(const JsonView *root, ImportSpecular *out, Error *err)
 
 static bool read_others(const JsonView *root, ImportRequest *request, Error *err)
 {
+    int  peaks = 0;
     bool ok = read_roles(root, &request->text, err) && read_skip(root, &request->skip, err) &&
               json_view_text(root, "format", &request->options.format, err) &&
               json_view_number(root, "wavelength_nm", 360, 830, &request->options.wavelength_nm,
@@ -168,6 +171,9 @@ static bool read_others(const JsonView *root, ImportRequest *request, Error *err
               json_view_text(root, "date", &request->date, err) &&
               json_view_text(root, "operator", &request->operator_name, err) &&
               json_view_text(root, "conditions", &request->conditions, err) &&
+              json_view_text(root, "backlight", &request->backlight, err) &&
+              json_view_numbers(root, "peaks_nm", (JsonRange){380, 780, 3}, request->peaks_nm,
+                                &peaks, err) &&
               json_view_text(root, "primaries", &request->primaries, err) &&
               json_view_text(root, "levels", &request->levels, err) &&
               read_specular(root, &request->specular, err) &&
@@ -176,6 +182,7 @@ static bool read_others(const JsonView *root, ImportRequest *request, Error *err
               read_flag(root, "no_black", &request->black_is_zero, err) &&
               read_flag(root, "accept", &request->accepts_repeats, err);
     if (!ok) return false;
+    if (peaks && peaks < 3) return wrong_kind(root, "peaks_nm", "three wavelengths", err);
     return (!request->primaries || json_view_file(root, "primaries", request->primaries,
                                                   &request->primaries, err)) &&
            (!request->levels || json_view_file(root, "levels", request->levels,
@@ -233,6 +240,22 @@ static bool read_files(const char *const *file, int count, const ImportRequest *
     return !refused;
 }
 
+/* The set takes them in place of spectra. */
+static bool check_bands(const ImportRequest *request, Arena *arena, Error *err)
+{
+    const double *nm = request->peaks_nm;
+    bool has_peaks = nm[0] > 0;
+    if (request->primaries && (request->backlight || has_peaks))
+        return error_set(err, ERROR_USAGE, "both spectra of the primaries and a backlight or "
+                         "peaks are given, required is one of them: spectra say more");
+    if (request->backlight && !primary_backlight_named(request->backlight))
+        return error_set(err, ERROR_USAGE, "the backlight is '%s', required is one of %s",
+                         request->backlight, primary_backlight_names(arena));
+    return !has_peaks || (nm[0] > nm[1] && nm[1] > nm[2]) ||
+           error_set(err, ERROR_USAGE, "the peaks are %g, %g, %g nm, required are those of "
+                     "red, green and blue, which fall", nm[0], nm[1], nm[2]);
+}
+
 bool import_run(const char *const *file, int count, const ImportRequest *request,
                 ImportSet *set, Error *err)
 {
@@ -241,6 +264,8 @@ bool import_run(const char *const *file, int count, const ImportRequest *request
     set->date = request->date;
     set->operator_name = request->operator_name;
     set->conditions = request->conditions;
+    set->backlight = request->backlight;
+    memcpy(set->peaks_nm, request->peaks_nm, sizeof set->peaks_nm);
     set->is_isotropic = request->is_isotropic;
     set->symmetry = request->symmetry;
     set->black_is_zero = request->black_is_zero;
@@ -251,6 +276,7 @@ bool import_run(const char *const *file, int count, const ImportRequest *request
     for (int i = 0; i < COUNT_OF(beside); i++)
         if (beside[i]) lines_put(&set->inputs, beside[i]);
     for (int i = 0; i < count; i++) lines_put(&set->inputs, file[i]);
+    if (!check_bands(request, set->arena, err)) return false;
     if (request->primaries && !primaries_read(request->primaries, &request->text, set, err))
         return false;
     return read_files(file, count, request, set, err) && import_complete(set, err) &&

@@ -20,7 +20,8 @@ typedef struct ImportRequest {
     const char     *levels;    /* a gamma table of a white-only set; NULL: none */
     ImportSpecular  specular;  /* of a reflection */
     const char     *root;      /* --root: where else such a file may name files; or NULL */
-    const char     *panel, *instrument, *date, *operator_name, *conditions;
+    const char     *panel, *instrument, *date, *operator_name, *conditions, *backlight;
+    double          peaks_nm[3]; /* 0: not stated */
     ImportSymmetry  symmetry;
     bool            is_isotropic, black_is_zero, accepts_repeats;
     ImportStep     *step; /* NULL: nobody waits */

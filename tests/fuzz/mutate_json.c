@@ -146,7 +146,8 @@ static const char *const names[] = {
     "fwhm_deg", "pixels", "size_mm", "note", "peaks_nm", "fwhm_nm", "luminance_cd_m2", "shift",
     "gamma", "leak", "lobe", "coating", "haze_share", "haze_width", "haze_power",
     "floor_albedo", "theta_step_deg", "phi_step_deg", "noise_relative", "roles", "skip",
-    "format", "area_mm", "primaries", "isotropic", "symmetry", "no_black", "accept", "columns",
+    "format", "area_mm", "primaries", "isotropic", "symmetry", "no_black", "accept",
+    "backlight", "peaks_nm", "columns",
     "layout",
     "unit", "mask", "comment", "azimuth_zero", "azimuth_sense", "angles", "quantity",
 };

@@ -101,7 +101,9 @@ static void print_summary(const ImportSet *set, const char *manifest, Arena *are
 typedef struct Words {
     const char *output, *layout, *root, *primaries, *levels, *panel, *instrument, *date,
         *operator_name, *conditions, *format, *symmetry;
-    const char *specular;
+    const char *specular, *backlight;
+    double      peaks_nm[3];
+    bool        has_peaks;
     double      aperture_deg;
     CliTexts    roles, skip, gloss, list[KEYS_MAX];
     const char *key[KEYS_MAX]; /* of the text tables' keys */
@@ -140,6 +142,10 @@ static int list_options(Words *words, Option *option, Arena *arena)
          &words->wavelength_nm, 360, 830},
         {"--primaries", OPTION_TEXT, "FILE", "spectra: columns nm, red, green, blue",
          &words->primaries},
+        {"--backlight", OPTION_TEXT, "NAME", "of primaries without spectra: wled-ysf, "
+         "wled-ksf, oled, qd, rgb-led or laser", &words->backlight},
+        {"--peaks-nm", OPTION_NUMBERS, "R,G,B", "peak wavelengths of primaries without spectra",
+         words->peaks_nm, 380, 780, 3, &words->has_peaks},
         {"--levels", OPTION_TEXT, "FILE.csv", "gamma table of white alone: columns level and "
          "luminance (or red, green, blue), cd/m2 on the axis or relative", &words->levels},
         {"--specular", OPTION_TEXT, "FILE.csv", "specular reflectance: columns incidence, "
@@ -257,6 +263,9 @@ static bool make_request(const Words *words, Arena *arena, ImportRequest *reques
         memcpy(request->options.area_mm, words->area_mm, sizeof request->options.area_mm);
     if (words->primaries) request->primaries = words->primaries;
     if (words->levels) request->levels = words->levels;
+    if (words->backlight) request->backlight = words->backlight;
+    if (words->has_peaks)
+        memcpy(request->peaks_nm, words->peaks_nm, sizeof request->peaks_nm);
     if (words->panel) request->panel = words->panel;
     if (words->instrument) request->instrument = words->instrument;
     if (words->date) request->date = words->date;

@@ -79,6 +79,9 @@ typedef struct ImportSet {
     ImportSymmetry symmetry;
     bool          black_is_zero;     /* the user states that black was subtracted */
     bool          accepts_repeats;   /* the user takes means of what contradicts itself */
+    const char   *backlight;         /* of primaries without spectra (primary_bands.h);
+                                        NULL: not stated */
+    double        peaks_nm[3];       /* of their bands; 0: not stated */
     const char   *panel, *instrument; /* names for the manifest; NULL: the file's */
     const char   *date, *operator_name, *conditions; /* of the measurement; NULL: not stated */
     double        white_reflectance; /* of the reference: Lambertian, 0 to 1 (default 1) */

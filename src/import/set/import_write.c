@@ -230,6 +230,10 @@ static json_t *manifest_object(SetOutput *out)
     json_decref(emission);
     if (set->spectra.rows)
         json_object_set_new(root, "primaries", json_string("primaries.csv"));
+    if (set->backlight) json_object_set_new(root, "backlight", json_text(set->backlight));
+    if (set->peaks_nm[0] > 0)
+        json_object_set_new(root, "peaks_nm", json_pack("[o,o,o]", number(set->peaks_nm[0]),
+                            number(set->peaks_nm[1]), number(set->peaks_nm[2])));
     json_t *reflection = reflection_object(set);
     if (reflection) json_object_set_new(root, "reflection", reflection);
     return root;

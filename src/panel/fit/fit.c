@@ -172,8 +172,13 @@ static bool fit_parts(FitRun *run, const Measurement *set, FitParts *parts)
         if (!emission_fit(set, run->options, arena, notes, emission, run->err)) return false;
     }
     step(run);
-    if (parts->emission)
-        parts->primaries = emission_fit_primaries(set, notes, arena, &parts->primaries_size);
+    if (parts->emission) {
+        EmissionPrimaries primaries;
+        emission_fit_primaries(set, notes, arena, &primaries);
+        parts->primaries = primaries.bytes;
+        parts->primaries_size = primaries.size;
+        parts->spectra_assumed = primaries.assumed;
+    }
     step(run);
     if (set->incidence_count) {
         parts->reflection = reflection;

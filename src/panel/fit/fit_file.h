@@ -16,6 +16,7 @@ typedef struct FitParts {
     const EmissionResult   *emission; /* NULL: none */
     const void             *primaries; /* the section */
     size_t                  primaries_size;
+    const char             *spectra_assumed; /* in words; NULL: they were measured */
     const ReflectionResult *reflection; /* NULL: none */
     FitNotes               *notes;
     const FitPlaces        *places; /* NULL: one panel everywhere */

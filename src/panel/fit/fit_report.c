@@ -161,7 +161,7 @@ static json_t *describe_emission(const FitParts *parts, const FitTable *total, i
     const EmissionResult *e = parts->emission;
     double bytes = (double)emission_bytes(e);
     return json_pack("{s:s, s:i, s:i, s:f, s:f, s:f, s:f, s:b, s:b, s:b, s:I, s:I, s:f, s:i,"
-                     " s:i, s:i, s:f}",
+                     " s:i, s:i, s:f, s:s*}",
         "basis", parts->options->basis == FIT_HAAR ? "haar" : "vertex",
         "level", e->tree.level, "components", e->model->rank->components,
         "tolerance", e->model->tolerance,
@@ -173,7 +173,8 @@ static json_t *describe_emission(const FitParts *parts, const FitTable *total, i
         "source_bytes_float32", (json_int_t)total->float32_bytes,
         "share_of_source", bytes / fmax(1, (double)total->float32_bytes),
         "outliers", e->outlier_count, "holes", e->hole_count, "falling_codes", falling,
-        "error_floor", e->model->samples->floor_share);
+        "error_floor", e->model->samples->floor_share, "spectra_assumed",
+        parts->spectra_assumed);
 }
 
 /* ---- the reflection ---------------------------------------------------------------------- */

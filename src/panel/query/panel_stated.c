@@ -61,6 +61,8 @@ PanelStated panel_stated(const Panel *panel, Arena *arena)
     out.reflection_error = error_of(tables, true);
     out.name = kept_text(json_object_get(report, "panel"), arena);
     out.instrument = kept_text(json_object_get(report, "instrument"), arena);
+    out.assumed = kept_text(json_object_get(json_object_get(report, "emission"),
+                                            "spectra_assumed"), arena);
     const char *note = kept_text(json_object_get(report, "note"), arena);
     out.is_synthetic =
         (out.instrument && !strncmp(out.instrument, SIMULATED, strlen(SIMULATED))) ||

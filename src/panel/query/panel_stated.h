@@ -25,6 +25,8 @@ typedef struct PanelStated {
     const char *name;       /* the product's; NULL: not stated */
     const char *instrument; /* with which it was measured, and by whom where that stands there;
                                NULL likewise */
+    const char *assumed;    /* of the emission's spectra; NULL: they were measured, or an
+                               older file */
     bool        is_synthetic;
 } PanelStated;
 

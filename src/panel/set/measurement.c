@@ -8,6 +8,7 @@
 #include "base/count.h"
 #include "base/file.h"
 #include "base/units.h"
+#include "panel/set/primary_bands.h"
 #include "panel/set/primary_spectra.h"
 #include "panel/set/white_split.h"
 #include "text/json_view.h"
@@ -457,13 +458,52 @@ static bool read_spots(const JsonView *root, Measurement *out, Error *err)
     return true;
 }
 
-/* Spots have the spectra of the one panel. */
+/* Spots have the spectra of the one panel, or what is known in their place. */
 static void share_spectra(Measurement *out)
 {
-    for (int i = 0; i < out->spot_count && out->has_spectra; i++) {
-        out->spot[i].set->has_spectra = true;
-        memcpy(out->spot[i].set->spectrum, out->spectrum, sizeof out->spectrum);
+    for (int i = 0; i < out->spot_count; i++) {
+        Measurement *set = out->spot[i].set;
+        set->has_spectra = out->has_spectra;
+        set->backlight = out->backlight;
+        memcpy(set->peaks_nm, out->peaks_nm, sizeof out->peaks_nm);
+        memcpy(set->spectrum, out->spectrum, sizeof out->spectrum);
     }
+}
+
+static bool needless_key(const JsonView *root, const char *key, const char *why, Error *err)
+{
+    return !json_object_get(root->object, key) ||
+           error_at(err, ERROR_INPUT, root->file, json_view_path(root, key), "%s", why);
+}
+
+/* What is known of primaries without spectra. */
+static bool read_backlight(const JsonView *root, Measurement *out, Error *err)
+{
+    static const char *const keys[] = {"backlight", "peaks_nm"};
+    const char *name = NULL;
+    int         count = 0;
+    for (int i = 0; i < COUNT_OF(keys); i++)
+        if ((json_object_get(root->object, "primaries") &&
+             !needless_key(root, keys[i], "is for a set without 'primaries': their spectra are "
+                           "measured", err)) ||
+            (!json_object_get(root->object, "emission") && !out->spots_emit &&
+             !needless_key(root, keys[i], "tells of the emitted light, but the set has no "
+                           "'emission'", err)))
+            return false;
+    if (!json_view_text(root, "backlight", &name, err) ||
+        !json_view_numbers(root, "peaks_nm", (JsonRange){380, 780, 3}, out->peaks_nm, &count,
+                           err))
+        return false;
+    if (count && (count < 3 || out->peaks_nm[0] <= out->peaks_nm[1] ||
+                  out->peaks_nm[1] <= out->peaks_nm[2]))
+        return error_at(err, ERROR_INPUT, root->file, json_view_path(root, "peaks_nm"),
+                        "required are three wavelengths that fall: of red, green and blue");
+    if (name && !(out->backlight = primary_backlight_named(name)))
+        return error_at(err, ERROR_INPUT, root->file, json_view_path(root, "backlight"),
+                        "is \"%.40s\", required is one of %s", name,
+                        primary_backlight_names(root->arena));
+    share_spectra(out);
+    return true;
 }
 
 static bool read_map(const JsonView *root, Measurement *out, Error *err)
@@ -496,7 +536,7 @@ static bool read_members(const JsonView *root, Measurement *out, Error *err)
     static const char *const keys[] = {"panel", "instrument", "date", "operator", "conditions",
         "note", "pixels", "size_mm",
         "instrument_fwhm_deg", "emission", "primaries", "reflection", "polarisation",
-        "subpixels", "spots", "uniformity"};
+        "subpixels", "spots", "uniformity", "backlight", "peaks_nm"};
     const char *primaries = NULL;
     bool ok = json_view_check_keys(root, keys, COUNT_OF(keys), err) &&
         json_view_text(root, "panel", &out->panel, err) &&
@@ -513,7 +553,7 @@ static bool read_members(const JsonView *root, Measurement *out, Error *err)
         read_traits(root, out, err) && read_emission(root, out, err) &&
         read_reflection(root, out, err) && read_spots(root, out, err) &&
          check_traits(root, out, err) &&
-        read_map(root, out, err);
+        read_map(root, out, err) && read_backlight(root, out, err);
     if (!ok || !primaries) return ok;
     out->has_spectra = json_view_file(root, "primaries", primaries, &primaries, err) &&
                        primary_spectra_read(primaries, root->arena, out->spectrum,

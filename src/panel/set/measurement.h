@@ -39,6 +39,8 @@ typedef struct Measurement {
     MeasuredPrimary primary[3];
     bool        has_spectra;
     float       spectrum[3][SPECTRAL_COUNT]; /* relative, every nm from SPECTRAL_FIRST_NM */
+    int         backlight; /* without spectra: 1 + a place in primary_backlights, or 0 */
+    double      peaks_nm[3]; /* of its bands of red, green and blue; 0: not stated */
     double      spectra_beyond; /* share of V(lambda) where light of them was not measured */
     int         incidence_count, wavelength_count; /* 0: no reflection data */
     double      incidence[MEASUREMENT_INCIDENCES_MAX]; /* radians, rising */

@@ -99,7 +99,7 @@ static double moments(const WarpSource *s, const double c[3], double moment[3][3
     return most;
 }
 
-static void spectrum_xyz(const float *spectrum, double xyz[3])
+void panel_spectrum_xyz(const float *spectrum, double xyz[3])
 {
     WarpSource source;
     double     moment[3][3], zero[3] = {0, 0, 0};
@@ -111,7 +111,7 @@ static void spectrum_xyz(const float *spectrum, double xyz[3])
 bool panel_spectrum_normalise(float *spectrum)
 {
     double xyz[3];
-    spectrum_xyz(spectrum, xyz);
+    panel_spectrum_xyz(spectrum, xyz);
     if (!(xyz[0] > 0 && xyz[1] > 0 && xyz[2] > 0)) return false;
     for (int i = 0; i < SPECTRAL_COUNT; i++)
         spectrum[i] = (float)((double)spectrum[i] / xyz[1]);

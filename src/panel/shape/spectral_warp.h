@@ -34,6 +34,9 @@ SpectralWarpRange spectral_warp_range(float *const ratio[2], int count);
  * colours cannot be reached: there the nearest ones on the way from its own colour serve. */
 int spectral_warp_fill(const float *spectrum, SpectralWarp *warp);
 
+/* XYZ, Y in cd m^-2, of a spectrum that is linear between whole nm. */
+void panel_spectrum_xyz(const float *spectrum, double xyz[3]);
+
 /* Scales a spectrum to 1 cd m^-2; false: it has no light. */
 bool panel_spectrum_normalise(float *spectrum);
 

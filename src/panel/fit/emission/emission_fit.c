@@ -9,6 +9,7 @@
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/emission/emission_beam.h"
 #include "panel/query/panel_file.h"
+#include "panel/set/primary_bands.h"
 #include "panel/shape/spectral_warp.h"
 
 #define TOLERANCE 0.0025 /* relative, where the noise does not ask for more */
@@ -184,23 +185,23 @@ static float most_of(const float *spectrum)
 }
 
 /* Range of whole nm that hold light in any primary. */
-static void lit_range(const Measurement *set, int *first, int *last)
+static void lit_range(const float (*spectrum)[SPECTRAL_COUNT], int *first, int *last)
 {
     *first = SPECTRAL_COUNT;
     *last = 0;
     for (int p = 0; p < 3; p++)
         for (int i = 0; i < SPECTRAL_COUNT; i++)
-            if (set->spectrum[p][i] > 0) {
+            if (spectrum[p][i] > 0) {
                 if (i < *first) *first = i;
                 if (i > *last) *last = i;
             }
 }
 
 /* Do samples every `step` nm from `first` on determine everything in between? */
-static bool is_told_by(const Measurement *set, int first, int last, int step)
+static bool is_told_by(const float (*spectrum)[SPECTRAL_COUNT], int first, int last, int step)
 {
     for (int p = 0; p < 3; p++) {
-        const float *s = set->spectrum[p];
+        const float *s = spectrum[p];
         float small = 1e-5f * most_of(s);
         for (int i = first; i <= last; i++) {
             int   a = first + (i - first) / step * step, b = a + step;
@@ -213,22 +214,22 @@ static bool is_told_by(const Measurement *set, int first, int last, int step)
     return true;
 }
 
-static int choose_step(const Measurement *set, int first, int last)
+static int choose_step(const float (*spectrum)[SPECTRAL_COUNT], int first, int last)
 {
     static const int steps[SPECTRA_STEPS] = {20, 10, 5, 4, 2, 1};
     for (int k = 0; k < SPECTRA_STEPS; k++)
-        if ((last - first) % steps[k] == 0 && is_told_by(set, first, last, steps[k]))
+        if ((last - first) % steps[k] == 0 && is_told_by(spectrum, first, last, steps[k]))
             return steps[k];
     return 1;
 }
 
 /* A spectrum that is 0 at its ends may have begun and ended one step outside of the light. */
-static int widen(const Measurement *set, int *first, int *last)
+static int widen(const float (*spectrum)[SPECTRAL_COUNT], int *first, int *last)
 {
-    int best = choose_step(set, *first, *last), low = *first, high = *last;
+    int best = choose_step(spectrum, *first, *last), low = *first, high = *last;
     for (int before = 0; before < 20 && low - before >= 0; before++)
         for (int after = 0; after < 20 && high + after < SPECTRAL_COUNT; after++) {
-            int step = choose_step(set, low - before, high + after);
+            int step = choose_step(spectrum, low - before, high + after);
             if (step <= best) continue;
             best = step;
             *first = low - before;
@@ -237,36 +238,96 @@ static int widen(const Measurement *set, int *first, int *last)
     return best;
 }
 
-const void *emission_fit_primaries(const Measurement *set, FitNotes *notes, Arena *arena,
-                                   size_t *size)
+/* XYZ of a primary nearest to the normal, without black; one without light has Rec.709's. */
+static void colour_at_normal(const Measurement *set, int p, double xyz[3])
 {
-    PanelPrimariesHead head = {.kind = PANEL_SPECTRA_STORED};
+    const MeasuredPrimary *primary = &set->primary[p];
+    const AngleTable *const of[2] = {&primary->table[primary->level_count - 1], &set->black};
+    for (int b = 0; b < 1 + set->has_black; b++) {
+        int rows = 0;
+        double sum[3] = {0, 0, 0};
+        for (; rows < of[b]->rows && of[b]->theta[rows] == of[b]->theta[0]; rows++)
+            for (int j = 0; j < 3; j++) sum[j] += (double)of[b]->value[3 * rows + j];
+        for (int j = 0; j < 3; j++)
+            xyz[j] = b ? fmax(0, xyz[j] - sum[j] / rows) : sum[j] / rows;
+    }
+    for (int j = 0; j < 3 && !(xyz[0] >= 0 && xyz[1] > 0 && xyz[2] >= 0); j++)
+        xyz[j] = (double)xyz_from_rgb_matrix[3 * j + p];
+}
+
+static void assume_bands(const Measurement *set, Arena *arena, EmissionPrimaries *out,
+                         FitNotes *notes)
+{
+    PrimaryBands *bands = ARENA_NEW(arena, PrimaryBands, 1);
+    double        xyz[3][3];
+    const char   *missed = "", *moved = "";
+    for (int p = 0; p < 3; p++) colour_at_normal(set, p, xyz[p]);
+    primary_bands_find(set->backlight, set->peaks_nm, (const double (*)[3])xyz, bands);
+    if (set->peaks_nm[0] > 0 && memcmp(bands->peak_nm, set->peaks_nm, sizeof bands->peak_nm))
+        moved = arena_format(arena, " (stated: %g, %g, %g nm, from where the colours are out "
+                             "of reach)", set->peaks_nm[0], set->peaks_nm[1], set->peaks_nm[2]);
+    if (bands->miss > PRIMARY_BANDS_MISS)
+        missed = arena_format(arena, "; no light has the measured colours, which are missed by "
+                              "delta u'v' %.2g", bands->miss);
+    out->assumed = arena_format(arena, "spectra of the primaries assumed: bands of a backlight "
+        "'%s'%s at %.4g, %.4g and %.4g nm%s, %.3g, %.3g and %.3g nm wide, mixed to the "
+        "measured colours", primary_backlights[bands->backlight],
+        set->backlight ? "" : " (not stated)",
+        bands->peak_nm[0], bands->peak_nm[1], bands->peak_nm[2], moved, bands->fwhm_nm[0],
+        bands->fwhm_nm[1], bands->fwhm_nm[2]);
+    fit_note(notes, "%s%s; white may be off by delta u'v' %.2g behind a pane whose "
+             "transmittance changes twofold from 400 to 700 nm, and by %.2g behind a sharp "
+             "edge (to the narrowest bands of the same colours): measure spectra (primaries)",
+             out->assumed, missed, bands->off_uv, bands->off_edge);
+    out->spectrum = (const float (*)[SPECTRAL_COUNT])bands->spectrum;
+}
+
+/* The section at the sampling of the spectra. */
+static void write_primaries(EmissionPrimaries *out, PanelPrimariesHead head, Arena *arena)
+{
+    const float (*spectrum)[SPECTRAL_COUNT] = out->spectrum;
     int first = 0, last = -1, step = 1;
-    if (set->has_spectra) {
-        lit_range(set, &first, &last);
-        step = widen(set, &first, &last);
+    if (spectrum) {
+        lit_range(spectrum, &first, &last);
+        step = widen(spectrum, &first, &last);
         if (last == first) last++;
         head.first_nm = (float)(SPECTRAL_FIRST_NM + first);
         head.step_nm = (float)step;
         head.count = (uint16_t)((last - first) / step + 1);
-    } else {
-        head.kind = set->is_white_only ? PANEL_SPECTRA_REC709 : PANEL_SPECTRA_TYPICAL;
-        fit_note(notes, "no spectra of the primaries: %s, bent to the measured colours",
-                 set->is_white_only ? "the Rec.709 primaries' smooth spectra under D65"
-                                    : "typical ones (peaks at 625, 535 and 455 nm)");
     }
-    *size = sizeof head + 6 * (size_t)head.count;
-    unsigned char *bytes = ARENA_NEW(arena, unsigned char, *size), *at = bytes + sizeof head;
+    out->size = sizeof head + 6 * (size_t)head.count;
+    unsigned char *bytes = ARENA_NEW(arena, unsigned char, out->size);
+    unsigned char *at = bytes + sizeof head;
     for (int p = 0; p < 3; p++) {
-        head.scale[p] = fmaxf(most_of(set->spectrum[p]), 1e-30f) / 65535;
+        head.scale[p] = fmaxf(spectrum ? most_of(spectrum[p]) : 0, 1e-30f) / 65535;
         for (int i = first; i <= last && head.count; i += step) {
-            uint16_t value = (uint16_t)rintf(set->spectrum[p][i] / head.scale[p]);
+            uint16_t value = (uint16_t)rintf(spectrum[p][i] / head.scale[p]);
             memcpy(at, &value, sizeof value);
             at += sizeof value;
         }
     }
     memcpy(bytes, &head, sizeof head);
-    return bytes;
+    out->bytes = bytes;
+}
+
+void emission_fit_primaries(const Measurement *set, FitNotes *notes, Arena *arena,
+                            EmissionPrimaries *out)
+{
+    PanelPrimariesHead head = {.kind = PANEL_SPECTRA_STORED};
+    bool is_split = set->is_white_only && !(set->white_miss > 0) && !set->backlight &&
+                    !(set->peaks_nm[0] > 0);
+    *out = (EmissionPrimaries){.spectrum = NULL};
+    if (set->has_spectra) {
+        out->spectrum = (const float (*)[SPECTRAL_COUNT])set->spectrum;
+    } else if (is_split) {
+        head.kind = PANEL_SPECTRA_REC709;
+        out->assumed = "spectra of the primaries assumed: the Rec.709 primaries' smooth "
+                       "spectra under D65";
+        fit_note(notes, "%s, bent to the measured colours", out->assumed);
+    } else {
+        assume_bands(set, arena, out, notes);
+    }
+    write_primaries(out, head, arena);
 }
 
 /* ---- the model ------------------------------------------------------------------------- */

@@ -25,9 +25,17 @@ typedef struct EmissionResult {
     EmissionFlags outliers, holes;
 } EmissionResult;
 
-/* The primaries' section: their spectra at the sampling that they were measured with. */
-const void *emission_fit_primaries(const Measurement *set, FitNotes *notes, Arena *arena,
-                                   size_t *size);
+/* The primaries' section: their spectra at the sampling that they were measured with, or what
+ * stands in their place. */
+typedef struct EmissionPrimaries {
+    const float (*spectrum)[SPECTRAL_COUNT]; /* NULL: none is stored */
+    const char *assumed; /* in words; NULL: measured */
+    const void *bytes;
+    size_t      size;
+} EmissionPrimaries;
+
+void emission_fit_primaries(const Measurement *set, FitNotes *notes, Arena *arena,
+                            EmissionPrimaries *out);
 
 bool emission_fit(const Measurement *set, const FitOptions *options, Arena *arena,
                   FitNotes *notes, EmissionResult *out, Error *err);
