@@ -62,7 +62,7 @@ typedef struct BandSearch {
     double band[3][PEAKS][3]; /* XYZ of a band at each of its peaks */
 } BandSearch;
 
-static void uv_of(const double xyz[3], double uv[2])
+static void bands_uv(const double xyz[3], double uv[2])
 {
     double d = xyz[0] + 15 * xyz[1] + 3 * xyz[2];
     uv[0] = 4 * xyz[0] / d;
@@ -72,8 +72,8 @@ static void uv_of(const double xyz[3], double uv[2])
 static double uv_apart(const double a[3], const double b[3])
 {
     double p[2], q[2];
-    uv_of(a, p);
-    uv_of(b, q);
+    bands_uv(a, p);
+    bands_uv(b, q);
     return hypot(p[0] - q[0], p[1] - q[1]);
 }
 
