@@ -13,7 +13,7 @@
 #define PATCH_MOST 320 /* points of one sum */
 #define SHARED 40      /* points on either side of a cut where both halves count */
 #define PLANE 1e3      /* weight of the plane beside the sum: as good as free */
-#define NUGGET 1e-10   /* of coincident points */
+#define NO_NOISE 1e-10 /* share of the noise's variance beside the sum's: for coincident points */
 #define SAME_PLACE 1e-5
 
 typedef struct Point {
@@ -22,7 +22,8 @@ typedef struct Point {
 } Point;
 
 struct ScatterSurface {
-    int channels;
+    int    channels;
+    double noise; /* of the values */
     /* a cut: both halves between low and high along an axis */
     const ScatterSurface *half[2];
     int    axis;
@@ -66,13 +67,9 @@ static void place_patch(ScatterSurface *s, const Point *from, int count, const d
 }
 
 /* The plane stands in the matrix as a covariance: it is positive definite by that. */
-static void fit_patch(ScatterSurface *s, const float *value, Arena *arena)
+static void factor_patch(const ScatterSurface *s, double noise, double *matrix)
 {
-    size_t  n = (size_t)s->count, channels = (size_t)s->channels;
-    s->weight = ARENA_NEW(arena, double, (n + 3) * channels);
-    Arena   scratch = *arena;
-    double *matrix = ARENA_NEW(&scratch, double, n * n);
-    double *right = ARENA_NEW(&scratch, double, n);
+    size_t n = (size_t)s->count;
     for (size_t i = 0; i < n; i++) {
         const Point *a = &s->point[i];
         for (size_t j = 0; j <= i; j++) {
@@ -80,13 +77,53 @@ static void fit_patch(ScatterSurface *s, const float *value, Arena *arena)
             matrix[i * n + j] = kernel(a->x - b->x, a->y - b->y) +
                                 PLANE * (1 + a->x * b->x + a->y * b->y);
         }
-        matrix[i * n + i] += NUGGET;
+        matrix[i * n + i] += noise;
     }
     least_squares_factor(matrix, n);
+}
+
+static void take_channel(const ScatterSurface *s, const float *value, int channel,
+                         double *right)
+{
+    for (int i = 0; i < s->count; i++)
+        right[i] = (double)value[(size_t)s->point[i].row * (size_t)s->channels +
+                                 (size_t)channel];
+}
+
+/* How much noise there is beside the surface: what makes the values of the middle channel most
+ * likely. Sets the noise; returns its share. */
+static double choose_noise(ScatterSurface *s, const float *value, double *matrix, double *right)
+{
+    static const double shares[] = {NO_NOISE, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
+    double best = INFINITY, share = NO_NOISE;
+    size_t n = (size_t)s->count;
+    for (size_t k = 0; k < sizeof shares / sizeof *shares; k++) {
+        double determinant = 0, squares;
+        factor_patch(s, shares[k], matrix);
+        for (size_t i = 0; i < n; i++) determinant += 2 * log_d(matrix[i * n + i]);
+        take_channel(s, value, s->channels / 2, right);
+        squares = least_squares_solve(matrix, right, n) / (double)n;
+        double unlikely = (double)n * log_d(fmax(squares, 1e-30)) + determinant;
+        if (unlikely > best) break;
+        best = unlikely;
+        share = shares[k];
+        s->noise = k ? sqrt(share * squares) : 0;
+    }
+    return share;
+}
+
+static void fit_patch(ScatterSurface *s, const float *value, Arena *arena)
+{
+    size_t  n = (size_t)s->count, channels = (size_t)s->channels;
+    s->weight = ARENA_NEW(arena, double, (n + 3) * channels);
+    Arena   scratch = *arena;
+    double *matrix = ARENA_NEW(&scratch, double, n * n);
+    double *right = ARENA_NEW(&scratch, double, n);
+    double  share = choose_noise(s, value, matrix, right);
+    factor_patch(s, share, matrix);
     for (size_t k = 0; k < channels; k++) {
         double *plane = s->weight + n * channels + k;
-        for (size_t i = 0; i < n; i++)
-            right[i] = (double)value[(size_t)s->point[i].row * channels + k];
+        take_channel(s, value, (int)k, right);
         least_squares_solve(matrix, right, n);
         for (size_t i = 0; i < n; i++) {
             s->weight[i * channels + k] = right[i];
@@ -156,6 +193,8 @@ static const ScatterSurface *make(Point *point, int count, const float *value, i
     memcpy(copy, point, sizeof *copy * (size_t)left);
     s->half[1] = make(point + first, right, value, channels, arena);
     s->half[0] = make(copy, left, value, channels, arena);
+    s->noise = sqrt(0.5 * (s->half[0]->noise * s->half[0]->noise +
+                           s->half[1]->noise * s->half[1]->noise));
     return s;
 }
 
@@ -194,4 +233,9 @@ void scatter_surface_read(const ScatterSurface *surface, Vec3 at, float *out)
     double sum[MEASUREMENT_WAVELENGTHS_MAX] = {0};
     read_part(surface, point_of(at), 1, sum);
     for (int k = 0; k < surface->channels; k++) out[k] = (float)sum[k];
+}
+
+double scatter_surface_noise(const ScatterSurface *surface)
+{
+    return surface->noise;
 }

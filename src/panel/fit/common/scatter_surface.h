@@ -8,6 +8,9 @@
  * along the wider side of their box, again and again; the halves share rows on both sides of
  * the cut and pass into each other smoothly (partition of unity).
  *
+ * Values may be noisy: the surface passes as far off them as makes the values most likely, the
+ * noise and the surface taken for Gaussian (Wahba, Ann. Statist. 13, 1985, on such choices).
+ *
  * Units    any values; directions of the upper hemisphere. Memory: the arena's. Threads: const
  *          once made. Fails: never; outside the points the surface goes on and means nothing.
  */
@@ -24,3 +27,6 @@ const ScatterSurface *scatter_surface_make(const AngleTable *table, bool mirrore
 
 /* All channels at a direction. */
 void scatter_surface_read(const ScatterSurface *surface, Vec3 at, float *out);
+
+/* Standard deviation of the noise beside the surface, in the values' units. */
+double scatter_surface_noise(const ScatterSurface *surface);

@@ -200,6 +200,7 @@ bool reflection_fit(const Measurement *set, const FitOptions *options, Arena *ar
     ReflectionModel *model = start_model(set, options, &out->parts, arena);
     ReflectionMisses misses = {0};
     reflection_read_tables(model);
+    model->bound = choose_bound(options, model->parts); /* scattered tables show noise now */
     reflection_surface_choose(model, notes);
     HeldOutPass pass = {model, ARENA_NEW(arena, HeldOut, model->tables)};
     parallel_for(options->threads, model->tables, hold_out, &pass);

@@ -178,6 +178,8 @@ static void scatter_table(ReflectionModel *model, int t, bool mirrored)
     model->scatter[t] = scatter_surface_make(table, mirrored, logs, model->wavelengths,
                                              model->arena);
     model->reach[t] = reflection_reach(table, mirrored, *model->arena);
+    model->parts->noise[t] = fmax(model->parts->noise[t],
+                                  scatter_surface_noise(model->scatter[t]));
 }
 
 /* What the samples of all tables surround counts where some do not surround the cone. */
