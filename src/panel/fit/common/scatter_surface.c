@@ -10,10 +10,10 @@
 #include "panel/fit/common/table_rows.h"
 #include "panel/set/measurement.h"
 
-#define PATCH_MOST 320 /* points of one sum */
-#define SHARED 40      /* points on either side of a cut where both halves count */
+#define PATCH_MOST 220 /* points of one sum */
+#define SHARED 28      /* points on either side of a cut where both halves count */
 #define PLANE 1e3      /* weight of the plane beside the sum: as good as free */
-#define NO_NOISE 1e-10 /* share of the noise's variance beside the sum's: for coincident points */
+#define NO_NOISE 1e-10 /* of the noise beside the sum, for coincident points */
 #define SAME_PLACE 1e-5
 
 typedef struct Point {
