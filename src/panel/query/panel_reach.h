@@ -65,14 +65,18 @@ static inline float panel_reach_room(const PanelReachStored *s, Vec3 local)
     return panel_reach_edge(s, at.turn) - at.angle;
 }
 
-/* The direction itself inside the hull; else the one on its edge, towards the centre. */
+/* Radians: where values begin to be held, a bend of the surface, no sample stands. */
+#define PANEL_REACH_ROOM 0.006f
+
+/* The direction itself inside the hull; else the one just outside of its edge, towards the
+ * centre. */
 static inline Vec3 panel_reach_inside(const PanelReachStored *s, Vec3 local)
 {
     Vec3  axis[3];
     float sine, cosine, across, along;
     panel_reach_axes(s, axis);
     PanelReachPlace at = panel_reach_place(axis, local);
-    float edge = panel_reach_edge(s, at.turn);
+    float edge = panel_reach_edge(s, at.turn) + PANEL_REACH_ROOM;
     if (at.angle <= edge) return local;
     sincos_turns(at.turn * (0.5f / PI_F), &sine, &cosine);
     sincos_turns(edge * (0.5f / PI_F), &across, &along);
