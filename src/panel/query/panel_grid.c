@@ -277,6 +277,7 @@ bool panel_grid_expand(const void *data, size_t size, const PanelEmission *emiss
     factor_loadings(g, &scratch);
     panel_profiles_start(&g->axes, emission->channels, cells, (double)g->head.least_share,
                          &scratch, &g->profiles);
+    if (emission->has_black) g->profiles.lit -= 3;
     panel_profiles_make(&g->profiles, cells, (double)g->head.rest, &scratch);
     memcpy(g->profiles.follows, g->follows, g->head.phis);
     fill_vertices(g, &scratch);

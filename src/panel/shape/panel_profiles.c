@@ -347,11 +347,12 @@ void panel_profiles_light(const PanelProfiles *e, double theta, double phi, floa
     if (!a.follows) return;
     a.follows = false;
     mix = mix_at(e, &a, phi, theta);
-    for (int y = 1; y < e->channels; y += 3) {
-        double factor = (double)light[y] / mixed_light(e, &mix, y);
-        light[y - 1] = (float)(factor * mixed_light(e, &mix, y - 1));
-        light[y + 1] = (float)(factor * mixed_light(e, &mix, y + 1));
-    }
+    double factor = (double)light[e->bright] / mixed_light(e, &mix, e->bright);
+    for (int c = 0; c < e->lit; c++) light[c] = (float)(factor * mixed_light(e, &mix, c));
+    if (e->lit == e->channels) return;
+    factor = (double)light[e->lit + 1] / mixed_light(e, &mix, e->lit + 1);
+    for (int c = e->lit; c < e->channels; c++)
+        light[c] = (float)(factor * mixed_light(e, &mix, c));
 }
 
 /* ---- made from cells -------------------------------------------------------------------- */
@@ -361,7 +362,7 @@ void panel_profiles_start(const PanelAxes *grid, int channels, const float *cell
 {
     int    count = grid->thetas * grid->phis;
     double most = 0;
-    *out = (PanelProfiles){.grid = *grid, .channels = channels, .bright = 1,
+    *out = (PanelProfiles){.grid = *grid, .channels = channels, .lit = channels, .bright = 1,
                            .least = ARENA_NEW(arena, double, channels)};
     for (int i = 0; i < count * channels; i++)
         out->least[i % channels] = fmax(out->least[i % channels], (double)cells[i]);

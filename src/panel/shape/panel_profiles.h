@@ -10,9 +10,9 @@
  *
  * Colour   all channels of a direction go one way, which the brightest Y decides: over a jump
  *          each is a mean of both ends by the same weights; else its ratio to that Y goes by a
- *          cubic that stays between those of both ends. Where edges are followed (below) a
- *          table's Y moves, and its colour is that of the same theta. So no colour appears
- *          between samples that none of those around has.
+ *          cubic that stays between those of both ends. Where edges are followed (below) that
+ *          Y and the black pattern's move, and all ratios to them are those of the same theta.
+ *          So no colour appears between samples that none of those around has.
  *
  * An edge that turns with the azimuth stands at another theta in each profile. With
  * V(theta) = integral of |dL / dtheta| from the pole, over its whole, places of equal V belong
@@ -37,6 +37,7 @@ typedef struct PanelAxes {
 typedef struct PanelProfiles {
     PanelAxes grid;
     int       channels, bright; /* bright: the channel of Y whose edges count */
+    int       lit;       /* channels of the primaries; three of a black pattern may follow */
     double    rest;      /* radians: so near a sample its value stands */
     int       nodes;     /* of a profile */
     double   *theta;     /* nodes */
@@ -48,7 +49,7 @@ typedef struct PanelProfiles {
 } PanelProfiles;
 
 /* What counts as light. cells: thetas x phis x channels, above 0, three channels a table;
- * least_share: of a channel's largest value. No profiles yet. */
+ * least_share: of a channel's largest value. No profiles yet, and no black pattern (lit). */
 void panel_profiles_start(const PanelAxes *grid, int channels, const float *cells,
                           double least_share, Arena *arena, PanelProfiles *out);
 

@@ -37,6 +37,7 @@ static const float *start(const EmissionModel *model, Arena *arena, EmissionEdge
                                               s->channels, arena);
     PanelAxes axes = {out->grid.thetas, out->grid.phis, out->grid.theta, out->grid.phi};
     panel_profiles_start(&axes, s->channels, cells, out->share, arena, &out->profiles);
+    if (s->black >= 0) out->profiles.lit = s->black;
     out->are_there = panel_profiles_jump(&out->profiles, cells);
     return cells;
 }

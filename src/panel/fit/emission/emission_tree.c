@@ -46,7 +46,8 @@ static void hold_tolerance(EmissionModel *model)
 typedef struct KeptCells {
     const void *bytes;
     Tree        tree;
-    double      error; /* the largest of a row's */
+    double      error;  /* the largest of a row's */
+    int         missed; /* rows beyond the tolerance */
 } KeptCells;
 
 static bool make_cells(EmissionCoder *coder, const EmissionEdges *edges, int level,
@@ -56,7 +57,8 @@ static bool make_cells(EmissionCoder *coder, const EmissionEdges *edges, int lev
     const EmissionRank  *rank = model->rank;
     PanelEmission  as_read = {.components = rank->components, .mean = rank->mean,
                               .channels = model->samples->channels, .loading = rank->loading,
-                              .cosine_power = rank->cosine_power};
+                              .cosine_power = rank->cosine_power,
+                              .has_black = model->samples->black >= 0};
     PanelGridCells cells = emission_edges_cells(edges, model, level);
     *out = (KeptCells){.bytes = panel_grid_pack(&cells, arena)};
     if (!panel_grid_expand(out->bytes, tree_size(out->bytes), &as_read, coder->geodesic, arena,
@@ -65,7 +67,9 @@ static bool make_cells(EmissionCoder *coder, const EmissionEdges *edges, int lev
     for (int i = 0; i < model->samples->rows; i++) {
         float components[PANEL_COMPONENTS_MAX];
         emission_coder_components(model, &out->tree, model->samples->direction[i], components);
-        out->error = fmax(out->error, (double)emission_coder_excess(coder, i, components, 5));
+        double miss = (double)emission_coder_excess(coder, i, components, 5);
+        out->error = fmax(out->error, miss);
+        out->missed += miss > model->tolerance;
     }
     return true;
 }
@@ -107,6 +111,7 @@ static void report_cells(const EmissionModel *model, const KeptCells *cells, Emi
     const EmissionEdges *e = &out->edges;
     uint32_t rows = 1 + (uint32_t)((e->grid.thetas - 1) * e->grid.phis);
     out->bytes = cells->bytes;
+    out->missed = cells->missed;
     out->report = (TreeReport){.stored_rows = rows, .bytes = tree_size(cells->bytes),
         .stored_values = (size_t)rows * (size_t)model->rank->components};
 }
@@ -248,14 +253,22 @@ static size_t smooth_bytes(const EmissionModel *model, const EmissionTree *tree)
     return sum;
 }
 
+/* *worth false: a small table that the first lattice does not fit: its cells are fewer. */
 static bool build_smooth(EmissionModel *model, const FitOptions *options, Arena *arena,
-                         EmissionTree *out, Error *err)
+                         EmissionTree *out, bool *worth, Error *err)
 {
     int           level = start_level(model->samples, options);
     Start         first;
     EmissionCoder coder, finer;
     Plan          plan = {model, level, options->threads};
-    if (!start_with_beams(&plan, arena, &first, err)) return false;
+    *worth = true;
+    if (out->has_grid && options->basis != FIT_HAAR && is_small(model)) {
+        if (!start(&plan, arena, &first, err)) return false;
+        *worth = first.uncoded <= 0.5 * model->tolerance;
+        if (!*worth) return true;
+    } else if (!start_with_beams(&plan, arena, &first, err)) {
+        return false;
+    }
     float *rest = first.rest;
     double uncoded = first.uncoded;
     coder = first.coder;
@@ -282,10 +295,11 @@ bool emission_tree_build(EmissionModel *model, const FitOptions *options, Arena 
     out->has_grid = emission_edges_find(model, cell, is_small(model), arena, &out->edges);
     if (out->edges.are_there) return build_cells(model, options, arena, out, err);
     PlainModel plain = plain_of(model, arena);
-    if (!build_smooth(model, options, arena, out, err)) return false;
+    bool       worth;
+    if (!build_smooth(model, options, arena, out, &worth, err)) return false;
     if (!out->has_grid || options->basis == FIT_HAAR || !is_small(model)) return true;
     PanelGridCells cells = emission_edges_cells(&out->edges, &plain.model, 1);
-    if (smooth_bytes(model, out) <= panel_grid_bytes(&cells.head)) return true;
+    if (worth && smooth_bytes(model, out) <= panel_grid_bytes(&cells.head)) return true;
     EmissionRank *rank = model->rank;
     *model = plain.model;
     *rank = plain.rank;
