@@ -4,8 +4,8 @@ layouts that no simulator of ours chooses: grids, rings about the mirror directi
 directions; lobes of 0.5 to 20 degrees; 4 to 36 azimuths; noise of 0 to 2 %. Each is imported,
 fitted and evaluated between its samples, where it is measured.
 
-Laws  a panel that is "good" misses at most 5 % of the light (the sum of |panel - truth| weighted
-      by cosine and solid angle, over that of the truth) beside the noise of one sample; a table
+Laws  a panel that is "good" misses at most 5 % of the light (the sum of |panel - truth|,
+      weighted by cosine and solid angle, over that of the truth) beside the noise; a table
       of a smooth reflection in any layout errs by at most twice what a grid of as many samples
       does; and between samples a white has no colour that its neighbours lack.
 """
@@ -245,7 +245,8 @@ def law_of_layouts(report, program):
                 error = missed(brdf_pairs(panel, random.Random(2), truth, INCIDENCES, 80))
             with tempfile.TemporaryDirectory() as folder:
                 even = [grid(r, 80, count // 4) for _ in INCIDENCES][0]
-                panel, _ = brdf_panel(program, folder, r, truth, lambda i: even, INCIDENCES, 0)
+                panel, _ = brdf_panel(program, folder, r, truth, lambda i: even, INCIDENCES,
+                                      0)
                 plain = missed(brdf_pairs(panel, random.Random(2), truth, INCIDENCES, 80))
             text = (f"lobe of {width} degrees, {name}: {100 * error:.2g} % of the light, a grid "
                     f"of as many {100 * plain:.2g} %")

@@ -170,8 +170,7 @@ static int list_options(Words *words, Option *option, Arena *arena)
          &words->instrument},
         {"--date", OPTION_TEXT, "DATE", "of the measurement, as 2026-03-14, for the report",
          &words->date},
-        {"--operator", OPTION_TEXT, "NAME", "who measured, for the report",
-         &words->operator_name},
+        {"--operator", OPTION_TEXT, "NAME", "who measured", &words->operator_name},
         {"--conditions", OPTION_TEXT, "TEXT", "room, warm-up, drive, for the report",
          &words->conditions},
     };

@@ -20,9 +20,12 @@ static void note_wavelengths(const Measurement *set, FitNotes *notes)
     double first = (double)set->wavelength_nm[0];
     double last = (double)set->wavelength_nm[set->wavelength_count - 1];
     double beyond = curve_beyond(first, last, (CurveEnds){false, false});
-    if (beyond > 0)
-        fit_note(notes, "reflection is measured from %g to %g nm: %.2g %% of V(lambda) is "
+    if (beyond > 0 && last > first)
+        fit_note(notes, "reflection is measured from %g to %g nm: %.3g %% of V(lambda) is "
                  "extrapolated, the end values stand there", first, last, 100 * beyond);
+    else if (beyond > 0)
+        fit_note(notes, "reflection is measured at %g nm alone, which stands for all "
+                 "wavelengths", first);
 }
 
 static void note_limits(const Measurement *set, FitNotes *notes)
@@ -44,7 +47,7 @@ static void note_limits(const Measurement *set, FitNotes *notes)
                      primary_names[p],
                      set->primary[p].level[set->primary[p].level_count - 1]);
     if (set->spectra_beyond > 0)
-        fit_note(notes, "%.2g %% of V(lambda) lies beyond the primaries' spectra, which end in "
+        fit_note(notes, "%.3g %% of V(lambda) lies beyond the primaries' spectra, which end in "
                  "light: dark is taken", 100 * set->spectra_beyond);
     if (set->incidence_count) note_wavelengths(set, notes);
     if (set->incidence_count)
