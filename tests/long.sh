@@ -129,6 +129,8 @@ start 'installed, moved, read, completed' install \
     python3 tests/install/install.py .build/release
 of "$all scenes tests/image"
 start 'same bytes, four names' names-long python3 tests/image/names.py --all $program
+start 'panels of foreign layouts' layouts \
+    python3 tests/image/foreign_layouts.py $program
 start 'one light in every command' one-light python3 tests/image/one_light.py $program
 start 'a scene far off is the same' far python3 tests/image/far.py $program
 start 'displays under sun and sky' reflection python3 tests/image/reflection.py $program

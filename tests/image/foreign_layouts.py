@@ -248,8 +248,8 @@ def law_of_layouts(report, program):
                 panel, _ = brdf_panel(program, folder, r, truth, lambda i: even, INCIDENCES,
                                       0)
                 plain = missed(brdf_pairs(panel, random.Random(2), truth, INCIDENCES, 80))
-            text = (f"lobe of {width} degrees, {name}: {100 * error:.2g} % of the light, a grid "
-                    f"of as many {100 * plain:.2g} %")
+            text = (f"lobe of {width} degrees, {name}: {100 * error:.2g} % of the light, a "
+                    f"grid of as many {100 * plain:.2g} %")
             print(f"  {text}")
             report.claim(error <= 2 * plain + 0.002, text)
 
