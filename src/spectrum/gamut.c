@@ -123,7 +123,8 @@ static double distance_at(double mired, const double uv[2])
 {
     double on[2];
     locus_at(mired, on);
-    return hypot(uv[0] - on[0], uv[1] - on[1]);
+    double du = uv[0] - on[0], dv = uv[1] - on[1];
+    return sqrt(du * du + dv * dv);
 }
 
 /* The distance has one minimum along the locus as near to it as this is defined: mireds, which

@@ -134,10 +134,10 @@ static void smooth_rows(const CurveRows *rows, float x[LEVEL_CURVE_MAX],
                         float y[LEVEL_CURVE_MAX], LevelCurve *out)
 {
     double first = fmax(1, ceil(rows->level[0])), code[SMOOTH_LEVELS];
-    double step = (cbrt(255) - cbrt(first)) / (SMOOTH_LEVELS - 1);
+    double low = pow_d(first, 1.0 / 3), step = (pow_d(255, 1.0 / 3) - low) / (SMOOTH_LEVELS - 1);
     int    count = 0;
     for (int k = 0; k < SMOOTH_LEVELS; k++) {
-        double one = rint(pow_d(cbrt(first) + k * step, 3));
+        double one = rint(pow_d(low + k * step, 3));
         if (!count || one > code[count - 1]) code[count++] = one;
     }
     for (int k = 0, n; k < count; k++) {

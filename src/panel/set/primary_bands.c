@@ -74,7 +74,8 @@ static double uv_apart(const double a[3], const double b[3])
     double p[2], q[2];
     bands_uv(a, p);
     bands_uv(b, q);
-    return hypot(p[0] - q[0], p[1] - q[1]);
+    double dx = p[0] - q[0], dy = p[1] - q[1];
+    return sqrt(dx * dx + dy * dy);
 }
 
 static double det3(const double *a, const double *b, const double *c)
