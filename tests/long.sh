@@ -20,8 +20,8 @@ panels="$base src/hemisphere src/image src/panel src/page src/library assets/pan
 light="$panels src/import src/sky src/scene src/bvh src/light src/mirror src/guide src/camera
     src/sunlit src/path src/film src/kernel src/render shaders"
 options="$light src/denoise src/vision src/cli/ src/cli/options"
-tables="$options src/plot src/cli/panel"
 render="$options assets src/live src/cli/job src/cli/render src/review/keep"
+tables="$render src/plot src/cli/panel"
 review="$render src/review src/plot src/cli/review src/cli/equip src/cli/explain"
 compare="$render src/measure src/compare"
 all="$build src shaders assets"
@@ -151,6 +151,8 @@ start 'sub-pixels' subpixels python3 tests/image/subpixels.py $program
 start 'displays by their part of a pixel' display-area \
     python3 tests/image/display_area.py $program
 gather
+of "$tables tests/image"
+run 'a bare display' show python3 tests/image/show.py $program
 of "$render scenes tests/image"
 run 'all closed forms in frames' image-long python3 tests/image/run.py --all $program
 run 'daylight through a roof, every point' roof-long python3 tests/image/roof.py $program --all

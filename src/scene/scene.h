@@ -353,6 +353,7 @@ typedef struct SceneChange {
 typedef struct SceneOptions {
     const char *const *paths; /* .gltf or .glb; the first holds the dashboard */
     int path_count;
+    const char *written; /* the first one's JSON, where the program wrote it; else NULL */
     const char *root; /* --root: a folder whose files they may name besides those of their own
                          folder's parent; NULL: none */
     bool own_folder; /* somebody else's: not the parent, the folder alone */

@@ -23,7 +23,7 @@ from gltf import Scene  # noqa: E402
 from report import Report  # noqa: E402
 
 COMMANDS = ("render", "develop", "check", "measure", "compare", "merge", "sky", "panel import",
-            "panel fit", "panel info", "panel eval", "panel plot", "panel report",
+            "panel fit", "panel info", "panel eval", "panel plot", "panel report", "panel show",
             "panel export", "panel simulate", "probe", "part", "status", "equip", "help")
 CAR = os.path.join(ROOT, "scenes", "car_dashboard.gltf")
 PANEL = os.path.join(ROOT, "assets", "panels", "ips_cluster.panel")
@@ -33,7 +33,7 @@ RENDER = ("render", CAR, "-o", "x.exr", "--size", "8x8")
 UNKNOWN_NAMES = (
     (("rendr",), 2, "did you mean render?", "develop", "panel", "help"),
     (("panel",), 2, "import", "fit", "info", "eval", "export", "plot", "report",
-     "simulate"),
+     "show", "simulate"),
     (("panel", "fitt"), 2, "did you mean fit?", "import", "simulate"),
     (("help", "comparig"), 2, "did you mean comparing?", "render", "scenes"),
     (("help", "panel", "nope"), 2, "import", "simulate"),

@@ -49,6 +49,10 @@ LINES = {
     "panel report": [("panel report other.panel -o OUT.html --measured set/MANIFEST.json",
                       "other.panel set/MANIFEST.json set/white.csv set/levels.csv",
                       {"-o": ".html"})],
+    "panel show": [("panel show other.panel --content content.png -o OUT.exr --size 8x8 --spp 1 "
+                    "--size-mm 8,8", "other.panel content.png", {"-o": ".exr", "--png": ".png"}),
+                   ("panel show other.panel --content content.png --png OUT.png --size 8x8 "
+                    "--spp 1 --size-mm 8,8", "other.panel content.png", {"--png": ".png"})],
     "panel simulate": [("panel simulate recipe.json -o OUT", "recipe.json", {})],
     "panel wavelets": [("panel wavelets set/MANIFEST.json -o OUT",
                         "set/MANIFEST.json set/white.csv set/levels.csv", {})],

@@ -17,6 +17,7 @@ static const Command *const commands[] = {
     &command_panel_export,
     &command_panel_plot,
     &command_panel_report,
+    &command_panel_show,
     &command_panel_simulate,
     &command_panel_wavelets,
 };

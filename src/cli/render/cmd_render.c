@@ -235,6 +235,7 @@ static bool check_task(const RenderRun *work, Error *err)
 static bool write_frame(const RenderRun *work, const RenderResult *result, Error *err)
 {
     Arena      scratch = *work->arena;
+    if (work->request.only_png) return true;
     FrameImage frame = render_make_frame(&work->request, work->scene, &work->camera, result,
                                          &scratch);
     if (!render_output_is_radiance(&work->request))
@@ -341,6 +342,7 @@ static bool keep_checkpoint(RenderRun *work, const RenderResult *so_far)
 {
     Error err;
     char  line[2048];
+    if (!work->request.checkpoint) return false;
     if (render_keep_checkpoint(&work->request, work->identity, so_far, *work->arena, &err))
         return true;
     error_line(&err, line, (int)sizeof line);
@@ -491,7 +493,8 @@ static bool run(RenderRun *work, Error *err)
 {
     RenderOptions *options = &work->request.render;
     RenderResult   result;
-    options->snapshot = work->request.replays || work->task ? NULL : write_snapshot;
+    bool keeps_frame = !work->request.replays && !work->task && !work->request.only_png;
+    options->snapshot = keeps_frame ? write_snapshot : NULL;
     if (work->task && !options->isa) options->isa = work->task->isa;
     options->checkpoint = work->request.keeps_checkpoints ? keep_checkpoint_meanwhile : NULL;
     options->user = work;
@@ -515,14 +518,21 @@ static bool run(RenderRun *work, Error *err)
     return done && hand_over(work, &result, err);
 }
 
-bool cmd_render_run(int argc, char **argv, const RenderTask *task, Arena *arena, Error *err)
+bool cmd_render_request(const RenderRequest *request, const RenderTask *task, Arena *arena,
+                        Error *err)
 {
-    RenderRun  work = {.arena = arena, .task = task};
-    bool  done = render_request_parse(argc, argv, arena, &work.request, err) &&
-                (work.request.cli.help_shown || run(&work, err));
+    RenderRun  work = {.request = *request, .arena = arena, .task = task};
+    bool  done = run(&work, err);
     render_live_close(&work.live);
     scene_close(work.scene);
     return done;
+}
+
+bool cmd_render_run(int argc, char **argv, const RenderTask *task, Arena *arena, Error *err)
+{
+    RenderRequest request;
+    return render_request_parse(argc, argv, arena, &request, err) &&
+           (request.cli.help_shown || cmd_render_request(&request, task, arena, err));
 }
 
 static bool run_render(int argc, char **argv, Arena *arena, Error *err)

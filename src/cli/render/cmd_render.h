@@ -6,6 +6,7 @@
  */
 #pragma once
 #include "cli/options/command.h"
+#include "cli/render/render_request.h"
 
 /* A render that is a part of something planned. */
 typedef struct RenderTask {
@@ -19,5 +20,9 @@ typedef struct RenderTask {
  * be what was planned (ERROR_INPUT), only a whole frame is written, no snapshot, and there is
  * no answer. */
 bool cmd_render_run(int argc, char **argv, const RenderTask *task, Arena *arena, Error *err);
+
+/* The same of a request that was not typed. */
+bool cmd_render_request(const RenderRequest *request, const RenderTask *task, Arena *arena,
+                        Error *err);
 
 extern const Command command_render;

@@ -275,6 +275,7 @@ static json_t *answer_document(const RenderRequest *request, const RenderResult 
     json_object_set_new(answer, "training", training_document(result));
     json_object_set_new(answer, "resumed_samples", json_integer(result->resumed_samples));
     json_object_set_new(answer, "worst_pixels", worst_pixels(result->film));
+    if (request->about) json_object_update(answer, request->about);
     json_object_set_new(answer, "rays_by_class",
                         json_pack("{s:I, s:I, s:I}", "camera", (json_int_t)counts->camera_rays,
                                   "bounce", (json_int_t)counts->bounce_rays, "shadow",

@@ -66,7 +66,7 @@ static bool add_layer(const char *name, unsigned *bits, Error *err)
                                          (int)sizeof advice));
 }
 
-static bool parse_layers(const char *list, unsigned *bits, Error *err)
+bool render_layers_parse(const char *list, unsigned *bits, Error *err)
 {
     while (list) {
         char        name[64] = "";
@@ -279,9 +279,11 @@ static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *
         return error_set(err, ERROR_USAGE, "--spp and --samples exclude each other — --samples "
                                            "0:N is --spp N");
     if (typed->samples && !parse_samples(typed->samples, options, err)) return false;
-    if (typed->layers && !parse_layers(typed->layers, &options->layers, err)) return false;
+    if (typed->layers && !render_layers_parse(typed->layers, &options->layers, err))
+        return false;
     request->names_halves = typed->layers && strstr(typed->layers, "halves");
-    if (request->look.is_denoised && !parse_layers(DENOISE_LAYERS, &options->layers, err))
+    if (request->look.is_denoised &&
+        !render_layers_parse(DENOISE_LAYERS, &options->layers, err))
         return false;
     if (typed->has_crop && !parse_crop(typed->crop, options, err)) return false;
     if (typed->noise &&

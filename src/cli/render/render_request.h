@@ -4,6 +4,8 @@
  * Memory   everything lives in the command's arena.
  */
 #pragma once
+#include <jansson.h>
+
 #include "cli/render/render_setup.h"
 #include "cli/options/cli.h"
 #include "cli/options/scene_options.h"
@@ -20,6 +22,7 @@ typedef struct RenderRequest {
     SceneOptions  scene;
     const char   *output; /* NULL only when replaying */
     const char   *png;    /* NULL: none */
+    bool          only_png; /* the frame is not kept: output is png */
     DevelopOptions look;  /* of the png */
     const char   *tev;    /* who is shown the frame meanwhile, as typed; NULL: nobody */
     ViewerAddress viewer; /* the same, taken apart */
@@ -36,17 +39,22 @@ typedef struct RenderRequest {
     const char   *command_line; /* without what leaves every pixel as it is
                                    (command_line_join) */
     const char   *resume_line;  /* with everything, and --resume */
-    const char   *checkpoint;   /* the file; without --checkpoint OUTPUT.checkpoint */
+    const char   *checkpoint;   /* the file; without --checkpoint OUTPUT.checkpoint; NULL:
+                                   there is none */
     bool          keeps_checkpoints; /* while rendering; else only when it is stopped */
     bool          resumes;      /* goes on from the checkpoint, if there is one */
     ShareRequest  share;
     int           split;  /* JobSplit: how it is cut */
+    json_t       *about;  /* members that the answer has besides, the caller's; NULL: none */
 } RenderRequest;
 
 bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *out, Error *err);
 
 /* Is it written as a Radiance picture (.hdr)? */
 bool render_output_is_radiance(const RenderRequest *request);
+
+/* The bits of a list as --layers has it join *bits. */
+bool render_layers_parse(const char *list, unsigned *bits, Error *err);
 
 /* FilmLayer bits as --layers names them, with commas. */
 const char *render_layer_list(unsigned layers, Arena *arena);

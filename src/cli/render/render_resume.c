@@ -14,7 +14,7 @@
 bool render_check_checkpoint(const RenderRequest *request, Error *err)
 {
     const char *path = request->checkpoint;
-    if (request->replays) return true;
+    if (request->replays || !path) return true;
     if (!strcmp(path, request->output) || (request->png && !strcmp(path, request->png)))
         return error_set(err, ERROR_USAGE, "%s and --checkpoint name the same file, %s",
                          strcmp(path, request->output) ? "--png" : "-o", path);
@@ -58,9 +58,9 @@ static bool open_and_check(const RenderRequest *request, const char *identity, A
 bool render_find_checkpoint(const RenderRequest *request, const char *identity, Arena *arena,
                             const Checkpoint **out, Error *err)
 {
-    bool is_there = !request->replays && file_exists(request->checkpoint);
     *out = NULL;
-    if (request->replays) return true;
+    if (request->replays || !request->checkpoint) return true;
+    bool is_there = file_exists(request->checkpoint);
     if (!request->resumes) {
         if (is_there)
             say(request, "a checkpoint is there; this render begins from the start and will "
@@ -89,5 +89,6 @@ bool render_keep_checkpoint(const RenderRequest *request, const char *identity,
 
 void render_remove_checkpoint(const RenderRequest *request)
 {
-    if (checkpoint_is_there(request->checkpoint)) file_remove(request->checkpoint);
+    const char *path = request->checkpoint;
+    if (path && checkpoint_is_there(path)) file_remove(path);
 }

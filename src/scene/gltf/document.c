@@ -118,13 +118,23 @@ static bool hint_name(Loader *load, const char *path, Error *err)
     return *hint ? error_at(err, was.code, was.file, was.path, "%s%s", was.text, hint) : false;
 }
 
+/* A document that is no file: the program wrote it. */
+static bool is_written(const SceneOptions *options, const char *path)
+{
+    return options->written && !strcmp(path, options->paths[0]);
+}
+
 bool load_read(Loader *load, const char *path, Arena *arena, FileBytes *out, Error *err)
 {
     bool is_step = !load->has_step; /* not within another one */
     const FilePieces how = {.max_bytes = LOAD_MAX_FILE_BYTES,
                             .on_bytes = is_step ? report_read : NULL, .user = load};
     if (is_step) load_progress_begin(load, "read", "bytes", 0);
-    bool is_read = file_read_pieces(path, &how, arena, out, err);
+    bool is_read = true;
+    if (is_written(load->options, path))
+        *out = (FileBytes){(const unsigned char *)load->options->written,
+                           strlen(load->options->written)};
+    else is_read = file_read_pieces(path, &how, arena, out, err);
     if (is_step) load_progress_end(load);
     if (!is_read) return hint_name(load, path, err);
     note_input(load, path, *out);

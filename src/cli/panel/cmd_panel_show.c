@@ -1,0 +1,320 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* panel show: a bare display as an eye sees it, in given light: a render of a scene that the
+ * command writes itself. */
+#include <math.h>
+#include <string.h>
+
+#include "base/count.h"
+#include "base/file.h"
+#include "cli/options/look_options.h"
+#include "cli/panel/panel_commands.h"
+#include "cli/panel/show_scene.h"
+#include "cli/render/cmd_render.h"
+#include "cli/render/command_line.h"
+#include "denoise/buffers.h"
+#include "image/image.h"
+#include "panel/query/panel_open.h"
+#include "panel/query/panel_report.h"
+#include "print/print.h"
+#include "text/json_text.h"
+
+#define USUAL_WIDTH_MM 300 /* where neither the panel nor the user says one */
+#define USUAL_DISTANCE_M 0.8
+#define MOST_THETA_DEG 89
+#define ASPECT_OFF 0.02 /* pixels need not be quite square */
+
+typedef struct ShowWords {
+    const char *content, *size_from;
+    double      theta, phi, distance_m, size_mm[2], directed[3];
+    long        spp, seed;
+    const char *noise, *layers;
+    bool        has_angle[3], has_eye, has_size_mm, has_directed, has_size;
+    int         size[2], false_colour;
+} ShowWords;
+
+typedef struct ShowRun {
+    RenderRequest request;
+    ShowWords     words;
+    ShowScene     scene;
+    SceneOverride content, panel;
+    const char   *path; /* the scene's name in messages and in the frame */
+    double        theta_deg, phi_deg;
+} ShowRun;
+
+/* ---- the eye and the light --------------------------------------------------------------- */
+
+static bool find_eye(ShowRun *work, Error *err)
+{
+    const ShowWords *words = &work->words;
+    double          *eye = work->scene.eye_m;
+    if (words->has_eye && (words->has_angle[0] || words->has_angle[1] || words->has_angle[2]))
+        return error_set(err, ERROR_USAGE, "--eye says the place: --theta, --phi and "
+                                           "--distance do not go with it");
+    if (!words->has_eye) show_place(words->theta, words->phi, words->distance_m, eye);
+    show_angles(eye, &work->theta_deg, &work->phi_deg);
+    return work->theta_deg <= MOST_THETA_DEG + 1e-9 ||
+           error_set(err, ERROR_USAGE, "--eye %g,%g,%g is %.4g degrees from the normal (+Z), "
+                     "required a place before the display, at most %d degrees from it",
+                     eye[0], eye[1], eye[2], work->theta_deg, MOST_THETA_DEG);
+}
+
+static bool find_light(ShowRun *work, Error *err)
+{
+    const double *said = work->words.directed;
+    if (!work->words.has_directed) return true;
+    if (said[0] < 0 || said[1] < 0 || said[1] > MOST_THETA_DEG)
+        return error_set(err, ERROR_USAGE, "--directed %g,%g,%g: required LUX,THETA,PHI with "
+                         "LUX at least 0 and THETA 0 to %d degrees", said[0], said[1], said[2],
+                         MOST_THETA_DEG);
+    work->scene.directed_lx = said[0];
+    work->scene.directed_theta = said[1];
+    work->scene.directed_phi = said[2];
+    return true;
+}
+
+/* ---- the display ------------------------------------------------------------------------- */
+
+/* mm of the active area, as the panel's set says it; zeros: it does not. */
+static bool read_size(const char *path, Arena scratch, double mm[2], Error *err)
+{
+    Panel  *panel = NULL;
+    json_t *report = NULL;
+    if (!panel_open(path, &scratch, &panel, err)) return false;
+    bool ok = panel_report(panel, &report, err) || error_in_file(err, path);
+    const json_t *size = json_object_get(report, "size_mm");
+    for (size_t i = 0; i < 2; i++) mm[i] = json_number_value(json_array_get(size, i));
+    json_decref(report);
+    panel_close(panel);
+    return ok;
+}
+
+/* A picture fills the display: of another shape it would be stretched. */
+static bool check_shape(const ShowWords *words, const double mm[2], const Image *picture,
+                        Error *err)
+{
+    double shape = (double)picture->width / picture->height, display = mm[0] / mm[1];
+    if (words->has_size_mm || fabs(shape / display - 1) <= ASPECT_OFF) return true;
+    return error_at(err, ERROR_INPUT, words->content, "",
+                    "has %d x %d pixels (%.4g : 1), required the shape of the panel's %g x %g "
+                    "mm (%.4g : 1) — fit the picture, or name the size that it fills by "
+                    "--size-mm W,H", picture->width, picture->height, shape, mm[0], mm[1],
+                    display);
+}
+
+static bool find_display(ShowRun *work, const char *panel, Arena scratch, Error *err)
+{
+    ShowWords *words = &work->words;
+    double     mm[2];
+    Image      picture;
+    if (!read_size(panel, scratch, mm, err) ||
+        !image_read(words->content, &scratch, &picture, err))
+        return false;
+    words->size_from = words->has_size_mm ? "--size-mm" : mm[0] > 0 ? "the panel" : "assumed";
+    if (words->has_size_mm) memcpy(mm, words->size_mm, sizeof mm);
+    if (!(mm[0] > 0 && mm[1] > 0)) {
+        mm[0] = USUAL_WIDTH_MM;
+        mm[1] = mm[0] * picture.height / picture.width;
+    }
+    for (int i = 0; i < 2; i++) work->scene.size_m[i] = mm[i] / 1e3;
+    return check_shape(words, mm, &picture, err);
+}
+
+/* ---- the render -------------------------------------------------------------------------- */
+
+static bool check_outputs(const RenderRequest *request, Error *err)
+{
+    const DevelopOptions *look = &request->look;
+    if (!request->output && !request->png)
+        return error_set(err, ERROR_USAGE, "panel show wants -o FRAME.exr or --png FILE");
+    if (request->output && strcmp(path_ending(request->output), ".exr"))
+        return error_set(err, ERROR_USAGE, "-o is '%s', required: a name that ends in .exr",
+                         request->output);
+    return request->png || !(look->exposure || look->config || look->display || look->view ||
+                             look->false_colour || look->adapt || look->is_denoised) ||
+           error_set(err, ERROR_USAGE, "a look is given, but no picture — add --png FILE");
+}
+
+static void set_scene(ShowRun *work, Arena *arena)
+{
+    RenderRequest *request = &work->request;
+    SceneOptions  *scene = &request->scene;
+    work->path = "panel_show.gltf";
+    work->content = (SceneOverride){SHOW_DISPLAY, work->words.content, NULL};
+    work->panel = (SceneOverride){SHOW_DISPLAY, request->cli.arguments[0], NULL};
+    *scene = (SceneOptions){.paths = &work->path, .path_count = 1,
+                            .written = show_scene_text(&work->scene, arena),
+                            .contents = &work->content, .content_count = 1,
+                            .panels = &work->panel, .panel_count = 1};
+    memcpy(request->camera.eye, work->scene.eye_m, sizeof request->camera.eye);
+    request->camera.has_eye = request->camera.has_look_at = request->camera.has_fov = true;
+}
+
+/* One flat display reflects nothing twice, and nothing has to be learnt of where light is. */
+static bool set_render(ShowRun *work, Arena *arena, Error *err)
+{
+    RenderRequest   *request = &work->request;
+    RenderOptions   *options = &request->render;
+    const ShowWords *words = &work->words;
+    options->width = words->size[0];
+    options->height = words->size[1];
+    options->crop = (FilmRect){0, 0, options->width, options->height};
+    options->end_sample = (uint32_t)words->spp;
+    options->seed = (uint32_t)words->seed;
+    options->max_bounces = 1;
+    options->no_guiding = true;
+    options->threads = request->cli.threads;
+    options->progress = request->cli.progress;
+    if (words->layers && !render_layers_parse(words->layers, &options->layers, err))
+        return false;
+    if (request->look.is_denoised &&
+        !render_layers_parse(DENOISE_LAYERS, &options->layers, err))
+        return false;
+    return !words->noise ||
+           noise_goal_parse(words->noise, options->crop, arena, &request->noise, err);
+}
+
+static void set_words(ShowRun *work, int argc, char **argv, Arena *arena)
+{
+    RenderRequest *request = &work->request;
+    char           group[] = "panel";
+    char         **words = ARENA_NEW(arena, char *, argc + 1);
+    words[0] = group;
+    memcpy(words + 1, argv, (size_t)argc * sizeof *argv);
+    request->command_line = command_line_join(argc + 1, words, false, arena);
+    request->only_png = !request->output;
+    if (request->only_png) request->output = request->png;
+}
+
+/* ---- the answer -------------------------------------------------------------------------- */
+
+static json_t *directed_json(const ShowScene *scene)
+{
+    if (!(scene->directed_lx > 0)) return json_null();
+    return json_pack("{s:f, s:f, s:f, s:f}", "illuminance_lx", scene->directed_lx, "theta_deg",
+                     scene->directed_theta, "phi_deg", scene->directed_phi, "diameter_deg",
+                     2 * SUN_MEAN_RADIUS_DEG);
+}
+
+static json_t *about(const ShowRun *work)
+{
+    const ShowScene *scene = &work->scene;
+    const double    *eye = scene->eye_m;
+    return json_pack("{s:o, s:o, s:[f,f], s:s, s:{s:[f,f,f], s:f, s:f, s:f}, s:f, s:f, s:o}",
+                     "panel", json_text(work->panel.value), "content",
+                     json_text(work->content.value), "size_mm", 1e3 * scene->size_m[0],
+                     1e3 * scene->size_m[1], "size_from", work->words.size_from, "eye",
+                     "position_m", eye[0], eye[1], eye[2], "theta_deg", work->theta_deg,
+                     "phi_deg", work->phi_deg, "distance_m", show_distance(eye), "fov_deg",
+                     work->request.camera.fov_deg, "ambient_lx", scene->ambient_lx, "directed",
+                     directed_json(scene));
+}
+
+static void print_about(const ShowRun *work, const Arena *arena)
+{
+    Arena            scratch = *arena;
+    const ShowScene *scene = &work->scene;
+    const char      *directed = "";
+    if (scene->directed_lx > 0)
+        directed = arena_format(&scratch, ", %g lx from theta %g, phi %g (a disc of %.2f "
+                                "degrees)", scene->directed_lx, scene->directed_theta,
+                                scene->directed_phi, 2 * SUN_MEAN_RADIUS_DEG);
+    print("%s: %.4g x %.4g mm (%s), seen from theta %.4g, phi %.4g at %.4g m; %g lx from a "
+          "dome%s\n", work->panel.value, 1e3 * scene->size_m[0], 1e3 * scene->size_m[1],
+          work->words.size_from, work->theta_deg, work->phi_deg, show_distance(scene->eye_m),
+          scene->ambient_lx, directed);
+}
+
+static bool show(ShowRun *work, Arena *arena, Error *err)
+{
+    RenderRequest *request = &work->request;
+    set_scene(work, arena);
+    if (!set_render(work, arena, err)) return false;
+    request->about = about(work);
+    bool done = cmd_render_request(request, NULL, arena, err);
+    json_decref(request->about);
+    if (done && !request->cli.json && !request->cli.quiet) print_about(work, arena);
+    return done;
+}
+
+/* ---- the command line -------------------------------------------------------------------- */
+
+#define EYE_ROWS(work, words)                                                                  \
+    {"--theta", OPTION_NUMBER, "DEG", "of the eye, from the display's normal (default 0)",     \
+     &(words)->theta, .low = 0, .high = MOST_THETA_DEG, .given = &(words)->has_angle[0]},      \
+    {"--phi", OPTION_NUMBER, "DEG",                                                            \
+     "of the eye: 0 to the display's right, 90 above it (default 0)", &(words)->phi,           \
+     .low = -360, .high = 360, .given = &(words)->has_angle[1]},                               \
+    {"--distance", OPTION_NUMBER, "M", "of the eye from the display's centre (default 0.8)",   \
+     &(words)->distance_m, .low = 0.01, .high = 1000, .given = &(words)->has_angle[2]},        \
+    {"--eye", OPTION_NUMBERS, "X,Y,Z",                                                         \
+     "instead: the eye, m from the display's centre, to its right, up and before it",          \
+     (work)->scene.eye_m, .low = -1000, .high = 1000, .count = 3, .given = &(words)->has_eye}, \
+    {"--size-mm", OPTION_NUMBERS, "W,H",                                                       \
+     "of the active area, which the picture fills (default the panel's; else 300 wide, in "    \
+     "the picture's shape)", (words)->size_mm, .low = 1, .high = 1e4, .count = 2,              \
+     .given = &(words)->has_size_mm}
+
+#define LIGHT_ROWS(work, words)                                                                \
+    {"--ambient", OPTION_NUMBER, "LUX",                                                        \
+     "on the display from an even dome all around (default 0)", &(work)->scene.ambient_lx,     \
+     .low = 0, .high = SCENE_MOST_LX},                                                         \
+    {"--directed", OPTION_NUMBERS, "LUX,THETA,PHI",                                            \
+     "on the display from a disc of 0.53 degrees that is there", (words)->directed,            \
+     .low = -360, .high = SCENE_MOST_LX, .count = 3, .given = &(words)->has_directed}
+
+static bool parse(int argc, char **argv, Arena *arena, ShowRun *work, Error *err)
+{
+    RenderRequest *request = &work->request;
+    ShowWords     *words = &work->words;
+    const Option options[] = {
+        {"--content", OPTION_TEXT, "PICTURE", "the codes that the display shows",
+         &words->content},
+        {"-o", OPTION_TEXT, "FRAME.exr", "the frame, cd/m2", &request->output,
+         .file = OPTION_OUTPUT},
+        {"--png", OPTION_TEXT, "FILE", "the picture of it (PNG, JPEG, TIFF by ending)",
+         &request->png, .file = OPTION_OUTPUT},
+        EYE_ROWS(work, words),
+        LIGHT_ROWS(work, words),
+        LOOK_OPTIONS(&request->look),
+        {"--false-colour", OPTION_CHOICE, "luminance", "show luminance on a scale of colours",
+         &words->false_colour, .given = &request->look.false_colour},
+        {"--size", OPTION_SIZE, "WxH", "pixels (default: 1280 along the display's longer side)",
+         words->size, .given = &words->has_size},
+        {"--spp", OPTION_INTEGER, "N", "samples a pixel, at most (default 32)", &words->spp,
+         .low = 1, .high = FILM_SAMPLES_MAX},
+        {"--noise", OPTION_TEXT, "[AREA:]R",
+         "as many samples as leave this relative error, as of `render`", &words->noise},
+        {"--seed", OPTION_INTEGER, "N", "another set of random numbers (default 0)",
+         &words->seed, .low = 0, .high = 4294967295.0},
+        {"--layers", OPTION_TEXT, "LIST",
+         "of the frame, as of `render`: display, xyz, all ... (default R, G, B alone)",
+         &words->layers},
+    };
+    const CliCommand command = {"panel show",
+        "a bare display as an eye sees it, in given light",
+        "X.panel --content PICTURE --png FILE [-o FRAME.exr] [--theta DEG] [--ambient LUX]",
+        "parhelion panel show assets/panels/ips_cluster.panel --content "
+        "assets/content/cluster.png --theta 50 --ambient 500 --png cluster.png",
+        options, COUNT_OF(options), 1, 1};
+    return cli_parse(&command, argc, argv, arena, &request->cli, err);
+}
+
+static bool run_show(int argc, char **argv, Arena *arena, Error *err)
+{
+    ShowRun work = {.words = {.distance_m = USUAL_DISTANCE_M, .spp = 32}};
+    if (!parse(argc, argv, arena, &work, err)) return false;
+    if (work.request.cli.help_shown) return true;
+    if (!work.words.content)
+        return error_set(err, ERROR_USAGE, "panel show wants --content PICTURE");
+    if (!check_outputs(&work.request, err) || !find_eye(&work, err) ||
+        !find_light(&work, err) ||
+        !find_display(&work, work.request.cli.arguments[0], *arena, err) ||
+        !show_frame(&work.scene, work.words.has_size, work.words.size,
+                    &work.request.camera.fov_deg, err))
+        return false;
+    set_words(&work, argc, argv, arena);
+    return show(&work, arena, err);
+}
+
+const Command command_panel_show = {
+    "show", "a bare display as an eye sees it, in given light", run_show};
