@@ -49,10 +49,12 @@ LINES = {
     "panel report": [("panel report other.panel -o OUT.html --measured set/MANIFEST.json",
                       "other.panel set/MANIFEST.json set/white.csv set/levels.csv",
                       {"-o": ".html"})],
-    "panel show": [("panel show other.panel --content content.png -o OUT.exr --size 8x8 --spp 1 "
-                    "--size-mm 8,8", "other.panel content.png", {"-o": ".exr", "--png": ".png"}),
-                   ("panel show other.panel --content content.png --png OUT.png --size 8x8 "
-                    "--spp 1 --size-mm 8,8", "other.panel content.png", {"--png": ".png"})],
+    "panel show": [("panel show other.panel --content content.png --size 8x8 --spp 1 "
+                    "--size-mm 8,8 -o OUT.exr", "other.panel content.png",
+                    {"-o": ".exr", "--png": ".png"}),
+                   ("panel show other.panel --content content.png --size 8x8 --spp 1 "
+                    "--size-mm 8,8 --png OUT.png", "other.panel content.png",
+                    {"--png": ".png"})],
     "panel simulate": [("panel simulate recipe.json -o OUT", "recipe.json", {})],
     "panel wavelets": [("panel wavelets set/MANIFEST.json -o OUT",
                         "set/MANIFEST.json set/white.csv set/levels.csv", {})],
