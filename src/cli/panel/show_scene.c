@@ -49,7 +49,8 @@ static void add_corners(Text *text)
              "\"target\": 34962}], \"accessors\": [{\"bufferView\": 0, "
              "\"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\", "
              "\"min\": [-0.5, -0.5, 0], \"max\": [0.5, 0.5, 0]}, "
-             "{\"bufferView\": 0, \"byteOffset\": 12, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC2\"}], ");
+             "{\"bufferView\": 0, \"byteOffset\": 12, \"componentType\": 5126, \"count\": 4, "
+             "\"type\": \"VEC2\"}], ");
 }
 
 /* A dome of lux / pi all around, and a sun: its illuminance is normal to its beam, north -Z. */
