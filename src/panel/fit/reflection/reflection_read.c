@@ -16,6 +16,8 @@
 #define LEAST_VALUE 1e-8 /* sr^-1 */
 #define EDGE_CELLS 3.0f  /* so far beyond it places still count: triangles reach across */
 #define CHUNK 512        /* places that one thread reads at a time */
+#define STEEPEST 0.5f     /* what a logarithm may change by beyond the last ring: held there at
+                             once, its kink takes eight times the time of a fit to code */
 #define FILLED_SHARE 0.05 /* of a grid's cells: with more of them it is no grid */
 
 double reflection_read_least(const AngleTable *table)
@@ -244,7 +246,12 @@ float reflection_read_logs(const ReflectionModel *model, int table, Vec3 outer, 
     float theta = atan2_f(across, fmaxf(outer.z, 0)), phi = atan2_f(outer.y, outer.x);
     float last = is_scattered ? theta : grid->theta[grid->thetas - 1];
     read_at(model, table, fminf(theta, last), phi, logs);
-    return theta - last > 1e-5f ? theta - last : 0;
+    float beyond = theta - last, inside[MEASUREMENT_WAVELENGTHS_MAX];
+    if (beyond <= 1e-5f) return 0;
+    read_at(model, table, fmaxf(0, last - beyond), phi, inside);
+    for (int w = 0; w < model->wavelengths; w++)
+        logs[w] += fminf(STEEPEST, fmaxf(-STEEPEST, logs[w] - inside[w]));
+    return beyond;
 }
 
 /* ---- all places -------------------------------------------------------------------------- */
