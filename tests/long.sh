@@ -95,6 +95,8 @@ start 'a second reader, 100,000 questions' agreement-long \
     python3 tests/library/agreement.py .build/release --queries 100000
 start 'a second reader of panels' library-agreement \
     python3 tests/library/agreement.py .build/release
+start 'the library where memory is short' library-memory \
+    python3 tests/library/short_memory.py .build/release
 start 'another renderer, less noise' renderer-long \
     python3 tests/library/other_renderer.py .build/release --samples 1024
 of "$light tests/structure tests/unit CONTRIBUTING.md"

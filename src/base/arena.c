@@ -38,18 +38,36 @@ static size_t most_bytes(void)
  * 2 MB spare most of these reads the search for their page. */
 #define LARGE ((size_t)1 << 32)
 
-Arena arena_reserve(size_t bytes)
+bool arena_try_reserve(size_t bytes, Arena *out)
 {
     size_t size = (bytes + PAGE - 1) / PAGE * PAGE, most = most_bytes();
     if (size > most) size = most;
     char *memory = mmap(NULL, size, PROT_READ | PROT_WRITE,
                         MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (memory == MAP_FAILED) exit_when_full(size, 0);
+    *out = (Arena){0};
+    if (memory == MAP_FAILED) return false;
     if (bytes >= LARGE) madvise(memory, size, MADV_HUGEPAGE); /* or stays with small ones */
-    Arena arena = {.next = memory, .end = memory + size, .on_full = exit_when_full,
+    *out = (Arena){.next = memory, .end = memory + size, .on_full = exit_when_full,
                    .begin = memory};
-    guard_start(&arena);
+    guard_start(out);
+    return true;
+}
+
+Arena arena_reserve(size_t bytes)
+{
+    Arena arena;
+    if (!arena_try_reserve(bytes, &arena)) exit_when_full(bytes, 0);
     return arena;
+}
+
+void arena_trim(Arena *arena)
+{
+    size_t used = ((size_t)(arena->next - arena->begin) + PAGE - 1) / PAGE * PAGE;
+    char  *end = arena->begin + used;
+    if (end >= arena->end) return;
+    guard_end(arena);
+    munmap(end, (size_t)(arena->end - end));
+    arena->end = end;
 }
 
 void arena_release(Arena *arena)
@@ -65,24 +83,45 @@ void arena_release(Arena *arena)
  * may have more addresses than there is memory, and who touches too much of it is killed. */
 #define LARGE_BLOCK ((size_t)1 << 22)
 
-void *arena_alloc(Arena *arena, size_t size, size_t align, size_t count)
+/* A block's size, and what is left for it. */
+static size_t block_bytes(const Arena *arena, size_t size, size_t count, size_t *left)
 {
-    size_t left = arena_left(arena), bytes;
-    if (align < GUARD_ALIGN) align = GUARD_ALIGN;
-    size_t pad = (size_t)(-(uintptr_t)arena->next) & (align - 1);
+    size_t bytes;
+    *left = arena_left(arena);
     if (__builtin_mul_overflow(size, count, &bytes)) bytes = SIZE_MAX;
     if (bytes >= LARGE_BLOCK) {
         size_t memory = machine_memory_left();
-        if (memory < left) left = memory;
+        if (memory < *left) *left = memory;
     }
-    if (pad > left || bytes > left - pad) {
-        arena->on_full(bytes, left);
-        abort(); /* on_full must not return */
-    }
+    return bytes;
+}
+
+/* Zeroed bytes, or NULL where they are more than what is left. */
+static void *take_block(Arena *arena, size_t bytes, size_t align, size_t left)
+{
+    if (align < GUARD_ALIGN) align = GUARD_ALIGN;
+    size_t pad = (size_t)(-(uintptr_t)arena->next) & (align - 1);
+    if (pad > left || bytes > left - pad) return NULL;
     char *memory = arena->next + pad;
     arena->next = memory + bytes;
     guard_open(arena, memory, bytes);
     return bytes ? memset(memory, 0, bytes) : memory;
+}
+
+void *arena_try(Arena *arena, size_t size, size_t align, size_t count)
+{
+    size_t left, bytes = block_bytes(arena, size, count, &left);
+    return take_block(arena, bytes, align, left);
+}
+
+void *arena_alloc(Arena *arena, size_t size, size_t align, size_t count)
+{
+    size_t left, bytes = block_bytes(arena, size, count, &left);
+    void  *memory = take_block(arena, bytes, align, left);
+    if (memory) return memory;
+    if (arena->way_out) longjmp(*arena->way_out, 1);
+    arena->on_full(bytes, left);
+    abort(); /* on_full must not return */
 }
 
 void *arena_grow(Arena *arena, void *bytes, size_t size, size_t wanted, size_t align)

@@ -4,14 +4,18 @@
  * Memory   arena_reserve maps address space; pages cost nothing until they are touched.
  * Threads  one arena belongs to one thread at a time.
  * Fails    running out is one exit path: on_full is called and must not return. The one that
- *          arena_reserve sets prints one line and ends the process with status 3.
+ *          arena_reserve sets prints one line and ends the process with status 3. A library
+ *          sets way_out instead: a place to jump to, in a function that has not returned. What
+ *          an arena does not hold must not be open then.
  *
  * A function that keeps memory takes an `Arena *`; one that needs only scratch takes an
  * `Arena` by value: the copy is dropped at return, and the memory is back.  Scratch that was
  * used before is zeroed again by arena_alloc.
  */
 #pragma once
+#include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 #ifdef __cplusplus
@@ -23,6 +27,7 @@ typedef struct Arena {
     char *end;
     void (*on_full)(size_t bytes_wanted, size_t bytes_left); /* must not return */
     char *begin;
+    jmp_buf *way_out; /* NULL: on_full */
 } Arena;
 
 /* An arena over `bytes` of fresh address space (rounded up to pages), but at most over three
@@ -30,17 +35,26 @@ typedef struct Arena {
  * (ulimit -v). */
 Arena arena_reserve(size_t bytes);
 
+/* The same; false, *out empty: the system refuses the address space. */
+bool arena_try_reserve(size_t bytes, Arena *out);
+
 /* Bytes that it still has. */
 static inline size_t arena_left(const Arena *arena)
 {
     return (size_t)(arena->end - arena->next);
 }
 
+/* Gives back what nothing was made in yet; the arena is full then but for a page's rest. */
+void arena_trim(Arena *arena);
+
 /* Gives the address space back; everything from the arena is gone. */
 void arena_release(Arena *arena);
 
 /* count * size zeroed bytes; align is a power of two. Never NULL; count 0 is fine. */
 void *arena_alloc(Arena *arena, size_t size, size_t align, size_t count);
+
+/* The same; NULL: there is no room, nothing has changed. */
+void *arena_try(Arena *arena, size_t size, size_t align, size_t count);
 
 /* Keeps what was made in a copy of the arena: moves `size` bytes that lie behind the arena's
  * start to that start. They may overlap; everything else behind it is gone. */

@@ -63,10 +63,13 @@ bool file_read_pieces(const char *path, const FilePieces *how, Arena *arena, Fil
     int    file = open_regular(path, how->is_start ? SIZE_MAX : how->max_bytes, &size, err);
     if (file < 0) return false;
     if (size > how->max_bytes) size = how->max_bytes;
-    unsigned char *bytes = ARENA_NEW(arena, unsigned char, size + 1);
-    bool           done = read_all(file, how, bytes, size, &got);
+    unsigned char *bytes = arena_try(arena, 1, 1, size + 1); /* the file is open */
+    bool           done = bytes && read_all(file, how, bytes, size, &got);
     int            reason = errno;
     close(file);
+    if (!bytes)
+        return error_at(err, ERROR_MEMORY, path, "", "is out of memory: %zu bytes required, "
+                        "%zu left", size + 1, arena_left(arena));
     if (!done)
         return error_at(err, ERROR_INPUT, path, "", "cannot be read: %s", strerror(reason));
     bytes[got] = 0;

@@ -6,7 +6,8 @@
 # same bits and spectra in 0.86 of the time, but all else in 0.97 or more: no table of kernels.
 include(GNUInstallDirs)
 set(PANEL_LIBRARY_ABI 1)
-set(panel_library_sources src/library/parhelion_panel.c
+set(panel_library_sources src/library/parhelion_panel.c src/library/open_panel.c
+  src/library/emission_draw.c
   src/base/arena.c src/base/error.c src/base/file.c src/base/machine.c src/base/mathd.c
   src/base/sort.c src/print/print.c src/print/printable.c src/print/utf8.c
   src/spectrum/spectral_table.c src/spectrum/wavelengths.c
@@ -14,7 +15,7 @@ set(panel_library_sources src/library/parhelion_panel.c
   src/hemisphere/vertex/vertex.c src/hemisphere/vertex/vertex_open.c
   src/hemisphere/vertex/vertex_query.c src/hemisphere/vertex/vertex_unpack.c
   src/hemisphere/tree/tree_open.c src/hemisphere/tree/tree_query.c
-  src/hemisphere/tree/tree_sum.c
+  src/hemisphere/tree/tree_stop.c src/hemisphere/tree/tree_sum.c
   src/hemisphere/sampling/sampling_tree.c src/hemisphere/sampling/sampling_tree_build.c
   src/panel/shape/least_squares.c src/panel/shape/panel_beam.c src/panel/shape/panel_levels.c
   src/panel/shape/panel_profiles.c src/panel/shape/panel_spline.c

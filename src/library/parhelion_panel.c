@@ -3,12 +3,12 @@
 #include "library/parhelion_panel.h"
 
 #include <stdbool.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/arena.h"
 #include "base/error.h"
-#include "base/file.h"
+#include "library/emission_draw.h"
+#include "library/open_panel.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_open.h"
@@ -16,9 +16,10 @@
 #include "panel/query/panel_reflection.h"
 #include "spectrum/spectral_table.h"
 
-struct ParhelionPanel {
+struct ParhelionPanel { /* lies in its own arena */
     Arena        arena;
     const Panel *panel;
+    EmissionDraw draw;
 };
 
 /* Sizes in the first version: no caller has less. */
@@ -32,70 +33,57 @@ const char *parhelion_panel_version(void)
 
 /* ---- opening ----------------------------------------------------------------------------- */
 
-#define ARENA_BYTES ((size_t)4 << 30)
-
-/* The bytes lie in the arena, at a multiple of 8. */
-static ParhelionPanel *keep(Arena *arena, const FileBytes *bytes, const char *name, Error *err)
+static int open_from(const PanelSource *from, ParhelionPanel **panel, char *error,
+                     size_t error_size)
 {
-    Panel          *panel;
-    ParhelionPanel *out = malloc(sizeof *out);
-    if (!out) {
-        error_at(err, ERROR_MEMORY, name, "", "there is no memory to open it");
-        return NULL;
+    Error       err = {0};
+    OpenedPanel opened;
+    *panel = NULL;
+    if (open_panel(from, sizeof **panel, &opened, &err)) {
+        *panel = opened.room;
+        **panel = (ParhelionPanel){opened.arena, opened.panel, opened.draw};
+        return PARHELION_PANEL_OK;
     }
-    if (!panel_open_memory(bytes->data, bytes->size, name, arena, &panel, err)) {
-        free(out);
-        return NULL;
-    }
-    *out = (ParhelionPanel){*arena, panel};
-    return out;
+    if (error && error_size)
+        error_line(&err, error, error_size < INT32_MAX ? (int)error_size : INT32_MAX);
+    return err.code == ERROR_MEMORY ? PARHELION_PANEL_NO_MEMORY : PARHELION_PANEL_REFUSED;
 }
 
-static void report(const Error *err, char *error, size_t error_size)
+int parhelion_panel_open_level(const char *path, int level, ParhelionPanel **panel, char *error,
+                               size_t error_size)
 {
-    if (error && error_size)
-        error_line(err, error, error_size < INT32_MAX ? (int)error_size : INT32_MAX);
+    const PanelSource from = {.path = path ? path : "", .level = level};
+    return open_from(&from, panel, error, error_size);
+}
+
+int parhelion_panel_open_memory_level(const void *bytes, size_t size, int level,
+                                      ParhelionPanel **panel, char *error, size_t error_size)
+{
+    const PanelSource from = {.bytes = bytes, .size = size, .level = level};
+    return open_from(&from, panel, error, error_size);
 }
 
 ParhelionPanel *parhelion_panel_open(const char *path, char *error, size_t error_size)
 {
-    Arena           arena = arena_reserve(ARENA_BYTES);
-    Error           err = {0};
-    FileBytes       bytes;
-    ParhelionPanel *out = NULL;
-    if (file_read(path, PANEL_FILE_BYTES_MAX, &arena, &bytes, &err))
-        out = keep(&arena, &bytes, path, &err);
-    if (out) return out;
-    report(&err, error, error_size);
-    arena_release(&arena);
-    return NULL;
+    ParhelionPanel *panel;
+    parhelion_panel_open_level(path, PARHELION_PANEL_WHOLE, &panel, error, error_size);
+    return panel;
 }
 
 ParhelionPanel *parhelion_panel_open_memory(const void *bytes, size_t size, char *error,
                                             size_t error_size)
 {
-    Error err = {0};
-    if (size > PANEL_FILE_BYTES_MAX) {
-        error_at(&err, ERROR_INPUT, "memory", "", "has %zu bytes, wanted at most %zu", size,
-                 PANEL_FILE_BYTES_MAX);
-        report(&err, error, error_size);
-        return NULL;
-    }
-    Arena arena = arena_reserve(ARENA_BYTES);
-    unsigned char *copy = arena_alloc(&arena, 1, 8, size + 1);
-    if (size) memcpy(copy, bytes, size);
-    ParhelionPanel *out = keep(&arena, &(FileBytes){copy, size}, "memory", &err);
-    if (out) return out;
-    report(&err, error, error_size);
-    arena_release(&arena);
-    return NULL;
+    ParhelionPanel *panel;
+    parhelion_panel_open_memory_level(bytes, size, PARHELION_PANEL_WHOLE, &panel, error,
+                                      error_size);
+    return panel;
 }
 
 void parhelion_panel_close(ParhelionPanel *panel)
 {
     if (!panel) return;
-    arena_release(&panel->arena);
-    free(panel);
+    Arena arena = panel->arena; /* which the panel itself goes with */
+    arena_release(&arena);
 }
 
 /* ---- what it holds ----------------------------------------------------------------------- */
@@ -160,6 +148,11 @@ int parhelion_panel_info(const ParhelionPanel *panel, ParhelionPanelInfo *info)
     add_reflection(panel->panel, &all);
     memcpy(info, &all, room < sizeof all ? room : sizeof all);
     return PARHELION_PANEL_OK;
+}
+
+int parhelion_panel_level(const ParhelionPanel *panel)
+{
+    return panel_coarse_finest(panel->panel);
 }
 
 #define LIST_MAX PANEL_INFO_WAVELENGTHS_MAX /* the longest */
@@ -448,6 +441,75 @@ int parhelion_panel_pdf(const ParhelionPanel *panel, const ParhelionPanelQuestio
     for (size_t i = 0; !status && i < q->count; i++) {
         PanelMix mix = mix_at(panel, q, i);
         density[i] = panel_mix_pdf(&mix, direction_at(q->viewer, i), direction_at(q->light, i));
+    }
+    return status;
+}
+
+/* ---- the display as a light -------------------------------------------------------------- */
+
+int parhelion_panel_sample_emission(const ParhelionPanel *panel,
+                                    const ParhelionPanelQuestions *questions, float *viewer,
+                                    float *density)
+{
+    const ParhelionPanelQuestions *q = questions;
+    int status = check(q, NEED_CODE | NEED_RANDOM, viewer && density ? viewer : NULL);
+    for (size_t i = 0; !status && i < q->count; i++) {
+        float u[3], code[3], pdf;
+        Vec3  d;
+        held_at(q->random, i, BELOW_ONE, u);
+        held_at(q->code, i, 255, code);
+        bool drawn = emission_draw_sample(&panel->draw, panel->panel, code, u, &d, &pdf);
+        if (!drawn) d = vec3(0, 0, 0);
+        memcpy(viewer + 3 * i, (float[3]){d.x, d.y, d.z}, 3 * sizeof *viewer);
+        density[i] = drawn ? pdf : 0;
+    }
+    return status;
+}
+
+int parhelion_panel_pdf_emission(const ParhelionPanel *panel,
+                                 const ParhelionPanelQuestions *questions, float *density)
+{
+    const ParhelionPanelQuestions *q = questions;
+    int status = check(q, NEED_VIEWER | NEED_CODE, density);
+    for (size_t i = 0; !status && i < q->count; i++) {
+        float code[3];
+        held_at(q->code, i, 255, code);
+        density[i] = emission_draw_pdf(&panel->draw, panel->panel, code,
+                                       direction_at(q->viewer, i));
+    }
+    return status;
+}
+
+/* ---- measured or extrapolated ------------------------------------------------------------ */
+
+int parhelion_panel_emission_is_measured(const ParhelionPanel *panel,
+                                         const ParhelionPanelQuestions *questions,
+                                         unsigned char *is_measured)
+{
+    const ParhelionPanelQuestions *q = questions;
+    const float white[3] = {255, 255, 255};
+    int status = check(q, NEED_VIEWER, is_measured);
+    for (size_t i = 0; !status && i < q->count; i++) {
+        float place[2], xyz[3];
+        place_at(q, i, place);
+        is_measured[i] = panel_place_emission_xyz(panel->panel, place,
+                                                  direction_at(q->viewer, i), white, xyz);
+    }
+    return status;
+}
+
+int parhelion_panel_brdf_is_measured(const ParhelionPanel *panel,
+                                     const ParhelionPanelQuestions *questions,
+                                     unsigned char *is_measured)
+{
+    const ParhelionPanelQuestions *q = questions;
+    int status = check(q, NEED_VIEWER | NEED_LIGHT, is_measured);
+    for (size_t i = 0; !status && i < q->count; i++) {
+        PanelMix mix = mix_at(panel, q, i);
+        is_measured[i] = 1;
+        for (int k = 0; k < mix.count; k++)
+            is_measured[i] &= panel_brdf_is_measured(mix.panel[k], direction_at(q->viewer, i),
+                                                     direction_at(q->light, i));
     }
     return status;
 }

@@ -17,11 +17,14 @@
  *          in there.
  * Threads  no global state. An open panel is constant: any number of threads may ask it at
  *          once; none may while another closes it.
- * Memory   arrays belong to the caller. All of a panel is freed by closing it. Opening keeps
- *          address space for 4 GiB, of which pages are used as they are needed; where the
- *          system refuses memory the process ends with a line on stderr and status 3.
+ * Memory   arrays belong to the caller. All of a panel is freed by closing it. Opening takes
+ *          address space for 4 GiB, or half of what the process may still take, and gives back
+ *          what it did not need. Where the system refuses memory, or it does not suffice, there
+ *          is no panel, the status is PARHELION_PANEL_NO_MEMORY and nothing is kept: the
+ *          process goes on, and may open again. Questions take no memory.
  * Errors   opening reports in words what is wrong with a file. Questions fail only where they
- *          are put wrongly (ParhelionPanelStatus), and then no array is written.
+ *          are put wrongly (ParhelionPanelStatus), and then no array is written. The library
+ *          prints nothing and never ends the process.
  * ABI      structs begin with their size in bytes, which the caller fills in (sizeof): members
  *          may come in behind, and a library fills and reads no more than that. Within one
  *          soname nothing else changes. The same questions get the same bits from every build
@@ -48,7 +51,9 @@ typedef struct ParhelionPanel ParhelionPanel; /* opaque */
 typedef enum ParhelionPanelStatus {
     PARHELION_PANEL_OK = 0,
     PARHELION_PANEL_WRONG_SIZE = 1, /* a struct's size is 0 or less than its first version's */
-    PARHELION_PANEL_MISSING = 2     /* an array that the question needs is NULL */
+    PARHELION_PANEL_MISSING = 2,    /* an array that the question needs is NULL */
+    PARHELION_PANEL_REFUSED = 3,    /* opening: the file cannot be read, or is no good panel */
+    PARHELION_PANEL_NO_MEMORY = 4   /* opening: there is not enough memory */
 } ParhelionPanelStatus;
 
 /* The library's version as text, such as "0.1.0". */
@@ -65,6 +70,20 @@ PARHELION_PANEL_API ParhelionPanel *parhelion_panel_open(const char *path, char 
 PARHELION_PANEL_API ParhelionPanel *parhelion_panel_open_memory(const void *bytes, size_t size,
                                                                 char *error,
                                                                 size_t error_size);
+
+/* The same two with a status, and the panel's trees read down to `level` alone: from 0, the
+ * coarsest; a tree that ends before is read whole, and so is everything with
+ * PARHELION_PANEL_WHOLE. A level has the values of the whole panel at its vertices, 2^level to
+ * a right angle, and logarithms linear between them: smoother, and quicker to answer. Spectra,
+ * mirrors, beams and the draws of the reflection stay whole. *panel is NULL where the status
+ * is not PARHELION_PANEL_OK. */
+#define PARHELION_PANEL_WHOLE (-1)
+PARHELION_PANEL_API int parhelion_panel_open_level(const char *path, int level,
+                                                   ParhelionPanel **panel, char *error,
+                                                   size_t error_size);
+PARHELION_PANEL_API int parhelion_panel_open_memory_level(const void *bytes, size_t size,
+                                                          int level, ParhelionPanel **panel,
+                                                          char *error, size_t error_size);
 
 PARHELION_PANEL_API void parhelion_panel_close(ParhelionPanel *panel); /* NULL is fine */
 
@@ -104,6 +123,9 @@ typedef struct ParhelionPanelInfo {
 /* Fills in *info but its size. */
 PARHELION_PANEL_API int parhelion_panel_info(const ParhelionPanel *panel,
                                              ParhelionPanelInfo *info);
+
+/* The finest level of its trees, as they are read. */
+PARHELION_PANEL_API int parhelion_panel_level(const ParhelionPanel *panel);
 
 typedef enum ParhelionPanelList {
     PARHELION_PANEL_RED_LEVELS = 0,
@@ -178,6 +200,39 @@ PARHELION_PANEL_API int parhelion_panel_sample(const ParhelionPanel *panel,
 PARHELION_PANEL_API int parhelion_panel_pdf(const ParhelionPanel *panel,
                                             const ParhelionPanelQuestions *questions,
                                             float *density);
+
+/* ---- the display as a light -------------------------------------------------------------- */
+
+/* Draws directions to a viewer as luminance times the cosine is distributed: code, random.
+ * viewer[count][3]; density[count], sr^-1, as parhelion_panel_pdf_emission returns it; 0: there
+ * is no direction, nothing is emitted with these codes. Red, green, blue at code 255 and black
+ * have a distribution each, made when the panel is opened; a code mixes them by their mean
+ * luminance, so that the light over the density is nearly the same everywhere, exact in the
+ * mean. Every direction above the surface has a density. The same at all places. */
+PARHELION_PANEL_API int parhelion_panel_sample_emission(
+    const ParhelionPanel *panel, const ParhelionPanelQuestions *questions, float *viewer,
+    float *density);
+
+/* The density with which a direction is drawn: viewer, code. density[count]; it integrates to
+ * 1 over the hemisphere. */
+PARHELION_PANEL_API int parhelion_panel_pdf_emission(const ParhelionPanel *panel,
+                                                     const ParhelionPanelQuestions *questions,
+                                                     float *density);
+
+/* ---- measured or extrapolated ------------------------------------------------------------ */
+
+/* The emission towards the viewer: viewer. is_measured[count], 1: within the measured cone, of
+ * all spots that count at the place; 0: extrapolated, or not there. */
+PARHELION_PANEL_API int parhelion_panel_emission_is_measured(
+    const ParhelionPanel *panel, const ParhelionPanelQuestions *questions,
+    unsigned char *is_measured);
+
+/* The BRDF: viewer, light. is_measured[count], 1: the light within the measured incidences and
+ * the viewer among the directions that were measured there, or the two exchanged; 0:
+ * extrapolated, or not there. */
+PARHELION_PANEL_API int parhelion_panel_brdf_is_measured(
+    const ParhelionPanel *panel, const ParhelionPanelQuestions *questions,
+    unsigned char *is_measured);
 
 #ifdef __cplusplus
 }

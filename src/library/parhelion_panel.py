@@ -35,6 +35,7 @@ LISTS = ("red_levels", "green_levels", "blue_levels", "wavelengths", "incidences
 LAYOUTS = (None, "stripe", "pentile")
 FLOATS = ctypes.POINTER(ctypes.c_float)
 BYTES = ctypes.POINTER(ctypes.c_ubyte)
+WHOLE, LEVEL_MOST, NO_MEMORY = -1, 10, 4
 
 
 class PanelError(Exception):
@@ -90,11 +91,11 @@ def _load():
 def _declared(library):
     panel, questions = ctypes.c_void_p, ctypes.POINTER(_Questions)
     library.parhelion_panel_version.restype = ctypes.c_char_p
-    library.parhelion_panel_open.restype = panel
-    library.parhelion_panel_open.argtypes = [ctypes.c_char_p, ctypes.c_char_p, ctypes.c_size_t]
-    library.parhelion_panel_open_memory.restype = panel
-    library.parhelion_panel_open_memory.argtypes = [ctypes.c_char_p, ctypes.c_size_t,
-                                                    ctypes.c_char_p, ctypes.c_size_t]
+    into = [ctypes.c_int, ctypes.POINTER(panel), ctypes.c_char_p, ctypes.c_size_t]
+    library.parhelion_panel_open_level.argtypes = [ctypes.c_char_p, *into]
+    library.parhelion_panel_open_memory_level.argtypes = [ctypes.c_char_p, ctypes.c_size_t,
+                                                          *into]
+    library.parhelion_panel_level.argtypes = [panel]
     library.parhelion_panel_close.restype = None
     library.parhelion_panel_close.argtypes = [panel]
     library.parhelion_panel_info.argtypes = [panel, ctypes.POINTER(_Info)]
@@ -103,7 +104,9 @@ def _declared(library):
     for name, outputs in (("emission_xyz", [FLOATS, BYTES]), ("emission_spectrum", [FLOATS]),
                           ("brdf", [FLOATS, FLOATS]), ("mirror", [FLOATS]),
                           ("albedo", [FLOATS]), ("sample", [FLOATS, FLOATS]),
-                          ("pdf", [FLOATS])):
+                          ("pdf", [FLOATS]), ("sample_emission", [FLOATS, FLOATS]),
+                          ("pdf_emission", [FLOATS]), ("emission_is_measured", [BYTES]),
+                          ("brdf_is_measured", [BYTES])):
         getattr(library, f"parhelion_panel_{name}").argtypes = [panel, questions, *outputs]
     return library
 
@@ -135,18 +138,26 @@ def _array(name, value, width):
 
 
 class Panel:
-    """An open panel file, or the bytes of one."""
+    """An open panel file, or the bytes of one. level: its trees are read down to that level
+    alone, from 0, the coarsest; None: whole. Raises PanelError, or MemoryError where there is
+    not enough memory."""
 
-    def __init__(self, source):
+    def __init__(self, source, level=None):
         self._panel = None
         library, error = _library(), ctypes.create_string_buffer(2048)
+        panel = ctypes.c_void_p()
+        if level is not None and not 0 <= level <= LEVEL_MOST:
+            raise PanelError(f"level is {level}, 0 to {LEVEL_MOST} required")
+        into = (WHOLE if level is None else level, ctypes.byref(panel), error, len(error))
         if isinstance(source, (bytes, bytearray)):
-            self._panel = library.parhelion_panel_open_memory(bytes(source), len(source), error,
-                                                              len(error))
+            status = library.parhelion_panel_open_memory_level(bytes(source), len(source),
+                                                               *into)
         else:
-            self._panel = library.parhelion_panel_open(os.fsencode(source), error, len(error))
-        if not self._panel:
-            raise PanelError(error.value.decode("utf-8", "replace"))
+            status = library.parhelion_panel_open_level(os.fsencode(source), *into)
+        if status:
+            words = error.value.decode("utf-8", "replace")
+            raise MemoryError(words) if status == NO_MEMORY else PanelError(words)
+        self._panel = panel.value
 
     def close(self):
         """Frees the panel; it cannot be asked afterwards."""
@@ -167,6 +178,10 @@ class Panel:
         if not self._panel:
             raise PanelError("the panel is closed")
         return self._panel
+
+    def level(self):
+        """The finest level of its trees, as they are read."""
+        return _library().parhelion_panel_level(self._open())
 
     def info(self):
         """What the file holds, as a dictionary; lists of what was measured are arrays."""
@@ -262,3 +277,26 @@ class Panel:
         """Density with which `sample` draws a direction to the light, sr^-1, [...]."""
         return self._ask("pdf", {"viewer": viewer, "light": light, "place": place}, None,
                          [(1, numpy.float32)])[0]
+
+    def sample_emission(self, code, random):
+        """Directions to a viewer, [..., 3], as luminance times the cosine is distributed, and
+        their densities in sr^-1, [...]; a density of 0 says that nothing is emitted. random:
+        three numbers in [0, 1) each."""
+        return self._ask("sample_emission", {"code": code, "random": random}, None,
+                         [(3, numpy.float32), (1, numpy.float32)])
+
+    def pdf_emission(self, viewer, code):
+        """Density with which `sample_emission` draws a direction, sr^-1, [...]."""
+        return self._ask("pdf_emission", {"viewer": viewer, "code": code}, None,
+                         [(1, numpy.float32)])[0]
+
+    def emission_is_measured(self, viewer, place=None):
+        """Whether the emission towards the viewer is measured, not extrapolated, [...]."""
+        return self._ask("emission_is_measured", {"viewer": viewer, "place": place}, None,
+                         [(1, numpy.uint8)])[0].astype(bool)
+
+    def brdf_is_measured(self, viewer, light, place=None):
+        """The same for the BRDF, [...]."""
+        return self._ask("brdf_is_measured", {"viewer": viewer, "light": light,
+                                              "place": place}, None,
+                         [(1, numpy.uint8)])[0].astype(bool)

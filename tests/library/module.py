@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """module.py BUILD_DIR -- parhelion_panel.py: shapes and broadcasting, what is refused and in
-which words, where it finds the library, threads, draws against their densities, and the example
-that draws a viewing cone. Ends with what a question costs, which nothing is claimed of.
+which words, where it finds the library, threads, draws of the reflection and of the emission
+against their densities, levels, what is measured, and the example that draws a viewing cone.
+Ends with what a question costs, which nothing is claimed of.
 """
+import json
 import os
 import shutil
 import subprocess
@@ -177,6 +179,90 @@ def check_draws(report, panel):
         report.claim(abs(whole - 1) < 2e-3, f"the density's integral is {whole}")
 
 
+def fine_grid(rows, columns, inside):
+    """Directions in equal cells of z and phi, inside^2 each."""
+    z = (numpy.arange(rows * inside) + 0.5) / (rows * inside)
+    phi = (numpy.arange(columns * inside) + 0.5) / (columns * inside) * 2 * numpy.pi
+    z, phi = (a.reshape(rows, inside, columns, inside).swapaxes(1, 2).reshape(
+        rows * columns, inside ** 2) for a in numpy.meshgrid(z, phi, indexing="ij"))
+    s = numpy.sqrt(1 - z * z)
+    return numpy.stack([s * numpy.cos(phi), s * numpy.sin(phi), z], -1)
+
+
+def check_emission_draws(report, name, code, count=40000):
+    """Density and draws agree (chi-square), its integral is 1, the light over it is even."""
+    from parhelion_panel import Panel
+    what, rows, columns = f"{name} {code}", 16, 24
+    with Panel(panels.shipped(name)) as panel:
+        random = numpy.random.default_rng(7).random((count, 3))
+        viewer, density = panel.sample_emission(code, random)
+        if not panel.emission_xyz([0, 0, 1], code)[1] > 0:
+            report.claim(not density.any() and not panel.pdf_emission([0, 0, 1], code),
+                         f"{what}: directions of no light")
+            return
+        report.claim(numpy.array_equal(density, panel.pdf_emission(viewer, code)),
+                     f"{what}: densities of draws are not those of pdf")
+        grid = fine_grid(rows, columns, 24)
+        share = panel.pdf_emission(grid, code).mean(-1) * 2 * numpy.pi / (rows * columns)
+        report.claim(abs(share.sum() - 1) < 1e-3, f"{what}: the integral is {share.sum()}")
+        phi = numpy.arctan2(viewer[:, 1], viewer[:, 0]) / (2 * numpy.pi) % 1
+        cell = (numpy.minimum((viewer[:, 2] * rows).astype(int), rows - 1) * columns
+                + numpy.minimum((phi * columns).astype(int), columns - 1))
+        wanted = count * share / share.sum()
+        found = numpy.bincount(cell, minlength=rows * columns)
+        thin = wanted < 5  # counted together
+        wanted = numpy.append(wanted[~thin], max(wanted[thin].sum(), 1e-9))
+        found = numpy.append(found[~thin], found[thin].sum())
+        square = float(((found - wanted) ** 2 / wanted)[wanted > 1e-3].sum())
+        report.claim(square < len(wanted) + 5 * (2 * len(wanted)) ** 0.5,
+                     f"{what}: chi-square {square:.0f} of {len(wanted)} cells")
+        light = panel.emission_xyz(viewer, code)[:, 1] * viewer[:, 2] / density
+        exact = float((panel.emission_xyz(grid, code)[..., 1] * grid[..., 2]).mean()
+                      * 2 * numpy.pi)
+        sigma = float(light.std()) / count ** 0.5
+        report.claim(abs(light.mean() - exact) < 4 * sigma + 1e-3 * exact and
+                     light.std() < 0.2 * light.mean(),
+                     f"{what}: drawn {light.mean()} +- {sigma}, {exact} in the mean")
+
+
+def check_levels(report, program, panel):
+    """A level is what the program says at it; the finest one is the panel."""
+    from parhelion_panel import Panel
+    q, finest = Questions(50, 4), panel.level()
+    report.claim(6 <= finest <= 10, f"the finest level is {finest}")
+    for level in (0, 3, finest):
+        with Panel(PANEL, level=level) as coarse:
+            report.claim(coarse.level() == level, f"level {level} is {coarse.level()}")
+            same = numpy.array_equal(coarse.emission_xyz(q.viewer, q.code),
+                                     panel.emission_xyz(q.viewer, q.code))
+            report.claim(same == (level == finest), f"level {level} is the same: {same}")
+            told = json.loads(panels.run(
+                program, "panel", "eval", PANEL, "--theta", "33", "--phi", "20", "--rgb",
+                "255,255,255", "--level", str(level), "--json"))["XYZ"]
+            theta, phi = numpy.radians([33, 20])
+            found = coarse.emission_xyz([numpy.sin(theta) * numpy.cos(phi), numpy.sin(theta)
+                                         * numpy.sin(phi), numpy.cos(theta)], [255] * 3)
+            report.claim(numpy.allclose(found, told, rtol=1e-5),
+                         f"level {level}: {found}, the program says {told}")
+    with open(PANEL, "rb") as file, Panel(file.read(), level=10) as whole:
+        report.claim(whole.level() == finest, "a level beyond the finest is another")
+    report.claim("level" in refusal(lambda: Panel(PANEL, level=-1)), "level -1 is read")
+
+
+def check_measured(report, panel):
+    q, info = Questions(400, 6), panel.info()
+    told = panel.emission_xyz(q.viewer, q.code, measured=True)[1]
+    report.claim(numpy.array_equal(told, panel.emission_is_measured(q.viewer)) and
+                 0 < told.mean() < 1, "emission: measured or not")
+    found = panel.brdf_is_measured(q.viewer, q.light)
+    within = numpy.cos(min(info["reflection_cone"], info["last_incidence"]))
+    beyond = numpy.cos(max(info["reflection_cone"], info["last_incidence"])) - 0.01
+    both = numpy.minimum(q.viewer[:, 2], q.light[:, 2])
+    report.claim(found[both > within + 0.01].all() and not found[both < beyond].any() and
+                 numpy.array_equal(found, panel.brdf_is_measured(q.light, q.viewer)),
+                 "reflection: measured or not")
+
+
 def check_example(report, folder):
     script = os.path.join(LIBRARY, "viewing_cone.py")
     for name, start in (("cone.png", b"\x89PNG"), ("cone.svg", b"<svg")):
@@ -228,6 +314,12 @@ def main():
         check_found(report, build, folder)
         check_threads(report, panel)
         check_draws(report, panel)
+        for name, code in (("ips_cluster", [255] * 3), ("ips_cluster", [0, 0, 40]),
+                           ("ips_cluster", [0] * 3), ("hud_pgu", [255, 90.5, 0]),
+                           ("oled_centre", [20, 200, 10]), ("oled_centre", [0] * 3)):
+            check_emission_draws(report, name, code)
+        check_levels(report, os.path.join(build, "parhelion"), panel)
+        check_measured(report, panel)
         check_example(report, folder)
         tell_costs(panel)
     report.finish()

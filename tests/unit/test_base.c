@@ -443,6 +443,32 @@ TEST(a_full_arena_says_what_was_wanted_and_left)
     arena_release(&arena);
 }
 
+TEST(a_full_arena_may_have_a_way_out)
+{
+    Arena   arena = arena_reserve(1 << 16);
+    jmp_buf way_out;
+    arena.on_full = note_full;
+    arena.way_out = &way_out;
+    char *first = arena_alloc(&arena, 1, 1, 65000);
+    assert_null(arena_try(&arena, 10, 1, 100));
+    Arena scratch = arena;
+    if (!setjmp(way_out)) fail_msg("%p", arena_alloc(&scratch, 10, 1, 100));
+    assert_ptr_equal(arena_try(&arena, 1, 1, 536), first + 65000);
+    arena_release(&arena);
+}
+
+TEST(a_trimmed_arena_keeps_what_it_holds)
+{
+    Arena arena;
+    assert_true(arena_try_reserve(1 << 24, &arena));
+    char *bytes = arena_alloc(&arena, 1, 1, 100000);
+    bytes[99999] = 7;
+    arena_trim(&arena);
+    assert_int_equal(arena.end - arena.begin, 1 << 17);
+    assert_int_equal(bytes[99999], 7);
+    arena_release(&arena);
+}
+
 ARENA_TEST(arena_texts_are_terminated_copies)
 {
     char  source[] = "windscreen";

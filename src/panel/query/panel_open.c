@@ -6,6 +6,7 @@
 
 #include "base/file.h"
 #include "base/units.h"
+#include "hemisphere/tree/tree_stop.h"
 #include "panel/query/panel_open_emission.h"
 #include "panel/query/panel_open_places.h"
 #include "panel/query/panel_open_reflection.h"
@@ -208,4 +209,30 @@ bool panel_open(const char *path, Arena *arena, Panel **out, Error *err)
 void panel_close(Panel *panel)
 {
     if (panel) arena_release(&panel->copy);
+}
+
+/* ---- coarser ---------------------------------------------------------------------------- */
+
+int panel_coarse_finest(const Panel *panel)
+{
+    int emission = panel->emission ? panel->emission_tree.level : 0;
+    int reflection = panel->reflection ? panel->reflection_tree.level : 0;
+    return emission > reflection ? emission : reflection;
+}
+
+static void stop_trees(Panel *panel, int level, unsigned parts, Arena *arena)
+{
+    Tree *emission = &panel->emission_tree, *reflection = &panel->reflection_tree;
+    if (panel->emission && parts & PANEL_COARSE_EMISSION)
+        tree_stop(emission, level < emission->level ? level : emission->level, arena);
+    if (panel->reflection && parts & PANEL_COARSE_REFLECTION)
+        tree_stop(reflection, level < reflection->level ? level : reflection->level, arena);
+}
+
+void panel_coarsen(Panel *panel, int level, unsigned parts, Arena *arena)
+{
+    const PanelPlaces *places = panel->places;
+    stop_trees(panel, level, parts, arena);
+    for (int k = 1; places && k < places->panels; k++)
+        stop_trees((Panel *)places->panel[k], level, parts, arena);
 }

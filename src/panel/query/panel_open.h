@@ -27,3 +27,18 @@ void panel_close(Panel *panel); /* NULL is fine */
 /* As panel_open_memory, before the sampling of the reflection is there. */
 bool panel_from_bytes(const void *bytes, size_t size, const char *name, Arena *arena,
                       Panel **out, Error *err);
+
+/* ---- coarser ---------------------------------------------------------------------------- */
+
+/* Trees to be read coarser. */
+#define PANEL_COARSE_EMISSION 1u
+#define PANEL_COARSE_REFLECTION 2u
+#define PANEL_COARSE_ALL 3u
+
+/* The finest level of the trees. */
+int panel_coarse_finest(const Panel *panel);
+
+/* From now on all queries of values read the trees of `parts` down to `level` (from 0 on; a
+ * tree that ends before is read whole), those of several spots too. The arena lives as long as
+ * the panel; nobody else may use it while it changes. */
+void panel_coarsen(Panel *panel, int level, unsigned parts, Arena *arena);

@@ -197,7 +197,7 @@ static void write_section(const SamplingWork *work, const void *tree, Arena *are
 bool sampling_make(const Panel *panel, Arena *arena, SamplingSection *out, Error *err)
 {
     SamplingWork        work = {.panel = panel};
-    Arena       scratch = arena_reserve((size_t)4 << 30);
+    Arena       scratch = *arena;
     const void *tree;
     choose_wavelengths(&work);
     choose_places(&work, PROBE_LEVEL, &scratch);
@@ -215,7 +215,8 @@ bool sampling_make(const Panel *panel, Arena *arena, SamplingSection *out, Error
                                .variance = CELL_VARIANCE, .uniform_share = UNIFORM_SHARE};
     bool ok = sampling_tree_build(&options, integrals, &scratch, &tree, err) ||
               error_prefix(err, "sampling of the reflection");
-    if (ok) write_section(&work, tree, arena, out);
-    arena_release(&scratch);
-    return ok;
+    if (!ok) return false;
+    write_section(&work, tree, &scratch, out);
+    out->bytes = arena_keep(arena, out->bytes, out->size, 8);
+    return true;
 }

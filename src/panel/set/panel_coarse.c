@@ -24,13 +24,6 @@ static int least(int a, int b)
     return a < b ? a : b;
 }
 
-int panel_coarse_finest(const Panel *panel)
-{
-    int emission = panel->emission ? panel->emission_tree.level : 0;
-    int reflection = panel->reflection ? panel->reflection_tree.level : 0;
-    return emission > reflection ? emission : reflection;
-}
-
 /* Sums over differences of logarithms; squares: of the relative ones. */
 typedef struct Differences {
     double largest, squares, count;
@@ -186,21 +179,4 @@ void panel_coarse_compare(const Panel *panel, int level, unsigned parts, Arena s
     add_panel(panel, level, parts, scratch, out);
     for (int k = 1; places && k < places->panels; k++)
         add_panel(places->panel[k], level, parts, scratch, out);
-}
-
-static void stop_trees(Panel *panel, int level, unsigned parts, Arena *arena)
-{
-    Tree *emission = &panel->emission_tree, *reflection = &panel->reflection_tree;
-    if (panel->emission && parts & PANEL_COARSE_EMISSION)
-        tree_stop(emission, least(level, emission->level), arena);
-    if (panel->reflection && parts & PANEL_COARSE_REFLECTION)
-        tree_stop(reflection, least(level, reflection->level), arena);
-}
-
-void panel_coarsen(Panel *panel, int level, unsigned parts, Arena *arena)
-{
-    const PanelPlaces *places = panel->places;
-    stop_trees(panel, level, parts, arena);
-    for (int k = 1; places && k < places->panels; k++)
-        stop_trees((Panel *)places->panel[k], level, parts, arena);
 }

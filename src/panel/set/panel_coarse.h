@@ -16,11 +16,7 @@
 
 #include "base/arena.h"
 #include "panel/query/panel.h"
-
-/* Trees to be read coarser. */
-#define PANEL_COARSE_EMISSION 1u
-#define PANEL_COARSE_REFLECTION 2u
-#define PANEL_COARSE_ALL 3u
+#include "panel/query/panel_open.h"
 
 /* Of one tree: the level that it is read at, its own finest one, and relative differences to
  * the whole panel. Where the tree is of the vertex basis, max bounds X, Y and Z of all codes
@@ -41,13 +37,6 @@ typedef struct PanelCoarse {
     PanelCoarsePart emission, reflection;
 } PanelCoarse;
 
-/* The finest level of the trees. */
-int panel_coarse_finest(const Panel *panel);
-
 /* How far a level, 0 to the finest, is off. parts: PANEL_COARSE_... */
 void panel_coarse_compare(const Panel *panel, int level, unsigned parts, Arena scratch,
                           PanelCoarse *out);
-
-/* From now on all queries of values read the trees of `parts` down to `level` (0 to the
- * finest), those of several spots too. The arena lives as long as the panel. */
-void panel_coarsen(Panel *panel, int level, unsigned parts, Arena *arena);
