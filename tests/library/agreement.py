@@ -29,6 +29,7 @@ panels.use_numpy()
 
 import numpy  # noqa: E402
 from panel_reader import Panel as Reader  # noqa: E402
+from panel_reader_trees import NotRead  # noqa: E402
 from report import ROOT, Report, read  # noqa: E402
 
 sys.path.insert(0, os.path.join(ROOT, "src", "library"))
@@ -146,8 +147,12 @@ def compare_densities(report, name, found, reader, q):
 def check_panel(report, name, path, count, table):
     from parhelion_panel import Panel
     q, claims = Questions(count, hash_of(name)), Claims(report, name)
-    with open(path, "rb") as file:
-        reader = Reader(file.read(), table)
+    try:
+        with open(path, "rb") as file:
+            reader = Reader(file.read(), table)
+    except NotRead as what:
+        report.skip(f"{name}: {what}, which the second reader does not read")
+        return
     with Panel(path) as panel:
         if reader.panels[0].emission:
             check_emission(claims, panel, reader, q)

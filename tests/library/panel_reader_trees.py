@@ -100,7 +100,13 @@ def lattice_corners(level, n):
     return ((bc, ca, ab), (a, ab, ca), (ab, b, bc), (ca, bc, c))[n % 4]
 
 
+class NotRead(Exception):
+    """What the page describes and this reader leaves out."""
+
+
 def open_tree(data):
+    if data[:4] == b"GRID":
+        raise NotRead("an emission kept as its measured directions")
     return {b"VRTX": VertexTree, b"HAAR": HaarTree}[data[:4]](data)
 
 
