@@ -34,8 +34,7 @@ def fit(program, folder, name, rows):
     manifest = os.path.join(folder, f"{name}.json")
     with open(manifest, "w", encoding="utf-8") as file:
         json.dump({"panel": name, "emission": {"white": f"{name}.csv"}}, file)
-    run(program, "panel", "fit", manifest, "-o", os.path.join(folder, f"{name}.panel"),
-        "--basis", "haar")
+    run(program, "panel", "fit", manifest, "-o", os.path.join(folder, f"{name}.panel"))
     return f"{name}.panel"
 
 

@@ -134,7 +134,8 @@ static void smooth_rows(const CurveRows *rows, float x[LEVEL_CURVE_MAX],
                         float y[LEVEL_CURVE_MAX], LevelCurve *out)
 {
     double first = fmax(1, ceil(rows->level[0])), code[SMOOTH_LEVELS];
-    double low = pow_d(first, 1.0 / 3), step = (pow_d(255, 1.0 / 3) - low) / (SMOOTH_LEVELS - 1);
+    double low = pow_d(first, 1.0 / 3);
+    double step = (pow_d(255, 1.0 / 3) - low) / (SMOOTH_LEVELS - 1);
     int    count = 0;
     for (int k = 0; k < SMOOTH_LEVELS; k++) {
         double one = rint(pow_d(low + k * step, 3));
