@@ -467,7 +467,7 @@ TEST(an_unwritable_output_is_named)
 /* ---- memory ------------------------------------------------------------------------------ */
 
 /* Opens, asks and (if wanted) fits with an arena of so many bytes, as a process of its own:
- * running out is an exit, as in the program. */
+ * running out is an exit, as in the program, or an error that says so of a file. */
 static int status_with(size_t bytes, bool fits, const char *output)
 {
     pid_t child = fork();
@@ -477,10 +477,12 @@ static int status_with(size_t bytes, bool fits, const char *output)
         json_t *report = NULL;
         FitOptions options = small_options(FIT_VERTEX);
         arena.on_full = leave_when_full;
-        if (!fits) _exit(panel_open(folder.panel_path, &arena, &panel, why()) ? 0 : 3);
-        Measurement *set = ARENA_NEW(&arena, Measurement, 1);
-        _exit(measurement_read(manifest_of(&kinds[0]), &arena, set, why()) &&
-              panel_fit(set, &options, output, &arena, &report, why()) ? 0 : 3);
+        bool         is_done = !fits && panel_open(folder.panel_path, &arena, &panel, why());
+        Measurement *set = fits ? ARENA_NEW(&arena, Measurement, 1) : NULL;
+        if (fits)
+            is_done = measurement_read(manifest_of(&kinds[0]), &arena, set, why()) &&
+                      panel_fit(set, &options, output, &arena, &report, why());
+        _exit(is_done ? 0 : why()->code == ERROR_MEMORY ? FULL_STATUS : 3);
     }
     return status_of(child);
 }

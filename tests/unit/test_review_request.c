@@ -222,7 +222,8 @@ ARENA_TEST(damaged_bytes_do_no_harm)
 
 /* ---- memory ------------------------------------------------------------------------------ */
 
-/* As a process of its own: running out is an exit, as in the program. */
+/* As a process of its own: running out is an exit, as in the program, or an error that says so
+ * of the file. */
 static int status_with(size_t bytes, const char *file)
 {
     pid_t child = fork();
@@ -232,7 +233,8 @@ static int status_with(size_t bytes, const char *file)
         if (arena.end > arena.next + bytes) arena.end = arena.next + bytes;
         arena.on_full = leave_when_full;
         Problems problems = problems_start(&arena);
-        _exit(review_request_read(file, NULL, &arena, &problems, &r, why()) ? 0 : 3);
+        bool is_read = review_request_read(file, NULL, &arena, &problems, &r, why());
+        _exit(is_read ? 0 : why()->code == ERROR_MEMORY ? FULL_STATUS : 3);
     }
     return status_of(child);
 }
