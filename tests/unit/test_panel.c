@@ -7,6 +7,7 @@
 #include "panel/query/panel_opened.h"
 #include "panel/query/panel_report.h"
 #include "panel/query/panel_sampling.h"
+#include "panel/query/panel_stated.h"
 #include "spectrum/spectral_table.h"
 
 static Fixture ips;
@@ -449,6 +450,26 @@ TEST(shipped_panels_say_what_their_recipes_say)
 {
     check_shipped("ips_cluster");
     check_shipped("oled_centre");
+}
+
+/* Of this fit: a file of an older one states none, or other figures than the guides. */
+TEST(shipped_panels_state_a_verdict)
+{
+    static const char *const names[] = {"ips_cluster", "oled_centre", "hud_pgu", "hud_pgu_p"};
+    for (int i = 0; i < 4; i++) {
+        ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 30);
+        Panel *panel;
+        char   path[512];
+        snprintf(path, sizeof path, PROJECT_DIR "/assets/panels/%s.panel", names[i]);
+        assert_done(panel_open(path, &arena, &panel, &err));
+        PanelStated stated = panel_stated(panel, &arena);
+        assert_non_null(stated.verdict);
+        assert_false(stated.is_unusable);
+        assert_true(stated.is_synthetic);
+        assert_true(stated.emission_error > 0 && stated.emission_error < 0.05);
+        assert_true(stated.reflection_error > 0 && stated.reflection_error < 0.05);
+        panel_close(panel);
+    }
 }
 
 TEST_PROGRAM(start_ips, fixture_group_end)
