@@ -219,7 +219,10 @@ TEST(hot_pixels_are_found_listed_and_not_followed)
         double wanted = json_number_at(json_array_get(list, i), "expected");
         assert_true(value > 7 * wanted || value < 0.25 * wanted);
     }
-    assert_true(emission_figure(&f, "bound") < 0.08); /* 1% noise: 5 sigma and the tolerance */
+    assert_true(emission_figure(&f, "bound") < 0.03); /* beside 5 sigma of 1% noise */
+    assert_true(json_number_at(f.report, "total/max_error") < 0.08);
+    assert_int_equal(json_number_at(f.report, "total/outliers"), 4);
+    assert_true(json_number_at(f.report, "total/outliers_max_error") > 0.8);
     expect_misses("f", &f, 75, 31, 3000, (Misses){0.015, 0.004});
 }
 

@@ -445,8 +445,8 @@ static void print_text(const json_t *report)
     print_flags("hole", json_object_get(report, "holes"));
     print("each table: bytes of its text; numbers and bytes that the panel keeps of it (an "
           "even share of what all share); how many times smaller than 32-bit numbers that "
-          "is;\nerrors of the samples that the fit follows, relative to the measured values: the "
-          "largest, the root of the mean "
+          "is;\nerrors of the samples that the fit follows, relative to the measured values: "
+          "the largest, the root of the mean "
           "square, that of the hemispherical integral; the table's own noise; share of the "
           "hemisphere that was not measured\n%-16s %10s %12s %9s %8s %9s %9s %9s %9s %7s\n",
           "table", "text", "values", "bytes", "ratio", "max err", "rms err", "integral",

@@ -58,8 +58,8 @@ void report_errors(Report *report, const PlotData *data)
             "file, from which every figure here is made, and a measured value (X, Y and Z of "
             "emission, every wavelength of reflection), over the measured value%s. Largest: of "
             "all directions of all tables, the noise of the source included. RMS: root of the "
-            "mean square over the tables of each table's own. Outliers, which the file does not "
-            "follow, are not counted in either.", dim));
+            "mean square over the tables of each table's own. Outliers, which the file does "
+            "not follow, are not counted in either.", dim));
     static const ReportColumn COLUMNS[] = {{"part", "Part"}, {"tables", "Tables"},
         {"largest_error_percent", "Largest error, %"}, {"in_table", "in the table"},
         {"rms_error_percent", "RMS error, %"},
