@@ -32,7 +32,7 @@ typedef struct FitWords {
     int         basis, wavelet, incidence; /* places in the lists of the options */
     long        level;
     double      level_max, keep, max_error, error_floor, frame;
-    bool        masks_outliers, lobe_is_mirror, force;
+    bool        lobe_is_mirror, force;
 } FitWords;
 
 static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err)
@@ -61,8 +61,6 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
         {"--error-floor", OPTION_NUMBER, "PERCENT",
          "of an emission table's largest value: errors of what is less are relative to it "
          "(default 0.1)", &out->error_floor, 1e-4, 10},
-        {"--mask-outliers", OPTION_FLAG, NULL,
-         "errors leave out hot and dead pixels of emission tables", &out->masks_outliers},
         {"--lobe-is-mirror", OPTION_FLAG, NULL,
          "a narrow peak on the haze is the mirror's image as wide as the instrument, where the "
          "set does not declare that width", &out->lobe_is_mirror},
@@ -103,7 +101,6 @@ static FitOptions options_of(const FitWords *words)
     fit.progress = words->cli.progress;
     fit.threads = words->cli.threads;
     fit.basis = (FitBasis)words->basis;
-    fit.mask_outliers = words->masks_outliers;
     fit.force = words->force;
     fit.lobe_is_mirror = words->lobe_is_mirror;
     if (words->max_error > 0) fit.bound = (float)words->max_error;

@@ -362,6 +362,16 @@ static void print_table(const json_t *table)
           100 * json_number_value(json_object_get(table, "extrapolated_share")));
 }
 
+/* What no error of a table counts. */
+static void print_left_out(const json_t *table)
+{
+    double outliers = json_number_value(json_object_get(table, "outliers"));
+    if (outliers > 0)
+        print("left out   %s: %.0f outliers, up to %.3g %%\n",
+              json_string_value(json_object_get(table, "name")), outliers,
+              100 * json_number_value(json_object_get(table, "outliers_max_error")));
+}
+
 static void print_numbers(const char *key, const json_t *list)
 {
     size_t  i;
@@ -435,13 +445,16 @@ static void print_text(const json_t *report)
     print_flags("hole", json_object_get(report, "holes"));
     print("each table: bytes of its text; numbers and bytes that the panel keeps of it (an "
           "even share of what all share); how many times smaller than 32-bit numbers that "
-          "is;\nerrors relative to the measured values: the largest, the root of the mean "
+          "is;\nerrors of the samples that the fit follows, relative to the measured values: "
+          "the largest, the root of the mean "
           "square, that of the hemispherical integral; the table's own noise; share of the "
           "hemisphere that was not measured\n%-16s %10s %12s %9s %8s %9s %9s %9s %9s %7s\n",
           "table", "text", "values", "bytes", "ratio", "max err", "rms err", "integral",
           "noise", "extrap.");
     json_array_foreach(json_object_get(report, "tables"), i, value) print_table(value);
     print_table(json_object_get(report, "total"));
+    json_array_foreach(json_object_get(report, "tables"), i, value) print_left_out(value);
+    print_left_out(json_object_get(report, "total"));
     if ((value = json_object_get(report, "peak_memory_bytes")))
         print("took       %.1f s of processor time, %.0f MB at most\n",
               json_number_value(json_object_get(report, "cpu_seconds")),

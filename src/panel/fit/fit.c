@@ -5,10 +5,10 @@
 
 #include "base/file_write.h"
 #include "base/units.h"
+#include "panel/fit/fit_bound.h"
 #include "panel/fit/fit_judge.h"
 #include "panel/fit/fit_report.h"
 #include "panel/fit/fit_table.h"
-#include "panel/query/panel_open.h"
 #include "panel/query/panel_opened.h"
 #include "panel/query/panel_report.h"
 #include "panel/query/sampling_make.h"
@@ -97,21 +97,13 @@ typedef struct FitTarget {
     size_t      size;
 } FitTarget;
 
-static Panel *opened(const FitParts *parts, const char *path, Arena *arena, size_t *size,
-                     Error *err)
-{
-    Panel *panel;
-    void  *bytes = fit_file_bytes(parts, "{}", arena, size);
-    return panel_from_bytes(bytes, *size, path, arena, &panel, err) ? panel : NULL;
-}
-
 /* Errors are measured on the file's own bytes. A report comes also of what is not written for
  * being not usable. */
 static bool finish_bytes(const FitParts *parts, FitTarget *out, Arena *arena, json_t **report,
                          Error *err)
 {
     size_t size;
-    Panel *panel = opened(parts, out->path, arena, &size, err);
+    Panel *panel = fit_file_open(parts, out->path, arena, &size, err);
     if (!panel) return false;
     if (parts->places) size -= fit_places_bytes(parts->places);
     json_t *document = fit_report_measure(parts, panel, size);
@@ -127,17 +119,19 @@ static bool finish_bytes(const FitParts *parts, FitTarget *out, Arena *arena, js
 
 /* The sampling, a section of the file or the promise that opening makes it, follows from the
  * reflection's answers to queries. */
-static bool sample_reflection(const FitParts *parts, ReflectionResult *reflection, Arena *arena,
-                              Error *err)
+static bool sample_reflection(FitParts *parts, Arena *arena, Error *err)
 {
+    ReflectionResult *reflection = ARENA_NEW(arena, ReflectionResult, 1);
     size_t size;
     SamplingSection made = {.bytes = ""};
-    Panel *panel = opened(parts, "panel", arena, &size, err);
+    Panel *panel = fit_file_open(parts, "panel", arena, &size, err);
     if (!panel) return false;
     if (!panel_makes_sampling(panel->reflection) && !sampling_make(panel, arena, &made, err))
         return false;
+    *reflection = *parts->reflection;
     reflection->sampling = made.bytes;
     reflection->sampling_size = made.size;
+    parts->reflection = reflection;
     return true;
 }
 
@@ -163,32 +157,18 @@ static void step(FitRun *run)
 /* Everything of a panel but its report and its places. */
 static bool fit_parts(FitRun *run, const Measurement *set, FitParts *parts)
 {
-    Arena            *arena = run->arena;
-    EmissionResult   *emission = ARENA_NEW(arena, EmissionResult, 1);
-    ReflectionResult *reflection = ARENA_NEW(arena, ReflectionResult, 1);
-    FitNotes         *notes = ARENA_NEW(arena, FitNotes, 1);
+    Arena    *arena = run->arena;
+    FitNotes *notes = ARENA_NEW(arena, FitNotes, 1);
     *notes = (FitNotes){.arena = arena};
     *parts = (FitParts){.set = set, .options = run->options, .notes = notes};
     note_limits(set, notes);
-    if (set->primary[0].level_count) {
-        parts->emission = emission;
-        if (!emission_fit(set, run->options, arena, notes, emission, run->err)) return false;
-    }
+    if (set->primary[0].level_count && !fit_bound_emission(parts, arena, run->err))
+        return false;
     step(run);
-    if (parts->emission) {
-        EmissionPrimaries primaries;
-        emission_fit_primaries(set, notes, arena, &primaries);
-        parts->primaries = primaries.bytes;
-        parts->primaries_size = primaries.size;
-        parts->spectra_assumed = primaries.assumed;
-    }
     step(run);
-    if (set->incidence_count) {
-        parts->reflection = reflection;
-        if (!reflection_fit(set, run->options, arena, notes, reflection, run->err) ||
-            !sample_reflection(parts, reflection, arena, run->err))
-            return false;
-    }
+    if (set->incidence_count && (!fit_bound_reflection(parts, arena, run->err) ||
+                                 !sample_reflection(parts, arena, run->err)))
+        return false;
     step(run);
     return true;
 }
@@ -237,7 +217,7 @@ static bool add_map(FitRun *run, const Measurement *set, const FitParts *parts,
 {
     size_t size;
     if (!set->map) return true;
-    const Panel *panel = opened(parts, run->path, run->arena, &size, run->err);
+    const Panel *panel = fit_file_open(parts, run->path, run->arena, &size, run->err);
     return panel && fit_places_add_map(set, panel, run->arena, places, run->err);
 }
 

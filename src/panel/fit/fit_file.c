@@ -7,6 +7,7 @@
 
 #include "base/units.h"
 #include "hemisphere/tree/tree_open.h"
+#include "panel/query/panel_open.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -157,4 +158,12 @@ void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size
     if (parts->emission) write_subpixels(&writer, parts->set);
     return finish(&writer, has_places  ? PANEL_VERSION_PLACES
                            : has_frame ? PANEL_VERSION : PANEL_VERSION_PLAIN, size);
+}
+
+Panel *fit_file_open(const FitParts *parts, const char *path, Arena *arena, size_t *size,
+                     Error *err)
+{
+    Panel *panel;
+    void  *bytes = fit_file_bytes(parts, "{}", arena, size);
+    return panel_from_bytes(bytes, *size, path, arena, &panel, err) ? panel : NULL;
 }

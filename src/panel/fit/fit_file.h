@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* fit_file.h -- a panel file's bytes from what the fit made of a measurement.
  *
- * Memory   the arena's. Threads: one at a time. Fails: never.
+ * Memory   the arena's. Threads: one at a time. Fails: opening, as panel_open.h.
  */
 #pragma once
 #include <jansson.h>
@@ -9,6 +9,7 @@
 #include "panel/fit/emission/emission_fit.h"
 #include "panel/fit/fit_places.h"
 #include "panel/fit/reflection/reflection_fit.h"
+#include "panel/query/panel.h"
 
 typedef struct FitParts {
     const Measurement      *set;
@@ -27,3 +28,7 @@ typedef struct FitParts {
 
 /* The file's bytes with this meta text; *size bytes in the arena, aligned to 64. */
 void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size_t *size);
+
+/* The panel that these bytes will be; NULL: failed. path: what messages call it. */
+Panel *fit_file_open(const FitParts *parts, const char *path, Arena *arena, size_t *size,
+                     Error *err);

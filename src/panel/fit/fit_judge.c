@@ -67,13 +67,14 @@ static void judge_errors(Judge *judge, const FitParts *parts, const FitDeviation
     if (parts->emission) {
         JudgedKind kind = {"emission", "measure steep parts in finer steps of theta and phi or "
             "see with panel plot --measured which tables disagree", &all->emission,
-            parts->emission->model->tolerance};
+            fit_required_bound(parts->options, parts->emission->model->tolerance)};
         judge_kind(judge, &kind);
     }
     if (parts->reflection) {
         JudgedKind kind = {"reflection", "measure the peak in finer steps, declare the "
             "instrument's width (instrument_fwhm_deg), or give more azimuths of the light",
-            &all->reflection, parts->reflection->model->bound};
+            &all->reflection,
+            fit_required_bound(parts->options, parts->reflection->model->bound)};
         judge_kind(judge, &kind);
     }
 }
@@ -85,8 +86,8 @@ static void judge_integral(Judge *judge, const FitTable *total)
     add_figure(judge, "integral_error", total->integral_error);
     judge_reason_add(judge, grade, "a table's hemispherical integral (luminous flux or "
                      "albedo) is missed by %.3g %%, wanted at most %.0f %%: see which "
-                     "table in panel info, and check its unit and its outliers "
-                     "(--mask-outliers)", 100 * total->integral_error, 100 *
+                     "table in panel info, and check its unit and its "
+                     "outliers", 100 * total->integral_error, 100 *
                      JUDGE_INTEGRAL_CARE);
 }
 

@@ -30,6 +30,7 @@ typedef struct EmissionCheck {
     float                 rgb[3];
     double                least[3]; /* errors are relative to no less, cd m^-2 */
     double                noise[3]; /* relative */
+    double                bound;
     FitErrors             errors;
 } EmissionCheck;
 
@@ -53,25 +54,30 @@ static void add_emission_row(EmissionCheck *check, int i, const float xyz[3])
     const float *m = check->table->value + 3 * i;
     double weight = table_row_weight(check->table, i);
     bool   is_followed = !e->outlier[check->index][i];
+    double worst = 0;
+    int    of = 0; /* the channel that misses most */
     for (int j = 0; j < 3; j++) {
         double wanted = (double)m[j], scale = fmax(check->least[j], wanted);
         double sigma = hypot_d(check->noise[j] * wanted, e->dim[check->index][j]);
-        double miss = (fabs((double)xyz[j] - wanted) - 5 * sigma) / scale;
+        double error = fabs((double)xyz[j] - wanted) / scale;
+        if (error > worst) worst = error, of = j;
+        if (!is_followed) continue;
         fit_table_add_error(&check->errors, (double)xyz[j], wanted, scale, j == 1 ? weight : 0);
-        if (is_followed)
-            fit_table_add_excess(&check->errors, miss,
-                                 fmax(e->model->tolerance, JUDGE_LEAST_BOUND));
+        fit_table_add_excess(&check->errors, error - 5 * sigma / scale,
+                             fmax(check->bound, JUDGE_LEAST_BOUND));
     }
+    if (!is_followed)
+        fit_table_leave_out(&check->errors, (double)xyz[of], (double)m[of],
+                            fmax(check->least[of], (double)m[of]));
 }
 
 /* Relative to the measured value itself, or to the least that counts. */
 static void measure_emission(EmissionCheck *check, const Panel *panel, FitTable *out)
 {
-    const EmissionResult *e = check->emission;
     for (int i = 0; i < check->table->rows; i++) {
         float  xyz[3];
         Vec3   d = table_row_direction(check->table, i);
-        if (!(d.z > 0) || (e->is_masked && e->outlier[check->index][i])) continue;
+        if (!(d.z > 0)) continue;
         panel_emission_xyz(panel, d, check->rgb, xyz);
         add_emission_row(check, i, xyz);
     }
@@ -91,7 +97,8 @@ static void add_emission_tables(const FitParts *parts, const Panel *panel, json_
     for (int i = 0; i < e->table_count; i++) {
         EmissionTable of = emission_samples_table(parts->set, true, i);
         const AngleTable *from = of.table;
-        EmissionCheck check = {.emission = e, .table = from, .index = i};
+        EmissionCheck check = {.emission = e, .table = from, .index = i,
+            .bound = fit_required_bound(parts->options, e->model->tolerance)};
         if (of.primary < 3) check.rgb[of.primary] = of.code;
         find_least(&check, *parts->notes->arena);
         FitTable one = {.name = from->name, .text_bytes = from->text_bytes,
@@ -156,7 +163,8 @@ static json_t *few_azimuths(const AngleTable *table)
 }
 
 /* The emission's parameters, and its size in bytes. */
-static json_t *describe_emission(const FitParts *parts, const FitTable *total, int falling)
+static json_t *describe_emission(const FitParts *parts, const FitTable *total,
+                                 double bound, int falling)
 {
     const EmissionResult *e = parts->emission;
     double bytes = (double)emission_bytes(e);
@@ -164,8 +172,8 @@ static json_t *describe_emission(const FitParts *parts, const FitTable *total, i
                      " s:i, s:i, s:f, s:s*}",
         "basis", parts->options->basis == FIT_HAAR ? "haar" : "vertex",
         "level", e->tree.level, "components", e->model->rank->components,
-        "tolerance", e->model->tolerance,
-        "bound", total->max_error, "rank_error", e->model->rank->worst,
+        "tolerance", fit_required_bound(parts->options, e->model->tolerance),
+        "bound", bound, "rank_error", e->model->rank->worst,
         "cone_deg", degrees_from_radians(e->model->samples->cone), "black", (int)e->has_black,
         "white_only", (int)parts->set->is_white_only,
         "levels_measured", !parts->set->is_white_only || parts->set->levels,
@@ -197,6 +205,7 @@ typedef struct TableWork {
     const Measurement      *set;
     const ReflectionResult *reflection;
     const Panel            *panel;
+    double                  bound;
     FitErrors              *errors; /* per table */
 } TableWork;
 
@@ -207,7 +216,7 @@ static void add_deviation(TableWork *work, int t, int row, double found, double 
     double noise = 5 * reflection_parts_noise(&r->parts, t, wanted);
     double miss = fabs(found - wanted) / wanted - noise;
     fit_table_add_error(&work->errors[t], found, wanted, wanted, weight);
-    fit_table_add_excess(&work->errors[t], miss, fmax(r->model->bound, JUDGE_LEAST_BOUND));
+    fit_table_add_excess(&work->errors[t], miss, fmax(work->bound, JUDGE_LEAST_BOUND));
 }
 
 static void measure_table(void *context, int t, int worker)
@@ -260,7 +269,8 @@ static void add_reflection_tables(const FitParts *parts, const Panel *panel, jso
 {
     const ReflectionResult *r = parts->reflection;
     Arena     scratch = *parts->notes->arena;
-    TableWork work = {.set = parts->set, .reflection = r, .panel = panel};
+    TableWork work = {.set = parts->set, .reflection = r, .panel = panel,
+        .bound = fit_required_bound(parts->options, r->model->bound)};
     double bytes = (double)reflection_bytes(r) / r->parts.tables;
     double values = (double)r->model->tree_report.stored_rows * r->model->components /
                     r->parts.tables;
@@ -337,13 +347,14 @@ static void add_surface(const PanelSurfaceStored *s, json_t *out)
 }
 
 /* The parameters, and the parts at every incidence, as "reflection". */
-static void add_reflection(const FitParts *parts, const Panel *panel, json_t *out)
+static void add_reflection(const FitParts *parts, const Panel *panel, double bound,
+                           json_t *out)
 {
     static const char *const kinds[] = {"haar", "cdf53", "cdf97"};
     const ReflectionResult *r = parts->reflection;
     int last = parts->set->incidence_count - 1;
     json_object_set_new(out, "reflection", json_pack(
-        "{s:s, s:i, s:i, s:i, s:i, s:f, s:s, s:s, s:f, s:f, s:I, s:i, s:f, s:f, s:f, s:o}",
+        "{s:s, s:i, s:i, s:i, s:i, s:f, s:s, s:s, s:f, s:f, s:f, s:I, s:i, s:f, s:f, s:f, s:o}",
         "basis", parts->options->basis == FIT_VERTEX ? "vertex" : "haar",
         "level", r->model->lattice.level,
         "azimuths", parts->set->azimuth_count, "spectral_coefficients",
@@ -352,7 +363,8 @@ static void add_reflection(const FitParts *parts, const Panel *panel, json_t *ou
         "wavelet", parts->options->has_wavelet ? kinds[parts->options->wavelet] : "principal",
         "incidence_interpolation", parts->options->is_linear_in_incidence
             ? "linear over two slices" : "cubic over four slices",
-        "bound", r->model->bound, "largest_error_over_bound", r->worst,
+        "tolerance", fit_required_bound(parts->options, r->model->bound),
+        "bound", bound, "largest_error_over_bound", r->worst,
         "bytes", (json_int_t)reflection_bytes(r), "zeros_masked", r->model->masked,
         "reciprocity_defect", reciprocity_defect(parts->set, panel),
         "largest_albedo", r->section.largest_albedo,
@@ -409,6 +421,16 @@ static uint64_t source_hash(const Measurement *set)
     return XXH3_64bits_digest(&hash);
 }
 
+FitTable fit_report_errors(const FitParts *parts, const Panel *panel, json_t *tables)
+{
+    FitTable      total = {.name = "total"};
+    FitDeviations all = {0};
+    if (parts->emission) add_emission_tables(parts, panel, tables, &total, &all.emission);
+    if (parts->reflection)
+        add_reflection_tables(parts, panel, tables, &total, &all.reflection);
+    return total;
+}
+
 json_t *fit_report_measure(const FitParts *parts, const Panel *panel, size_t file_bytes)
 {
     const Measurement *set = parts->set;
@@ -430,7 +452,7 @@ json_t *fit_report_measure(const FitParts *parts, const Panel *panel, size_t fil
         if (falling)
             fit_note(parts->notes, "%d codes, over directions and primaries, give less light "
                      "than the code below", falling);
-        json_t *emission = describe_emission(parts, &total, falling);
+        json_t *emission = describe_emission(parts, &total, all.emission.excess, falling);
         json_t *azimuths = few_azimuths(emission_samples_table(set, true, 0).table);
         if (json_array_size(azimuths)) json_object_set(emission, "azimuths_deg", azimuths);
         json_decref(azimuths);
@@ -440,7 +462,7 @@ json_t *fit_report_measure(const FitParts *parts, const Panel *panel, size_t fil
     }
     if (parts->reflection) {
         add_reflection_tables(parts, panel, tables, &total, &all.reflection);
-        add_reflection(parts, panel, out);
+        add_reflection(parts, panel, all.reflection.excess, out);
     }
     if (json_array_size(parts->spots))
         json_object_set(out, "spots", (json_t *)parts->spots);

@@ -9,12 +9,14 @@ typedef struct FitTable {
     size_t text_bytes, float32_bytes; /* of the source; float32: values without angles */
     double stored_values, bytes;
     double max_error, rms_error, integral_error, noise, extrapolated;
+    double outliers, outlier_error; /* samples that no error counts, and their largest */
 } FitTable;
 
 /* Deviations of a panel from a table, summed up. */
 typedef struct FitErrors {
     double max, squares, count, integral, integral_source;
-    double beyond, excess_squares; /* of fit_table_add_excess */
+    double beyond, excess_squares, excess; /* of fit_table_add_excess; the largest */
+    double outliers, outlier_max;          /* of fit_table_leave_out */
 } FitErrors;
 
 /* scale: what the error is relative to. */
@@ -24,6 +26,8 @@ void fit_table_add_error(FitErrors *errors, double found, double wanted, double 
 /* The same deviation without what noise explains. miss: relative, noise taken off; a sample
  * whose miss is above bound is one beyond it. */
 void fit_table_add_excess(FitErrors *errors, double miss, double bound);
+/* A sample that the fit does not follow: counted apart. */
+void fit_table_leave_out(FitErrors *errors, double found, double wanted, double scale);
 void fit_table_finish(const FitErrors *errors, FitTable *out);
 
 /* Adds counts and sums of one table to those of all. */

@@ -7,7 +7,7 @@
 
 
 typedef struct PartError {
-    double      most, squares;
+    double      most, squares, outliers, outlier_most;
     int         tables;
     const char *worst;
 } PartError;
@@ -25,6 +25,9 @@ static PartError error_of(const json_t *tables, bool of_reflection)
         double rms = json_number_value(json_object_get(table, "rms_error"));
         if (most >= out.most) out.most = most, out.worst = name;
         out.squares += rms * rms;
+        out.outliers += json_number_value(json_object_get(table, "outliers"));
+        out.outlier_most = fmax(out.outlier_most, json_number_value(
+                                json_object_get(table, "outliers_max_error")));
         out.tables++;
     }
     return out;
@@ -40,6 +43,8 @@ static void add_part(Report *report, ReportTable *table, const PlotData *s, bool
     report_figure(report, table, 100 * e.most);
     report_text(table, arena_printable(report->arena, e.worst));
     report_figure(report, table, 100 * sqrt(e.squares / e.tables));
+    report_fixed(report, table, e.outliers, 0);
+    report_figure(report, table, 100 * e.outlier_most);
 }
 
 void report_errors(Report *report, const PlotData *data)
@@ -53,10 +58,12 @@ void report_errors(Report *report, const PlotData *data)
             "file, from which every figure here is made, and a measured value (X, Y and Z of "
             "emission, every wavelength of reflection), over the measured value%s. Largest: of "
             "all directions of all tables, the noise of the source included. RMS: root of the "
-            "mean square over the tables of each table's own.", dim));
+            "mean square over the tables of each table's own. Outliers, which the file does "
+            "not follow, are not counted in either.", dim));
     static const ReportColumn COLUMNS[] = {{"part", "Part"}, {"tables", "Tables"},
         {"largest_error_percent", "Largest error, %"}, {"in_table", "in the table"},
-        {"rms_error_percent", "RMS error, %"}};
+        {"rms_error_percent", "RMS error, %"},
+        {"outliers", "Outliers left out"}, {"outliers_error_percent", "up to, %"}};
     for (size_t i = 0; i < sizeof COLUMNS / sizeof *COLUMNS; i++)
         report_column(table, COLUMNS[i].key, COLUMNS[i].title);
     for (int part = 0; part < 2; part++) add_part(report, table, data, part == 1);

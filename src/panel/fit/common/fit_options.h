@@ -24,8 +24,6 @@ typedef struct FitOptions {
     float       error_floor; /* share of an emission channel's largest value in a table: of what
                                 is less, errors count relative to it */
     FitBasis    basis;
-    bool        mask_outliers; /* hot and dead pixels of emission tables are never followed;
-                                   with this no error counts them either */
     bool        has_wavelet; /* along the wavelengths; else a few principal spectra */
     WaveletKind wavelet;
     bool        lobe_is_mirror; /* a peak on the haze is the instrument's image of the mirror,
@@ -41,6 +39,12 @@ static inline FitOptions fit_options_default(void)
 {
     return (FitOptions){.error_floor = 0.001f, .wavelet = WAVELET_CDF53, .threads = 1,
                         .progress = PROGRESS_NONE};
+}
+
+/* The bound that errors are held against. chosen: where the user requires none. */
+static inline double fit_required_bound(const FitOptions *options, double chosen)
+{
+    return options->bound > 0 ? (double)options->bound : chosen;
 }
 
 #define FIT_HAAR_SOURCE 0.05

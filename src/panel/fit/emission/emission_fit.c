@@ -29,13 +29,11 @@ static bool black_shines(const Measurement *set)
     return sum > 0.5 * noise && sum / set->black.rows > 1e-4;
 }
 
-static void survey_tables(const Measurement *set, const FitOptions *options, Arena *arena,
-                          EmissionResult *out)
+static void survey_tables(const Measurement *set, Arena *arena, EmissionResult *out)
 {
     const AngleTable *table;
     out->outliers.flag = ARENA_NEW(arena, EmissionFlag, EMISSION_FLAGS_MAX);
     out->holes.flag = ARENA_NEW(arena, EmissionFlag, EMISSION_FLAGS_MAX);
-    out->is_masked = options->mask_outliers;
     for (int i = 0; (table = emission_samples_table(set, out->has_black, i).table); i++) {
         out->table_count = i + 1;
         out->noise[i] = table_noise_relative(table, 1, *arena);
@@ -51,8 +49,7 @@ static void note_flags(const EmissionResult *e, FitNotes *notes)
 {
     if (e->outlier_count)
         fit_note(notes, "%d emission samples stand out of their neighbours and are not "
-                 "followed; the errors %s", e->outlier_count, e->is_masked ? "leave them out"
-                 : "count them, unless --mask-outliers leaves them out");
+                 "followed; the errors leave them out", e->outlier_count);
     if (e->hole_count)
         fit_note(notes, "%d directions of the emission tables' grids are not measured; the "
                  "other tables and their neighbours fill them", e->hole_count);
@@ -422,7 +419,7 @@ bool emission_fit(const Measurement *set, const FitOptions *options, Arena *aren
 {
     EmissionModel *model = ARENA_NEW(arena, EmissionModel, 1);
     out->has_black = black_shines(set);
-    survey_tables(set, options, arena, out);
+    survey_tables(set, arena, out);
     note_flags(out, notes);
     if (set->has_black && !out->has_black)
         fit_note(notes, "the black pattern is below 0.0001 cd/m2 or noise: black is 0");
@@ -437,4 +434,24 @@ bool emission_fit(const Measurement *set, const FitOptions *options, Arena *aren
     out->section = write_section(model, arena, &out->section_size);
     out->model = model;
     return true;
+}
+
+bool emission_fit_scale(EmissionResult *e, const double *integral_error, Arena *arena)
+{
+    EmissionModel *model = ARENA_NEW(arena, EmissionModel, 1);
+    EmissionRank  *rank = ARENA_NEW(arena, EmissionRank, 1);
+    bool           any = false;
+    *model = *e->model;
+    *rank = *model->rank;
+    rank->mean = ARENA_NEW(arena, float, model->samples->channels);
+    for (int c = 0; c < model->samples->channels; c++) {
+        float step = -(float)log_d(1 + fmax(-0.5, integral_error[c / 3]));
+        rank->mean[c] = ldexpf((float)rounded_to(model->rank->mean[c] + step, PANEL_MEAN_BITS),
+                               -PANEL_MEAN_BITS);
+        any |= rank->mean[c] != model->rank->mean[c];
+    }
+    model->rank = rank;
+    e->model = model;
+    e->section = write_section(model, arena, &e->section_size);
+    return any;
 }

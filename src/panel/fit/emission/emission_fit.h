@@ -20,7 +20,6 @@ typedef struct EmissionResult {
     double        noise[EMISSION_TABLES_MAX];  /* relative, per table; last: black */
     double        dim[EMISSION_TABLES_MAX][3]; /* cd m^-2, per table and channel */
     uint8_t      *outlier[EMISSION_TABLES_MAX]; /* per row */
-    bool          is_masked; /* outliers count nowhere */
     int           outlier_count, hole_count;
     EmissionFlags outliers, holes;
 } EmissionResult;
@@ -39,3 +38,7 @@ void emission_fit_primaries(const Measurement *set, FitNotes *notes, Arena *aren
 
 bool emission_fit(const Measurement *set, const FitOptions *options, Arena *arena,
                   FitNotes *notes, EmissionResult *out, Error *err);
+
+/* The tables' light less their integrals' errors (relative, signed), as far as means can be
+ * stored; the model is a copy. False: no mean changes. */
+bool emission_fit_scale(EmissionResult *emission, const double *integral_error, Arena *arena);
