@@ -139,3 +139,9 @@ Spectrum bsdf_lambertian_share(const Bsdf *bsdf, Vec3 wo, Vec3 wi)
     if (!model->lambertian) return spectrum_all(0);
     return model->lambertian(parameters_of(bsdf), bsdf_eval(bsdf, wo, wi, &pdf), wi);
 }
+
+bool bsdf_is_extrapolated(const Bsdf *bsdf, Vec3 wo, Vec3 wi)
+{
+    const BsdfModel *model = models[bsdf->kind];
+    return model->is_extrapolated && model->is_extrapolated(parameters_of(bsdf), wo, wi);
+}

@@ -126,6 +126,10 @@ bool bsdf_sends_across(const Bsdf *bsdf);
 bool     bsdf_has_lambertian(const Bsdf *bsdf);
 Spectrum bsdf_lambertian_share(const Bsdf *bsdf, Vec3 wo, Vec3 wi);
 
+/* Is what it sends from wi to wo, in its mirror direction too, extrapolated from measurements
+ * of other directions? False of all that is not measured at all. */
+bool bsdf_is_extrapolated(const Bsdf *bsdf, Vec3 wo, Vec3 wi);
+
 /* Directional-hemispherical reflectance plus transmittance, estimated: for the albedo layer
  * and for roulette, not for transport. */
 Spectrum bsdf_albedo(const Bsdf *bsdf, Vec3 wo);

@@ -70,4 +70,5 @@ typedef struct BsdfModel {
     void     (*carry)(void *parameters, const Spectrum *light);
     bool     (*sends_across)(const void *parameters);
     Spectrum (*lambertian)(const void *parameters, Spectrum f, Vec3 wi);
+    bool     (*is_extrapolated)(const void *parameters, Vec3 wo, Vec3 wi);
 } BsdfModel;

@@ -205,6 +205,18 @@ static Spectrum model_lambertian(const void *parameters, Spectrum f, Vec3 wi)
     return lambertian / spectrum_max(f, spectrum_all(1e-30f));
 }
 
+/* Of several panels all have to be measured there. */
+static bool model_is_extrapolated(const void *parameters, Vec3 wo, Vec3 wi)
+{
+    const DisplaySurface *display = parameters;
+    bool is_measured = true;
+    if (!model_reaches(parameters, wo, wi)) return false;
+    if (!display->mix.count) return !panel_brdf_is_measured(display->panel, wo, wi);
+    for (int i = 0; i < display->mix.count; i++)
+        is_measured &= panel_brdf_is_measured(display->mix.panel[i], wo, wi);
+    return !is_measured;
+}
+
 /* The mirror polarises as the cover's glass does; haze is scattered more than once. */
 static bool model_polarise(const void *parameters, Vec3 wo, const BsdfSample *way,
                            BsdfPolarisation *out)
@@ -226,4 +238,5 @@ const BsdfModel display_model = {.eval = model_eval, .reaches = model_reaches,
                                  .sample = model_sample, .mirror = model_mirror,
                                  .scatters = model_scatters, .albedo = model_albedo,
                                  .polarise = model_polarise,
-                                 .lambertian = model_lambertian};
+                                 .lambertian = model_lambertian,
+                                 .is_extrapolated = model_is_extrapolated};

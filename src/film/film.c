@@ -141,6 +141,7 @@ static bool display_in_range(const Film *film, const FilmSample *sample)
            (film->first[SUMS_FINE] < 0 || in_range(sample->fine, 3)) &&
            (film->first[SUMS_MIRROR] < 0 || in_range(sample->mirror, 3)) &&
            (film->first[SUMS_LAMBERTIAN] < 0 || in_range(sample->lambertian, 3)) &&
+           (film->first[SUMS_EXTRAPOLATED] < 0 || in_range(sample->extrapolated, 2)) &&
            (film->first[SUMS_SHARED] < 0 || shared_in_range(sample)) &&
            (film->first[SUMS_DIRECTION] < 0 ||
             (fabsf(sample->theta) <= 4 && fabsf(sample->phi) <= 8));
@@ -191,6 +192,7 @@ static void add_display(const Film *film, PixelSums *sums, const FilmSample *sam
     add_layer(film, sums, SUMS_FINE, sample->fine);
     add_layer(film, sums, SUMS_MIRROR, sample->mirror);
     add_layer(film, sums, SUMS_LAMBERTIAN, sample->lambertian);
+    add_layer(film, sums, SUMS_EXTRAPOLATED, sample->extrapolated);
     add_reflected(film, sums, sample);
     if (film->first[SUMS_SQUARES] >= 0)
         add_squares(sums->layers + film->first[SUMS_SQUARES], sample->xyz);

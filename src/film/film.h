@@ -15,7 +15,7 @@
  *          (some 1e-7 of it) goes to its brightest group.
  * Memory   everything comes from `arena`; nothing to free. 224 bytes a pixel, and 48 for each
  *          three-component layer and group of lights, 64 for display.halves, 96 for
- *          display.variance and 192 more for display.second.
+ *          display.variance, 192 more for display.second, 32 for display.extrapolated.
  * Threads  tiles of different pixels may be filled at the same time; one pixel belongs to one
  *          thread at a time. Reading needs all writers to be done.
  * Fails    never; a sample that is not finite or beyond 2^47 is counted and dropped.

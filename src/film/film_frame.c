@@ -158,6 +158,22 @@ static void read_haze(const Film *film, const PixelSums *sums, float v[3])
     read_rest(film, sums, 2, v);
 }
 
+/* Noise may take a share of next to nothing out of its range. */
+static float share_of(const Fixed *part, const Fixed *all)
+{
+    return *all > 0 ? clampf((float)((double)*part / (double)*all), 0, 1) : 0;
+}
+
+/* Of the luminances. */
+static void read_extrapolated(const Film *film, const PixelSums *sums, float v[3])
+{
+    const Fixed *layers = sums->layers, *part = layers + film->first[SUMS_EXTRAPOLATED];
+    v[0] = v[1] = NAN;
+    if (!sums->display_hits) return;
+    v[0] = share_of(&part[0], layers + film->first[SUMS_EMITTED] + 1);
+    v[1] = share_of(&part[1], layers + film->first[SUMS_REFLECTED] + 1);
+}
+
 static void read_coverage(const Film *film, const PixelSums *sums, float v[3])
 {
     (void)film;
@@ -390,6 +406,12 @@ static void add_angles(ChannelFill *to)
     add_channel(to, 1, "display.phi", false);
 }
 
+static void add_extrapolated(ChannelFill *to)
+{
+    add_number(to, "display.extrapolated.emitted", false, read_extrapolated);
+    add_channel(to, 1, "display.extrapolated.reflected", false);
+}
+
 static void add_second(ChannelFill *to)
 {
     add_number(to, "id.second", true, read_second_id);
@@ -432,6 +454,7 @@ static void add_wished_layers(ChannelFill *to)
     if (film->layers & (LAYER_ID | LAYER_DISPLAYS))
         add_number(to, "id.display", true, read_display_id);
     if (film->layers & LAYER_DISPLAY_ANGLES) add_angles(to);
+    if (film->layers & LAYER_DISPLAY_EXTRAPOLATED) add_extrapolated(to);
     if (film->layers & LAYER_DISPLAY_CONTRAST)
         add_number(to, "display.contrast", false, read_contrast);
     if (film->layers & LAYER_DISPLAY_SECOND) add_second(to);

@@ -23,6 +23,8 @@
  *       fine is NaN;
  *       display.variance is the variance of the mean of emitted + reflected over these samples,
  *       as if they were independent; NaN below two of them; samples.N comes with it.
+ *       display.extrapolated: shares, 0 to 1, of the luminance emitted and of that reflected,
+ *       that left in directions (and came from such) that the panel extrapolates;
  *       display.second: where samples saw another display than id.display's, the mean of its
  *       light (emitted + reflected), display.second.variance as above, the share of the
  *       pixel's samples that saw it and its id; elsewhere NaN, NaN, 0 and -1, and NaN, NaN, 0

@@ -49,7 +49,8 @@ static const struct {
     [SUMS_REFLECTED] = {"reflected", "XYZ"}, [SUMS_WHITE] = {"white", "XYZ"},
     [SUMS_BLACK] = {"black", "XYZ"},        [SUMS_DIRECTION] = {"direction", "XYZ"},
     [SUMS_FINE] = {"fine", "XYZ"},           [SUMS_MIRROR] = {"mirror", "XYZ"},
-    [SUMS_LAMBERTIAN] = {"lambertian", "XYZ"}, [SUMS_ODD] = {"odd_reflected", "XYZN"},
+    [SUMS_LAMBERTIAN] = {"lambertian", "XYZ"},
+    [SUMS_EXTRAPOLATED] = {"extrapolated", "ER"}, [SUMS_ODD] = {"odd_reflected", "XYZN"},
     [SUMS_SQUARES] = {"display_squares", "RrGgBb"}, [SUMS_SHARED] = {"shared", "123XYZRrGgBb"},
     [SUMS_STOKES] = {"stokes", "123"},
 };

@@ -15,7 +15,7 @@
  *            odd.{X,Y,Z}                     of the samples in every second block
  *            depth.Z position.{X,Y,Z} normal.{X,Y,Z} albedo.{R,G,B} uv.{U,V}
  *            emitted reflected white black .{X,Y,Z}, direction.{X,Y,Z}    displays
- *            fine mirror lambertian .{X,Y,Z}    displays
+ *            fine mirror lambertian .{X,Y,Z}, extrapolated.{E,R}    displays
  *            display_squares.{R,r,G,g,B,b}   of displays' light, below and above the split
  *            shared.{1,2,3,X,Y,Z,R,r,G,g,B,b}  powers of displays' ids, in ones; id times XYZ
  *                                            and squares, of which those below the split in

@@ -32,6 +32,8 @@ typedef struct FilmSample {
     float mirror[3];       /* XYZ, cd m^-2: what came by way of the panel's mirror, */
     float lambertian[3];   /* and what its lambertian part scattered */
     float white[3], black[3]; /* XYZ it would send for full white and for black */
+    float extrapolated[2]; /* luminance, cd m^-2, by directions that were not measured: of what
+                              is emitted, and of what is reflected */
     float theta, phi;      /* radians, display frame, phi in [0, 2 pi) */
     float fine[3];         /* XYZ, cd m^-2: what displays send to the whole pixel, from more
                               camera rays than this one; 0 where those see none */
@@ -67,12 +69,14 @@ typedef enum FilmLayer {
     LAYER_DISPLAY_VARIANCE = 1 << 24,
     LAYER_DISPLAY_SECOND = 1 << 25,
     LAYER_ROUNDED = 1 << 26, /* no layer: variances and halves have 8 bits, which pack well */
-    LAYER_EVERY = (1 << 27) - 1,
+    LAYER_DISPLAY_EXTRAPOLATED = 1 << 27,
+    LAYER_EVERY = (1 << 28) - 1,
     LAYER_ALL = LAYER_EVERY & ~(LAYER_STOKES | LAYER_ROUNDED),
     LAYER_DISPLAYS = ((LAYER_HALVES - 1) & ~(LAYER_DISPLAY_EMITTED - 1)) | LAYER_DISPLAY_FINE |
                      LAYER_DISPLAY_MIRROR | LAYER_DISPLAY_SCATTERED | LAYER_DISPLAY_HAZE |
                      LAYER_DISPLAY_LAMBERTIAN | LAYER_DISPLAY_HALVES |
-                     LAYER_DISPLAY_VARIANCE | LAYER_DISPLAY_SECOND,
+                     LAYER_DISPLAY_VARIANCE | LAYER_DISPLAY_SECOND |
+                     LAYER_DISPLAY_EXTRAPOLATED,
     LAYER_COMPARED = LAYER_VARIANCE | LAYER_DISPLAY_EMITTED | LAYER_DISPLAY_REFLECTED |
                      LAYER_DISPLAY_WHITE | LAYER_DISPLAY_BLACK | LAYER_DISPLAY_VARIANCE |
                      LAYER_DISPLAY_SECOND | LAYER_ROUNDED, /* what src/compare reads */

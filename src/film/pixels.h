@@ -27,7 +27,7 @@ __extension__ typedef __int128 Fixed;
 typedef enum LayerSums {
     SUMS_DEPTH, SUMS_POSITION, SUMS_NORMAL, SUMS_ALBEDO, SUMS_UV,
     SUMS_EMITTED, SUMS_REFLECTED, SUMS_WHITE, SUMS_BLACK, SUMS_DIRECTION, /* display */
-    SUMS_FINE, SUMS_MIRROR, SUMS_LAMBERTIAN,
+    SUMS_FINE, SUMS_MIRROR, SUMS_LAMBERTIAN, SUMS_EXTRAPOLATED,
     SUMS_ODD, /* XYZ reflected in every second block, and how many samples that is of */
     SUMS_SQUARES, /* of displays' light, as PixelSums.squares */
     SUMS_SHARED,  /* powers 1, 2 and 3 of the displays' ids, in ones, id times XYZ, and id times

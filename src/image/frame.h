@@ -41,6 +41,8 @@
  *                                         its number
  *   display.contrast                      (white + reflected) / (black + reflected), NaN off
  *   display.{weber,michelson,luminance_error,colour_error} follow from these: legibility.h
+ *   display.extrapolated.{emitted,reflected}   shares of these luminances by directions that
+ *                                         were not measured, NaN off
  *   display.coverage                      share of the pixel's samples that saw a display
  *   error.Y                               standard error of the luminance, cd/m2: of a frame
  *                                         that is watched (src/live); files have none

@@ -73,6 +73,8 @@ static const KnownLayer KNOWN[] = {
     {"display.contrast", "", SHOW_NUMBER, ": 1", true},
     {"display.coverage", "", SHOW_NUMBER, "of the samples", false},
     {"display.second.coverage", "", SHOW_NUMBER, "of the samples", false},
+    {"display.extrapolated.emitted", "", SHOW_NUMBER, "of its luminance", false},
+    {"display.extrapolated.reflected", "", SHOW_NUMBER, "of its luminance", false},
     {"stokes.S0", "", SHOW_NUMBER, "cd/m^2", true},
     {"stokes.S1", "", SHOW_NUMBER, "cd/m^2", false},
     {"stokes.S2", "", SHOW_NUMBER, "cd/m^2", false},

@@ -25,6 +25,7 @@ typedef struct TileJob {
     bool     with_features; /* fill the layers of the first surface, not only the colour */
     bool     with_fine;     /* and display.fine, which takes more camera rays; */
     bool     with_lambertian; /* display.lambertian */
+    bool     with_extrapolated; /* display.extrapolated */
     const LightGroups *lights; /* the film's groups of lights; NULL: it keeps none apart */
     uint32_t seed;
     SampleShares shares;    /* of the film's crop */

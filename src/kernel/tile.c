@@ -41,6 +41,7 @@ static void add_features(const TileJob *job, const PathResult *result,
     copy3(sample->emitted, features.emitted);
     copy3(sample->white, features.white);
     copy3(sample->black, features.black);
+    sample->extrapolated[0] = features.is_measured ? 0 : features.emitted[1];
     sample->theta = features.theta;
     sample->phi = features.phi;
 }
@@ -145,7 +146,8 @@ static void trace(TileWork *work, Ray ray, const Wavelengths *wavelengths, Sampl
 {
     const TileJob     *job = work->job;
     const PathListener listener = {.on_light = lights_add, .user = &work->lights};
-    const SeenAsk      ask = {job->with_lambertian, job->lights ? &listener : NULL};
+    const SeenAsk      ask = {job->with_lambertian, job->with_extrapolated,
+                                job->lights ? &listener : NULL};
     const PathStart    start = {.context = job->context, .wavelengths = wavelengths,
                                 .sampler = sampler, .statistics = work->statistics};
     path_seen(&start, ray, &ask, out);
@@ -166,6 +168,7 @@ static void tile_sample(TileWork *work, int x, int y, uint32_t index, FilmSample
     copy3(out->stokes, seen.stokes);
     copy3(out->mirror, seen.path.mirror);
     copy3(out->lambertian, seen.lambertian);
+    out->extrapolated[1] = seen.extrapolated[1];
     if (job->with_features && seen.path.hit)
         add_features(job, &seen.path, &wavelengths, out);
     if (job->with_fine && out->display_id >= 0)

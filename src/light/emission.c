@@ -110,6 +110,13 @@ Spectrum display_panel_spectrum(const Display *display, const TrianglePoint *poi
     return panel_place_emission_spectrum(display->panel, place, local, codes, wavelengths);
 }
 
+bool display_is_measured(const Display *display, const TrianglePoint *point, Vec3 local)
+{
+    float place[2];
+    display_place(display, point, place);
+    return panel_place_emission_is_measured(display->panel, place, local);
+}
+
 void display_emission_xyz(const Scene *scene, const Display *display, uint32_t triangle,
                           const TrianglePoint *point, Vec3 direction, float xyz[3])
 {

@@ -23,6 +23,9 @@ void display_panel_xyz(const Display *display, const TrianglePoint *point, Vec3 
 Spectrum display_panel_spectrum(const Display *display, const TrianglePoint *point, Vec3 local,
                                 const float codes[3], const Wavelengths *wavelengths);
 
+/* Is that direction within the measured cone? */
+bool display_is_measured(const Display *display, const TrianglePoint *point, Vec3 local);
+
 /* Codes, 0..255, that the display shows at the point; white where it has no content. */
 void display_codes(const Scene *scene, const Display *display, const TrianglePoint *point,
                    float codes[3]);

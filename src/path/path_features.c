@@ -93,6 +93,7 @@ static void display_features(const PathContext *context, const SeenDisplay *view
     emission_seen(view, black, out->black);
     out->theta = acos_f(view->direction.z);
     out->phi = phi < 0 ? phi + 2 * PI_F : phi;
+    out->is_measured = display_is_measured(view->display, view->point, view->direction);
 }
 
 bool path_display_emission(const PathContext *context, const PathResult *result,

@@ -14,6 +14,7 @@ typedef struct PathFeatures {
     float emitted[3], white[3], black[3]; /* XYZ, cd m^-2, of what the panes before it let pass:
                                              sent; for full white; for black */
     float theta, phi;  /* radians, display frame, phi in [0, 2 pi) */
+    bool  is_measured; /* that direction, of the panel's emission */
 } PathFeatures;
 
 /* XYZ, cd m^-2, that a display sends to the eye through the panes before it, where it is the

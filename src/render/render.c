@@ -187,6 +187,8 @@ static void render_film(const RenderSetup *setup, const RenderOptions *options, 
                         .with_features = result->has_features,
                         .with_fine = (options->layers & LAYER_DISPLAY_FINE) != 0,
                         .with_lambertian = (options->layers & LAYER_NEEDS_LAMBERTIAN) != 0,
+                        .with_extrapolated =
+                            (options->layers & LAYER_DISPLAY_EXTRAPOLATED) != 0,
                         .lights = options->layers & LAYER_LIGHT ? options->lights : NULL,
                         .seed = options->seed,
                         .shares = result->shares};

@@ -93,6 +93,7 @@ typedef struct CasePanel {
     bool        is_unusable;     /* its verdict is "not usable" */
     double      emission_error, reflection_error; /* relative, rms over all that was measured;
                                                      0: not stated */
+    const char *assumed;         /* of the emission's spectra, in words; NULL: nothing */
 } CasePanel;
 
 /* A ray of a cause, m: from the eye over what it meets to where the light began. */
@@ -275,6 +276,7 @@ typedef struct ReviewCase {
     CaseGroup groups[CAUSE_GROUPS];
     double  without_data_share;  /* of the reflected light, via materials without data, */
     double  guessed_share;       /* and via such as `equip` guessed */
+    double  extrapolated_share;  /* of the same, as the panel extrapolates what was measured */
     const char *empty_seat;      /* its back, behind an eye where nobody sits, via which much of
                                     the reflected light comes; NULL: none */
     double  empty_seat_share;    /* of the reflected light */

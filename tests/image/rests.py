@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 
+from exr import Frame
 from gltf import Scene, png
 from review import PANEL, ROOT, Report, Reviewer, close, moment, request
 
@@ -99,6 +100,10 @@ def check_plain(report, reviewer):
                  facts(found, "occupant") == [("nobody", None, 1, 1)] and
                  facts(found, "limits")[0][2] == 0, f"{found['rests_on']}")
     report.claim(found["cases"][0]["guessed_share"] == 0, "a guess where there is none")
+    report.claim(found["cases"][0]["panel"]["spectra_assumed"] is None and
+                 "assumed" not in line, f"spectra that were given are assumed: {line}")
+    report.claim(0 <= found["cases"][0]["extrapolated_share"] < 0.01 and
+                 "not measured" not in line, f"extrapolated straight before a panel: {line}")
 
 
 def check_init(report, reviewer):
@@ -229,6 +234,49 @@ def check_measured(report, reviewer):
                      f"{words}: {found['rests_on_line']}")
 
 
+ASSUMED = "spectra of the primaries assumed: bands of a backlight 'wled-ksf'"
+
+
+def check_assumed(report, reviewer):
+    """Of a panel without spectra the review and its frames say what was assumed; of samples
+    about the mirror direction alone, how much of the light was not measured."""
+    for name, number, x, y in (("red", 110, 0.64, 0.33), ("green", 350, 0.3, 0.6),
+                               ("blue", 40, 0.15, 0.06), ("black", 0.4, 0.3, 0.3)):
+        with open(os.path.join(reviewer.folder, name + ".csv"), "w", encoding="utf-8") as file:
+            file.write("theta,phi,X,Y,Z\n" + "".join(
+                f"{t},{p},{number * x / y},{number},{number * (1 - x - y) / y}\n"
+                for t in range(0, 71, 10) for p in range(0, 360 if t else 1, 45)))
+    with open(os.path.join(reviewer.folder, "haze0.csv"), "w", encoding="utf-8") as file:
+        file.write("theta,phi,550\n" + "".join(
+            f"{t},{p},0.02\n" for t in range(0, 31, 5) for p in range(0, 360 if t else 1, 45)))
+    emission = {color: {"255": color + ".csv"} for color in ("red", "green", "blue")}
+    emission["black"] = "black.csv"
+    reviewer.write("MANIFEST.json", {
+        "panel": "PX-9", "instrument": "lab B", "backlight": "wled-ksf", "emission": emission,
+        "reflection": {"wavelengths_nm": [550], "incidence_deg": [0],
+                       "files": "haze{incidence}.csv"}})
+    done = reviewer.run("panel", "fit", "MANIFEST.json", "-o", "ips.panel", "--force")
+    assert done.returncode == 0, done.stderr
+    found = review(report, reviewer, asked(frames={"size": [16, 12], "noise": 1}), "assumed")
+    line, case = found["rests_on_line"], found["cases"][0]
+    report.claim(ASSUMED in line and line.count("assumed") == 1 and
+                 case["panel"]["spectra_assumed"].startswith(ASSUMED), f"no spectra: {line}")
+    report.claim(0.1 < case["extrapolated_share"] <= 1 and
+                 "of the light that it reflects by directions that were not measured" in line,
+                 f"extrapolated {case['extrapolated_share']}: {line}")
+    frames = [os.path.join(reviewer.folder, "assumed", case["frame"][:-4] + ".exr")]
+    frames.append(os.path.join(reviewer.folder, "frame.exr"))
+    done = reviewer.run("render", "dash.gltf", "-o", frames[1], "--size", "16x12", "--spp", "4")
+    assert done.returncode == 0, done.stderr
+    for path in frames:
+        said = Frame(path).attributes.get("parhelion:assumed", b"").decode()
+        report.claim(said.startswith("screen: " + ASSUMED) and said.endswith("\n"),
+                     f"{path} says of its panel: {said!r}")
+    for line in (["compare", frames[1], frames[1]], ["measure", frames[1]]):
+        done = reviewer.run(*line)
+        report.claim(done.returncode == 0, f"{line[0]}: {done.stderr}")
+
+
 def main(program):
     report = Report()
     with tempfile.TemporaryDirectory() as folder:
@@ -238,7 +286,7 @@ def main(program):
         with open(os.path.join(folder, "bars.png"), "wb") as file:
             file.write(bars())
         for check in (check_plain, check_init, check_equipped, check_people_and_limits,
-                      check_all_files, check_measured):
+                      check_all_files, check_measured, check_assumed):
             check(report, reviewer)
     report.finish()
 

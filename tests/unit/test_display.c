@@ -3,6 +3,7 @@
 
 #include "base/units.h"
 #include "panel/query/panel_emission.h"
+#include "panel/query/panel_info.h"
 #include "panel/query/panel_reflection.h"
 #include "path/path_features.h"
 #include "sky/sun_disc.h"
@@ -200,6 +201,23 @@ TEST(angles_are_those_of_someone_who_faces_the_display)
         }
         bvh_destroy(world.bvh);
         world.bvh = NULL;
+    }
+}
+
+TEST(a_frame_is_told_what_lies_beyond_the_measured_cone)
+{
+    uint8_t pixel[4] = {255, 255, 255, 255};
+    SCOPED_WORLD world = world_of_pixel(PANELS[0], pixel);
+    double       cone = degrees_from_radians(panel_info_emission_cone(world.panel));
+    world_ready(&world, BOUNCES);
+    for (int side = -1; side <= 1; side += 2) {
+        PathResult   result = {.hit = true, .first = {3, 0.3f, 0.2f, 0}};
+        PathFeatures features;
+        Wavelengths  w;
+        wavelengths_sample(0.5f, &w);
+        result.direction = vec3_neg(direction(cone + 0.5 * side, 40));
+        path_features(&world.context, &result, &w, &features);
+        assert_int_equal(features.is_measured, side < 0);
     }
 }
 

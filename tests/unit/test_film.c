@@ -301,7 +301,8 @@ ARENA_TEST(a_frame_has_the_channels_asked_for_and_no_others)
     film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, NULL, &arena);
     frame = film_to_frame(film, 0, &arena);
     assert_int_equal(frame.channel_count,
-                     3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 3 + 1 + 9 * 3 + 2 + 1 + 3 + 1 + 3 + 8);
+                     3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 3 + 1 + 9 * 3 + 2 + 1 + 3 + 1 + 3 + 8
+                     + 2);
 }
 
 ARENA_TEST(layers_are_means_over_the_samples_that_hit)
@@ -396,6 +397,31 @@ ARENA_TEST(mirror_haze_and_lambertian_make_up_the_reflected)
         for (int i = 0; i < 3; i++) assert_close(xyz[i], wanted[l], 1e-5);
         assert_true(isnan(at(&frame, arena_format(&arena, "%s.G", layers[l]), 1)));
     }
+}
+
+/* Of sums: a dark sample counts for little. */
+ARENA_TEST(extrapolated_shares_are_those_of_the_mean_luminances)
+{
+    unsigned   layers = LAYER_DISPLAY_EXTRAPOLATED;
+    Film      *film = film_create(WIDTH, HEIGHT, whole, layers, NULL, &arena);
+    FilmSample s = display_sample(0, 0.5f, 1);
+    for (uint32_t k = 0; k < 2; k++) {
+        s.sample_index = k;
+        s.emitted[1] = k ? 300 : 100;
+        s.xyz[1] = s.emitted[1] + (k ? 30 : 10);
+        s.extrapolated[0] = k ? 300 : 0;
+        s.extrapolated[1] = k ? 0 : 10;
+        film_add_sample(film, 0, 0, &s);
+    }
+    s.xyz[1] = s.emitted[1];
+    film_add_sample(film, 1, 0, &s);
+    FrameImage frame = film_to_frame(film, 0, &arena);
+    assert_close(at(&frame, "display.extrapolated.emitted", 0), 0.75, 1e-6);
+    assert_close(at(&frame, "display.extrapolated.reflected", 0), 0.25, 1e-6);
+    assert_true(at(&frame, "display.extrapolated.reflected", 1) == 0); /* of nothing */
+    assert_true(isnan(at(&frame, "display.extrapolated.emitted", 2)));
+    assert_true(at(&frame, "id.display", 0) == 1);
+    assert_null(frame_channel(&frame, "display.reflected.G"));
 }
 
 ARENA_TEST(fine_emission_is_a_mean_over_the_samples_that_saw_a_display)

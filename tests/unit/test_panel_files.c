@@ -72,6 +72,11 @@ static Fixture folder; /* files and what is made of them */
     "\"incidence_deg\": [20, 50], \"incidence_phi_deg\": [0, 90, 180, 270],"                   \
     "\"files\": \"grain/i{incidence}_a{azimuth}.csv\"}}"
 
+#define CELLS "{\"emission\": {\"white\": \"emission/steps.csv\"}}"
+#define HULLS                                                                                  \
+    "{\"panel\": \"rings\", \"reflection\": {\"wavelengths_nm\": [550],"                       \
+    "\"incidence_deg\": [20, 50], \"files\": \"rings/i{incidence}.csv\"}}"
+
 /* One kind of file: from a manifest's text, NULL: the simulated one. */
 typedef struct Kind {
     const char *name, *manifest;
@@ -95,6 +100,8 @@ static Kind kinds[] = {
     {"anisotropic", ANISOTROPIC, FIT_VERTEX, 0, NULL},
     {"anisotropic haar", ANISOTROPIC, FIT_HAAR, 0, NULL},
     {"surface", BRUSHED, FIT_VERTEX, 0, NULL}, /* in a frame of its own */
+    {"cells", CELLS, FIT_VERTEX, 0, NULL},     /* kept as it was measured */
+    {"hulls", HULLS, FIT_VERTEX, 0, NULL},     /* of samples that leave much out */
 };
 #define SLOW_SHARE 8 /* of forged ones, where opening takes tens of milliseconds */
 #define KIND_COUNT ((int)(sizeof kinds / sizeof *kinds))
@@ -154,6 +161,42 @@ static void write_grain(void)
         }
 }
 
+/* Light that ends between rings, at another theta each azimuth. */
+static void write_steps(void)
+{
+    char   text[4096];
+    size_t n = (size_t)snprintf(text, sizeof text, "theta,phi,X,Y,Z\n");
+    for (int t = 0; t <= 70; t += 10)
+        for (int p = 0; p < (t ? 360 : 1); p += 45) {
+            double y = t < 30 + p / 12 ? 500 - t : 2 + 0.01 * p;
+            n += (size_t)snprintf(text + n, sizeof text - n, "%d,%d,%g,%g,%g\n", t, p, 0.9 * y,
+                                  y, (1.1 + 0.002 * t) * y);
+        }
+    fixture_file(&folder, "emission/steps.csv", text);
+}
+
+/* Samples up to 30 degrees about the mirror direction alone. */
+static void write_rings(void)
+{
+    for (int i = 20; i <= 50; i += 30) {
+        char   text[4096];
+        size_t n = (size_t)snprintf(text, sizeof text, "theta,phi,550\n");
+        Vec3   x = direction_deg(90 - i, 180), z = direction_deg(i, 0);
+        for (int r = 0; r <= 30; r += 10)
+            for (int p = 0; p < (r ? 360 : 1); p += 30) {
+                Vec3 at = direction_deg(r, p);
+                Vec3 d = vec3_add(vec3_scale(x, at.x), vec3_scale(z, at.z));
+                d.y += at.y;
+                n += (size_t)snprintf(text + n, sizeof text - n, "%.4f,%.4f,%.5g\n",
+                                      degrees_from_radians(acos(fmin(1, (double)d.z))),
+                                      fmod(360 + degrees_from_radians(atan2((double)d.y,
+                                                                            (double)d.x)), 360),
+                                      0.01 + 0.2 * exp(-r / 8.0));
+            }
+        fixture_file(&folder, arena_format(&folder.arena, "rings/i%d.csv", i), text);
+    }
+}
+
 static void write_map(void)
 {
     char   text[4096];
@@ -200,6 +243,9 @@ static int start(void **state)
     write_beam();
     assert_int_equal(mkdir(fixture_path(&folder, "grain"), 0700), 0);
     write_grain();
+    assert_int_equal(mkdir(fixture_path(&folder, "rings"), 0700), 0);
+    write_rings();
+    write_steps();
     write_map();
     for (int i = 0; i < KIND_COUNT; i++) fit_kind(&kinds[i]);
     return 0;
@@ -255,6 +301,33 @@ static bool try_bytes(const unsigned char *bytes, size_t size, const Kind *kind)
         fail_msg("%s: refused without saying why: '%s' '%s'", kind->name, why()->file,
                  why()->text);
     return false;
+}
+
+/* NULL: there is none. */
+static const unsigned char *section_of(const char *name, PanelSectionKind kind)
+{
+    for (int k = 0; k < KIND_COUNT; k++) {
+        PanelHeader header;
+        if (strcmp(kinds[k].name, name) != 0) continue;
+        memcpy(&header, kinds[k].bytes, sizeof header);
+        for (uint32_t i = 0; i < header.section_count; i++) {
+            PanelSection section;
+            memcpy(&section, kinds[k].bytes + sizeof header + i * sizeof section,
+                   sizeof section);
+            if (section.kind == kind) return kinds[k].bytes + section.offset;
+        }
+    }
+    return NULL;
+}
+
+/* What the tests below are to meet. */
+TEST(some_panels_keep_cells_or_hulls)
+{
+    const unsigned char *tree = section_of("cells", PANEL_EMISSION_TREE);
+    assert_non_null(tree);
+    assert_memory_equal(tree, "GRID", 4);
+    assert_non_null(section_of("hulls", PANEL_REACH));
+    assert_null(section_of("vertex", PANEL_REACH));
 }
 
 /* Only what an older program would misread has the new version. */

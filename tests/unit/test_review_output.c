@@ -104,7 +104,8 @@ static const Member CASE[] = {
     OF(NUMBER, visible_share), OF(NUMBER, level), OF(NUMBER, display_lux), OF(NUMBER, margin),
     OF(WHOLE, limit_id), OF(WHOLE, verdict), OF(WHOLE, limit_count), OF(WHOLE, cause_count),
     OF(WHOLE, remedy_count), OF(WHOLE, hider_count), OF(NUMBER, without_data_share),
-    OF(NUMBER, guessed_share), OF(TEXT, empty_seat), OF(NUMBER, empty_seat_share)};
+    OF(NUMBER, guessed_share), OF(NUMBER, extrapolated_share), OF(TEXT, panel.assumed),
+    OF(TEXT, empty_seat), OF(NUMBER, empty_seat_share)};
 #undef OF
 #define OF(kind, member) MEMBER(ReviewFalseSun, kind, member)
 static const Member FALSE_SUN[] = {
@@ -229,7 +230,8 @@ TEST(json_has_the_promised_keys)
         "paths", "contrast_with_veil", "height_arcmin",
         "jnd", "visibility", "dgp", "ugr", "when", "visible_share", "hidden_by",
         "eye_failed_share", "level", "display_lux", "limit", "limits", "margin", "verdict",
-        "causes", "guessed_share", "without_data_share", "empty_seat", "empty_seat_share",
+        "causes", "guessed_share", "extrapolated_share", "without_data_share", "empty_seat",
+        "empty_seat_share",
         "remedies", "frame", "symbol_mean", "lit_share", "judged_part_uv"};
     Review  review = fixture_review(&arena);
     json_t *json = review_json(&review), *value;
@@ -295,6 +297,7 @@ static bool is_optional(const char *key, const json_t *object)
                                         "stroke_ratio", "dgi", "dgp_interval",
                                         "ugr_interval", "dgi_interval", "glare", "rests_on",
                                         "rests_on_line", "inputs", "guessed_share",
+                                        "extrapolated_share", "spectra_assumed",
                                         "empty_seat", "empty_seat_share",
                                         "symbol_mean", "lit_share", "judged_part_uv",
                                         "decide_times", "open_by", "glasses_transmittance",

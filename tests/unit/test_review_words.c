@@ -46,7 +46,7 @@ TEST(what_it_rests_on_is_one_line)
 {
     Review review = fixture_review(&arena);
     review.cases[0].panel = (CasePanel){"usable with care", "coarse: steps of 5 degrees", true,
-                                        false, 0.02, 0.04};
+                                        false, 0.02, 0.04, NULL};
     review.cases[3].guessed_share = 0.25;
     review.cases[5].guessed_share = 0.625;
     assert_string_equal(
@@ -56,6 +56,14 @@ TEST(what_it_rests_on_is_one_line)
         "it reflects; panel of centre: synthetic; 2 guessed materials (up to 62 % of the light "
         "on a symbol); the eye as given; no occupant named: nobody sits there, unless the "
         "model itself has somebody; limits as quoted, 1 of 5 read in the standard");
+    review.cases[0].panel.assumed = "spectra of the primaries assumed: bands";
+    for (int i = 0; i < review.case_count; i++)
+        review.cases[i].extrapolated_share = words_same(review.cases[i].display, "centre")
+                                                 ? 0.004 : 0.001 * i;
+    assert_non_null(strstr(review_rests_words(&review, &arena),
+                           "4.0 % of what it reflects, spectra of the primaries assumed: bands"
+                           ", up to 2.3 % of the light that it reflects by directions that "
+                           "were not measured; panel of centre: synthetic; 2 guessed"));
     review.cases[5].eye = "driver";
     review.cases[5].empty_seat = "back";
     assert_non_null(strstr(review_rests_words(&review, &arena),

@@ -18,6 +18,7 @@
 #include "image/frame_view.h"
 #include "render/favour.h"
 #include "render/pilot.h"
+#include "scene/load/material_data.h"
 #include "text/json_text.h"
 
 /* ---- the frame --------------------------------------------------------------------------- */
@@ -159,6 +160,8 @@ FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
                      render_identity(request, scene, camera, result->kernel, arena), arena);
     frame_set_string(&frame, "parhelion:unit", "cd/m2", arena);
     set_inputs(&frame, scene, arena);
+    const char *assumed = displays_assumed(scene, arena);
+    if (assumed) frame_set_string(&frame, "parhelion:assumed", assumed, arena);
     const char *weather = weather_option_text(&scene->environment, arena);
     if (weather) frame_set_string(&frame, "parhelion:weather", weather, arena);
     set_sampling(&frame, request, result, arena);

@@ -45,6 +45,7 @@ static const struct {
     {"display.scattered", LAYER_DISPLAY_SCATTERED}, {"display.haze", LAYER_DISPLAY_HAZE},
     {"display.lambertian", LAYER_DISPLAY_LAMBERTIAN},
     {"display.variance", LAYER_DISPLAY_VARIANCE}, {"display.second", LAYER_DISPLAY_SECOND},
+    {"display.extrapolated", LAYER_DISPLAY_EXTRAPOLATED},
     {"display.halves", LAYER_DISPLAY_HALVES}, {"light", LAYER_LIGHT}, {"stokes", LAYER_STOKES},
     {"compare", LAYER_COMPARED}, {"rounded", LAYER_ROUNDED},
 };

@@ -114,11 +114,26 @@ static void place_logs(const PanelPlaces *places, int panel, const float place[2
         if (logs[s][1] > PANEL_DARK) logs[s] += by_map[s == 3];
 }
 
+static bool mix_is_measured(const PanelPlaces *places, const PlaceMix *mix, Vec3 direction)
+{
+    for (int i = 0; i < mix->count; i++)
+        if (!panel_sources_are_measured(places->panel[mix->panel[i]], direction)) return false;
+    return true;
+}
+
+bool panel_place_emission_is_measured(const Panel *panel, const float place[2], Vec3 direction)
+{
+    const PanelPlaces *places = panel->places;
+    if (!panel->emission || !(direction.z > 0)) return false;
+    if (!places) return panel_sources_are_measured(panel, direction);
+    PlaceMix mix = mix_of(places, places->emission, place);
+    return mix_is_measured(places, &mix, direction);
+}
+
 bool panel_place_emission_xyz(const Panel *panel, const float place[2], Vec3 direction,
                               const float rgb[3], float xyz[3])
 {
     const PanelPlaces *places = panel->places;
-    bool is_measured = true;
     if (!places) return panel_emission_xyz(panel, direction, rgb, xyz);
     xyz[0] = xyz[1] = xyz[2] = 0;
     if (!panel->emission || !(direction.z > 0)) return false;
@@ -131,9 +146,8 @@ bool panel_place_emission_xyz(const Panel *panel, const float place[2], Vec3 dir
         place_logs(places, mix.panel[i], place, logs);
         panel_sources_xyz(logs, add);
         for (int j = 0; j < 3; j++) xyz[j] += mix.weight[i] * add[j];
-        is_measured &= panel_sources_are_measured(one, direction);
     }
-    return is_measured;
+    return mix_is_measured(places, &mix, direction);
 }
 
 Spectrum panel_place_emission_spectrum(const Panel *panel, const float place[2], Vec3 direction,

@@ -40,6 +40,9 @@ bool panel_place_emission_xyz(const Panel *panel, const float place[2], Vec3 dir
 Spectrum panel_place_emission_spectrum(const Panel *panel, const float place[2], Vec3 direction,
                                        const float rgb[3], const Wavelengths *wavelengths);
 
+/* Is that direction within the measured cone, of all panels that count at the place? */
+bool panel_place_emission_is_measured(const Panel *panel, const float place[2], Vec3 direction);
+
 /* As the functions of panel_reflection.h and panel_sampling.h. brdf: what panel_mix_brdf
  * returned for wi. */
 Spectrum panel_mix_brdf(const PanelMix *mix, Vec3 wo, Vec3 wi, const Wavelengths *wavelengths);

@@ -25,6 +25,15 @@ static void add_step(PathHistory *history, const Surface *surface, PathEvent eve
     history->reached_by = NO_ID;
 }
 
+/* Before that surface's step is added. */
+static void note_extrapolated(const PathListener *listener, const Surface *surface,
+                              Vec3 local_wi, PathHistory *history)
+{
+    if (listener && listener->with_extrapolated && !history->count)
+        history->is_extrapolated =
+            bsdf_is_extrapolated(&surface->bsdf, surface->local_wo, local_wi);
+}
+
 static void start(PathCollector *c, PathState *path)
 {
     history_of(c)->towards = path->ray.direction;
@@ -47,13 +56,14 @@ static void turn(PathCollector *c, PathState *path, const Surface *surface, Vec3
 {
     (void)wo;
     PathHistory *history = history_of(c);
+    const PathListener *listener = ((HistoryCollector *)c)->listener;
     bool      is_across = next->wi.z * surface->local_wo.z < 0;
     if (surface->part_id == NO_ID) return;
+    note_extrapolated(listener, surface, next->wi, history);
     add_step(history, surface, !next->is_delta ? PATH_SCATTERS
                             : is_across     ? PATH_TRANSMITS
                                             : PATH_REFLECTS);
     history->pane_id = NO_ID;
-    const PathListener *listener = ((HistoryCollector *)c)->listener;
     if (listener && listener->on_mirror && next->is_delta && !is_across)
         listener->on_mirror(listener->user, history, frame_to_world(&surface->frame, next->wi),
                             spectrum_max_lane(path->throughput));
@@ -133,7 +143,10 @@ static void on_light(PathCollector *c, PathState *path, const PathFound *found)
     PathHistory history = *history_of(c);
     Spectrum    lanes = light.radiance;
     float       xyz[3];
-    if (found->by) add_sample(found, &history);
+    if (found->by) {
+        note_extrapolated(listener, found->by, found->local_wi, &history);
+        add_sample(found, &history);
+    }
     if (found->xyz && listener->with_lanes)
         lanes = path->throughput * spectrum_all(found->weight) *
                 emitted_seen(path, found->met, found->triangle, found->way);

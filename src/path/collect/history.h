@@ -34,6 +34,8 @@ typedef struct PathHistory {
     Vec3     from;                  /* where it began, m, scene; is_distant: the unit direction
                                        towards it */
     bool     is_distant;
+    bool     is_extrapolated;       /* the first step sent it on as its panel extrapolates it
+                                       (bsdf_is_extrapolated); only where that is wanted */
     float    sr;                    /* of the field of view, that a light sample stands for; 0:
                                        the path met the light itself, or it has no extent */
     const float       *lanes;       /* its radiance, W m^-2 sr^-1 nm^-1 per lane; of a display
@@ -66,6 +68,7 @@ typedef struct PathListener {
     void (*on_mirror)(void *user, const PathHistory *history, Vec3 towards, float share);
     void  *user;
     bool   with_lanes;  /* displays' lanes are wanted, too */
+    bool   with_extrapolated; /* is_extrapolated is wanted, too */
     bool   of_emitters; /* it gets these alone */
     PathReach reach;
 } PathListener;

@@ -200,53 +200,63 @@ PixelRay pixel_ray(PathCollector *next)
     return (PixelRay){.base = {&kind, next}};
 }
 
-/* ---- a display's lambertian part --------------------------------------------------------- */
+/* ---- a part of what a display reflects --------------------------------------------------- */
 
-/* What a display that the eye sees scatters apart from its haze, XYZ, cd m^-2. */
-typedef struct LambertianPart {
+/* Share of a part in what a display sends on from way->wi, per lane. */
+typedef Spectrum PartShare(const Surface *surface, const BsdfSample *way);
+
+/* Of what a display that the eye sees reflects, XYZ, cd m^-2. */
+typedef struct ReflectedPart {
     PathCollector base;
+    PartShare *share_of;
     PathLight found;  /* of the light samples there */
     PathLight before; /* what the path had found in all when it went on from there, */
     Spectrum  share;  /* and how much counts of what it finds since, per lane */
     float    *xyz;    /* goes here in the end */
-} LambertianPart;
+} ReflectedPart;
 
-/* Is this the first surface, and has it a Lambertian part? */
+static Spectrum lambertian_share(const Surface *surface, const BsdfSample *way)
+{
+    return way->is_delta ? spectrum_all(0)
+                         : bsdf_lambertian_share(&surface->bsdf, surface->local_wo, way->wi);
+}
+
+static Spectrum extrapolated_share(const Surface *surface, const BsdfSample *way)
+{
+    return spectrum_all(bsdf_is_extrapolated(&surface->bsdf, surface->local_wo, way->wi));
+}
+
+/* Is this the first surface, and a display? */
 static bool is_asked(const PathState *path, const Surface *surface)
 {
     return path->first.is_awaited && bsdf_has_lambertian(&surface->bsdf);
 }
 
-/* Share of the Lambertian part in what a display scatters from local_wi, per lane. */
-static Spectrum share_of(const Surface *surface, Vec3 local_wi)
-{
-    return bsdf_lambertian_share(&surface->bsdf, surface->local_wo, local_wi);
-}
-
 /* Light samples of that surface. */
-static void add_lambertian(PathCollector *c, PathState *path, const PathFound *found)
+static void add_to_part(PathCollector *c, PathState *path, const PathFound *found)
 {
-    LambertianPart *part = (LambertianPart *)c;
+    ReflectedPart *part = (ReflectedPart *)c;
+    BsdfSample   way = {.wi = found->local_wi};
     if (found->by && is_asked(path, found->by))
-        part->found.radiance += found->radiance * share_of(found->by, found->local_wi);
+        part->found.radiance += found->radiance * part->share_of(found->by, &way);
 }
 
 /* The path goes on from there. */
-static void turn_lambertian(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
-                            const BsdfSample *next)
+static void turn_part(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
+                      const BsdfSample *next)
 {
     (void)wo;
-    LambertianPart *part = (LambertianPart *)c;
+    ReflectedPart *part = (ReflectedPart *)c;
     if (!is_asked(path, surface)) return;
     part->before = path->gathered;
-    part->share = next->is_delta ? spectrum_all(0) : share_of(surface, next->wi);
+    part->share = part->share_of(surface, next);
 }
 
 /* Measured XYZ come only by displays on which nothing depends on wavelength: the share of one
  * lane is that of all. */
-static void finish_lambertian(PathCollector *c, PathState *path)
+static void finish_part(PathCollector *c, PathState *path)
 {
-    const LambertianPart *part = (const LambertianPart *)c;
+    const ReflectedPart *part = (const ReflectedPart *)c;
     PathLight light = path->gathered;
     path_light_take(&light, &part->before);
     light.radiance *= part->share;
@@ -255,18 +265,18 @@ static void finish_lambertian(PathCollector *c, PathState *path)
     path_light_to_xyz(&light, path->wavelengths, part->xyz);
 }
 
-static LambertianPart lambertian_part(float xyz[3], PathCollector *next)
+static ReflectedPart display_part(PartShare *share_of, float xyz[3], PathCollector *next)
 {
-    static const CollectorKind kind = {
-        .size = sizeof(LambertianPart), .turn = turn_lambertian, .on_light = add_lambertian,
-        .finish = finish_lambertian};
-    return (LambertianPart){.base = {&kind, next}, .share = spectrum_all(0), .xyz = xyz};
+    static const CollectorKind kind = {.size = sizeof(ReflectedPart), .turn = turn_part,
+                                       .on_light = add_to_part, .finish = finish_part};
+    return (ReflectedPart){.base = {&kind, next}, .share_of = share_of,
+                         .share = spectrum_all(0), .xyz = xyz};
 }
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
 _Static_assert(COLLECTOR_ROOM(PolarisedRows) + COLLECTOR_ROOM(PixelRay) +
-                       COLLECTOR_ROOM(LambertianPart) + COLLECTOR_ROOM(HistoryCollector) <=
+                       2 * COLLECTOR_ROOM(ReflectedPart) + COLLECTOR_ROOM(HistoryCollector) <=
                    COLLECTORS_MAX_BYTES,
                "what an eye sees is collected by more than a sheet has room for");
 
@@ -277,16 +287,20 @@ void path_seen(const PathStart *start, Ray ray, const SeenAsk *ask, SeenLight *o
     PathStart      own = *start;
     PolarisedRows  rows;
     PixelRay       pixel;
-    LambertianPart part;
+    ReflectedPart    part, guess;
     HistoryCollector by_way;
-    for (int i = 0; i < 3; i++) out->stokes[i] = out->lambertian[i] = 0;
+    for (int i = 0; i < 3; i++) out->stokes[i] = out->lambertian[i] = out->extrapolated[i] = 0;
     if (ask->listener) {
         by_way = history_collector(ask->listener, own.collector);
         own.collector = &by_way.base;
     }
     if (ask->with_lambertian) {
-        part = lambertian_part(out->lambertian, own.collector);
+        part = display_part(lambertian_share, out->lambertian, own.collector);
         own.collector = &part.base;
+    }
+    if (ask->with_extrapolated) {
+        guess = display_part(extrapolated_share, out->extrapolated, own.collector);
+        own.collector = &guess.base;
     }
     if (pixel_ray_is_wanted(context)) {
         pixel = pixel_ray(own.collector);

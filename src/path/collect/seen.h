@@ -10,6 +10,7 @@
 
 typedef struct SeenAsk {
     bool                with_lambertian; /* of a display that the eye sees, without haze */
+    bool                with_extrapolated; /* and by directions that were not measured */
     const PathListener *listener;        /* NULL: none */
 } SeenAsk;
 
@@ -19,6 +20,8 @@ typedef struct SeenLight {
                                  else 0 */
     float      lambertian[3]; /* of path.xyz: what a display that the eye sees scattered by its
                                  lambertian part, where that was asked; else 0 */
+    float      extrapolated[3]; /* likewise: what it sent on, by its mirror too, in directions
+                                 that were not measured (bsdf_is_extrapolated) */
 } SeenLight;
 
 /* start: without collectors. The path does not depend on what is asked. */

@@ -204,6 +204,7 @@ static void set_groups(const Chains *chains, ReviewCase *c, Arena *arena)
     double all = chains->all.cd_m2;
     c->without_data_share = without_data(chains);
     c->guessed_share = all > 0 ? chains->groups.guessed / all : 0;
+    c->extrapolated_share = all > 0 ? chains->groups.extrapolated / all : 0;
 }
 
 /* ---- all of it --------------------------------------------------------------------------- */

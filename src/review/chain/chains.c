@@ -192,6 +192,7 @@ static void add_groups(const ChunkListener *to, const PathHistory *history, doub
     if (is_off_any(history, to->search->is_guessed) ||
         is_through_any(history, to->search->is_guessed))
         groups->guessed += y;
+    if (history->is_extrapolated) groups->extrapolated += y;
 }
 
 static int display_of(const Scene *scene, int part_id)
@@ -237,7 +238,8 @@ static void trace_chunk(void *user, int item, int worker)
     const ChainSearch *search = user;
     int            chunk = search->first + item, place = chunk;
     ChunkListener  to = {search, &search->sums[item], chunk};
-    PathListener   listener = {.on_light = on_light, .user = &to};
+    PathListener   listener = {.on_light = on_light, .user = &to,
+                                   .with_extrapolated = true};
     PathStatistics statistics = {0};
     ProbeAim       aim = *search->ask->aim;
     if (!aim.pixel) {
@@ -357,6 +359,7 @@ static void merge_groups(ChainGroups *to, const ChainGroups *from, const Scene *
     to->by_no_pane += scale * from->by_no_pane;
     to->without_data += scale * from->without_data;
     to->guessed += scale * from->guessed;
+    to->extrapolated += scale * from->extrapolated;
 }
 
 static bool *parts_without_data(const Scene *scene, Arena *arena)

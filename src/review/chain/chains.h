@@ -77,6 +77,8 @@ typedef struct ChainGroups {
                                    path once */
     double  guessed;            /* by way of any that was guessed (Material.guessed_as), or
                                    through one: likewise */
+    double  extrapolated;       /* as the panel of the display that is seen first extrapolates
+                                   its reflection */
 } ChainGroups;
 
 typedef struct Chains {

@@ -54,7 +54,8 @@ static const Member REMEDY[] = {
 static const Member PANEL[] = {
     OWN(TEXT, CasePanel, verdict), OWN(TEXT, CasePanel, reason),
     AS("coarse", FLAG, CasePanel, is_coarse), AS("not_usable", FLAG, CasePanel, is_unusable),
-    OWN(FIGURE, CasePanel, emission_error), OWN(FIGURE, CasePanel, reflection_error), {0}};
+    OWN(FIGURE, CasePanel, emission_error), OWN(FIGURE, CasePanel, reflection_error),
+    LATER("spectra_assumed", TEXT, CasePanel, assumed), {0}};
 
 static const Member LUMINANCE[] = {
     OWN(FIGURE, CaseLuminances, foreground), OWN(FIGURE, CaseLuminances, background),
@@ -133,6 +134,7 @@ static const Member CASE[] = {
     {"cause_groups", MEMBER_OBJECT, .use = WRITTEN, .of = GROUPS},
     LATER("without_data_share", FIGURE, ReviewCase, without_data_share),
     LATER("guessed_share", FIGURE, ReviewCase, guessed_share),
+    LATER("extrapolated_share", FIGURE, ReviewCase, extrapolated_share),
     LATER("empty_seat", TEXT, ReviewCase, empty_seat),
     LATER("empty_seat_share", FIGURE, ReviewCase, empty_seat_share),
     LIST("remedies", ReviewCase, remedies, remedy_count, REMEDY, CaseRemedy),

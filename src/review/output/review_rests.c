@@ -74,6 +74,23 @@ static void add_stated(Text *text, const CasePanel *panel, Arena *arena)
         text_format(text, ", known within %s of what it emits and %s of what it reflects",
                     words_share(panel->emission_error, arena),
                     words_share(panel->reflection_error, arena));
+    if (panel->assumed) text_format(text, ", %s", panel->assumed);
+}
+
+#define EXTRAPOLATED_LEAST 0.01 /* of the reflected light that is worth a word */
+
+/* Of a display's cases, the most. */
+static void add_extrapolated(Text *text, const Review *review, const char *display,
+                             Arena *arena)
+{
+    double most = 0;
+    for (int i = 0; i < review_case_count(review); i++) {
+        const ReviewCase *c = review_case_at(review, i);
+        if (words_same(c->display, display)) most = fmax(most, c->extrapolated_share);
+    }
+    if (most >= EXTRAPOLATED_LEAST)
+        text_format(text, ", up to %s of the light that it reflects by directions that were "
+                          "not measured", words_share(most, arena));
 }
 
 static const char *stated_words(const Review *review, const ReviewRest *r, Arena *arena)
@@ -83,6 +100,7 @@ static const char *stated_words(const Review *review, const ReviewRest *r, Arena
     if (r->basis == REST_MEASURED) text_format(&text, "measured (%s)", r->words);
     else text_add(&text, r->basis == REST_SYNTHETIC ? "synthetic" : "no measurement stated");
     if (panel) add_stated(&text, panel, arena);
+    add_extrapolated(&text, review, r->name, arena);
     return text.data;
 }
 

@@ -15,6 +15,7 @@
 #include "review/pace/work.h"
 #include "review/request/request_check.h"
 #include "review/run/cases.h"
+#include "scene/load/material_data.h"
 
 #define YFOV_DEG 35 /* of an eye that is no camera */
 #define WORDS 16    /* of a frame's metadata, at most */
@@ -67,6 +68,8 @@ static void set_words(FrameImage *frame, const FrameAsk *ask, const SceneCamera 
 {
     frame_set_string(frame, "software", "parhelion " PARHELION_VERSION, arena);
     frame_set_string(frame, "parhelion:unit", "cd/m2", arena);
+    const char *assumed = displays_assumed(ask->setup->scene, arena);
+    if (assumed) frame_set_string(frame, "parhelion:assumed", assumed, arena);
     frame_set_string(frame, "parhelion:review", ask->setup->request->file, arena);
     frame_set_string(frame, "parhelion:condition", ask->setup->condition->name, arena);
     frame_set_string(frame, "parhelion:camera", ask->eye->name, arena);

@@ -159,11 +159,9 @@ static void add_panel(const char *name, const Display *display, Review *review, 
     RestBasis   basis = stated.is_synthetic ? REST_SYNTHETIC
                         : stated.instrument ? REST_MEASURED
                                             : REST_NOT_STATED;
-    const char *words = arena_format(arena, "%s%s%s%s%s", stated.name ? stated.name : "",
+    const char *words = arena_format(arena, "%s%s%s", stated.name ? stated.name : "",
                                      stated.name && stated.instrument ? "; " : "",
-                                     stated.instrument ? stated.instrument : "",
-                                     stated.assumed ? "; " : "",
-                                     stated.assumed ? stated.assumed : "");
+                                     stated.instrument ? stated.instrument : "");
     add((ReviewRest){REST_PANEL, basis, name, words, 1, 1}, review, arena);
 }
 

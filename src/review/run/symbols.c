@@ -130,7 +130,7 @@ static CasePanel panel_of(const Panel *panel, Arena *arena)
 {
     PanelStated stated = panel_stated(panel, arena);
     return (CasePanel){stated.verdict, stated.reason, stated.is_coarse, stated.is_unusable,
-                       stated.emission_error, stated.reflection_error};
+                       stated.emission_error, stated.reflection_error, stated.assumed};
 }
 
 static const char *copied(const char *text, Arena *arena)
@@ -143,6 +143,7 @@ CasePanel symbol_panel(const SetupSymbol *symbol, Arena *arena)
     CasePanel panel = symbol->panel;
     panel.verdict = copied(panel.verdict, arena);
     panel.reason = copied(panel.reason, arena);
+    panel.assumed = copied(panel.assumed, arena);
     return panel;
 }
 

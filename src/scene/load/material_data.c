@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "scene/load/material_data.h"
 
+#include "panel/query/panel_stated.h"
+
 #define NAMES_LISTED 12
 #define LAMP_CD_M2 0.25f /* less is no lamp: exporters write ambient terms of old formats (AC3D,
                             OBJ) as 0.03 to 0.21 */
@@ -86,4 +88,16 @@ const char *scene_names_of(const Scene *scene, const int *materials, int count, 
                              scene->materials[materials[i]].name);
     return listed < count ? arena_format(arena, "%s and %d more", names,
                                          count - listed) : names;
+}
+
+const char *displays_assumed(const Scene *scene, Arena *arena)
+{
+    const char *all = NULL;
+    for (int i = 0; i < scene->display_count; i++) {
+        const Display *display = &scene->displays[i];
+        const char    *words = panel_stated(display->panel, arena).assumed;
+        if (words)
+            all = arena_format(arena, "%s%s: %s\n", all ? all : "", display->name, words);
+    }
+    return all;
 }

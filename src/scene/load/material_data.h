@@ -25,3 +25,7 @@ int *scene_without_data(const Scene *scene, int *count, Arena *arena);
 
 /* "seat, trim and 7 more" */
 const char *scene_names_of(const Scene *scene, const int *materials, int count, Arena *arena);
+
+/* For what is written of a scene: what was assumed, not measured, of what its displays emit, a
+ * line each: "NAME: WORDS\n"; NULL: nothing. */
+const char *displays_assumed(const Scene *scene, Arena *arena);
