@@ -406,7 +406,7 @@ static bool make_section(const Panel *panel, Arena *arena, PanelBytes *at)
 {
     SamplingSection made;
     if (!panel_makes_sampling(panel->reflection))
-        return panel_refuse(at, "sampling", "is empty beside several tables");
+        return panel_refuse(at, "sampling", "is empty beside several azimuths");
     if (!sampling_make(panel, arena, &made, at->err)) return error_in_file(at->err, at->name);
     at->data = made.bytes;
     at->size = made.size;
