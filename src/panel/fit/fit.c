@@ -5,6 +5,7 @@
 
 #include "base/file_write.h"
 #include "base/units.h"
+#include "hemisphere/vertex/vertex_pack.h"
 #include "panel/fit/fit_bound.h"
 #include "panel/fit/fit_judge.h"
 #include "panel/fit/fit_report.h"
@@ -89,6 +90,8 @@ static bool refuse(const json_t *report, const char *path, Error *err)
                     "be usable: %s; --force writes it all the same", reason ? reason : "");
 }
 
+#define MANY_VALUES 20000
+#define REPORT_BYTES 700 /* about */
 #define MADE_ANEW 0.25 /* from this share of the other bytes on, opening makes the sampling */
 
 /* A file's bytes, to be; what messages call it. */
@@ -118,9 +121,22 @@ static bool finish_bytes(const FitParts *parts, FitTarget *out, Arena *arena, js
     return out->bytes && !is_refused;
 }
 
+/* A file would take more than the samples of its reflection, or a tenth of many: its tree is
+ * packed, which opening pays for. */
+static void pack_tree(ReflectionResult *r, size_t file_size, Arena *arena)
+{
+    const void *blob = r->model->tree;
+    double      values = 0;
+    for (int t = 0; t < r->parts.tables; t++)
+        values += (double)r->parts.kept[t].rows * r->model->wavelengths;
+    double most = sizeof(float) * values * (values > MANY_VALUES ? 0.1 : 1);
+    if ((double)(file_size + REPORT_BYTES) > most && vertex_can_pack(blob))
+        r->packed = vertex_pack(blob, arena, &r->packed_size);
+}
+
 /* The sampling follows from the reflection's answers to queries. It is a section of the file,
  * or empty where it would be much of that: then opening makes it. */
-static bool sample_reflection(FitParts *parts, Arena *arena, Error *err)
+static bool finish_reflection(FitParts *parts, Arena *arena, Error *err)
 {
     ReflectionResult *reflection = ARENA_NEW(arena, ReflectionResult, 1);
     size_t size;
@@ -132,6 +148,7 @@ static bool sample_reflection(FitParts *parts, Arena *arena, Error *err)
     *reflection = *parts->reflection;
     reflection->sampling = made.bytes;
     reflection->sampling_size = is_made_anew ? 0 : made.size;
+    pack_tree(reflection, size + reflection->sampling_size, arena);
     parts->reflection = reflection;
     return true;
 }
@@ -168,7 +185,7 @@ static bool fit_parts(FitRun *run, const Measurement *set, FitParts *parts)
     step(run);
     step(run);
     if (set->incidence_count && (!fit_bound_reflection(parts, arena, run->err) ||
-                                 !sample_reflection(parts, arena, run->err)))
+                                 !finish_reflection(parts, arena, run->err)))
         return false;
     step(run);
     return true;

@@ -99,6 +99,7 @@ static void write_reflection(FitWriter *writer, const ReflectionResult *r)
 {
     FitPiece section = {r->section.bytes, r->section.size};
     FitPiece tree = {r->model->tree, tree_size(r->model->tree)};
+    if (r->packed) tree = (FitPiece){r->packed, r->packed_size};
     FitPiece sampling = {r->sampling, r->sampling_size};
     FitPiece surface = {&r->model->surface.stored, sizeof r->model->surface.stored};
     write_section(writer, PANEL_REFLECTION, 0, &section, 1);
