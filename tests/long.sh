@@ -132,6 +132,7 @@ start 'installed, moved, read, completed' install \
 of "$all scenes tests/image"
 start 'same bytes, four names' names-long python3 tests/image/names.py --all $program
 start 'a tighter bound is never worse' bounds python3 tests/image/panel_bounds.py $program
+start 'sizes of real files' real-sizes python3 tests/image/real_sizes.py $program
 start 'panels of foreign layouts' layouts \
     python3 tests/image/foreign_layouts.py $program
 start 'one light in every command' one-light python3 tests/image/one_light.py $program

@@ -107,7 +107,7 @@ class NotRead(Exception):
 def open_tree(data):
     if data[:4] == b"GRID":
         raise NotRead("an emission kept as its measured directions")
-    return {b"VRTX": VertexTree, b"HAAR": HaarTree}[data[:4]](data)
+    return {b"VRTX": VertexTree, b"VRTP": PackedTree, b"HAAR": HaarTree}[data[:4]](data)
 
 
 # ---- VRTX ----------------------------------------------------------------------------------
@@ -214,6 +214,100 @@ class VertexTree:
         rows = [(w, self.vertex(self.finest, sx * p, sy * q)) for p, q, w in corners]
         (a, p), (b, q), (c, r) = rows
         return [a * f + b * g + c * h for f, g, h in zip(p, q, r)]
+
+
+# ---- VRTP ----------------------------------------------------------------------------------
+
+
+class BitReader:
+    def __init__(self, data):
+        self.data, self.at, self.range = data, 4, 2 ** 32 - 1
+        self.low, self.chances = int.from_bytes(data[:4], "big"), {}
+
+    def bit(self, *context):
+        zero, seen = self.chances.get(context, (32768, 0))
+        bound = self.range // 65536 * zero
+        bit = int(self.low >= bound)
+        self.low -= bound * bit
+        self.range = self.range - bound if bit else bound
+        while self.range < 2 ** 24:
+            byte = self.data[self.at] if self.at < len(self.data) else 0
+            self.low, self.range, self.at = 256 * self.low + byte, 256 * self.range, self.at + 1
+        zero += int(2 * ((0 if bit else 65536) - zero) / (2 * seen + 3))
+        self.chances[context] = min(65280, max(256, zero)), min(29, seen + 1)
+        return bit
+
+    def number(self, kind, near, others):
+        size, digits, out = min(2, (abs(near) + 1) // 2), 1, 1
+        if not self.bit(kind, "more", size, others):
+            return 0
+        while digits < 16 and self.bit(kind, "longer", size, digits):
+            digits += 1
+        for place in reversed(range(digits - 1)):
+            out = 2 * out + self.bit(kind, "digit", place, place == digits - 2)
+        sign = (near > 0) - (near < 0)
+        return -out if self.bit(kind, "sign", sign) else out
+
+
+class PackedTree(VertexTree):
+    def __init__(self, data):
+        section = Bytes(data)
+        section.at = 6
+        self.count = section.take("H")
+        section.take("Q")
+        self.lattice, self.octants, self.base, levels = section.take("B", 4)
+        section.at = 22
+        exponent = section.take("b")
+        section.at = 32
+        self.scale = section.take("f", self.count)
+        exponents = section.take("b", levels)
+        self.finest, self.values = self.base + levels, {}
+        self.bits, self.stored = BitReader(data[section.at:]), set()
+        before = [0] * self.count
+        for i, j in self.points(self.base):
+            change = self.numbers(None, [0] * self.count)
+            before = [p + q for p, q in zip(before, change)]
+            self.values[self.base, i, j] = self.scaled(before, exponent)
+            self.mark(self.base, i, j)
+        self.details = [self.read_details(self.base + k, exponents[k]) for k in range(levels)]
+
+    def points(self, level):
+        n = 2 ** level
+        return ((i, j) for j in range(0 if self.octants == 2 else -n, n + 1)
+                for i in range(abs(j) - n, n - abs(j) + 1))
+
+    def mark(self, level, i, j):
+        self.stored.add((i << self.lattice - level, j << self.lattice - level))
+
+    def has(self, level, i, j):
+        j = abs(j) if self.octants == 2 else j
+        return (i << self.lattice - level, j << self.lattice - level) in self.stored
+
+    def scaled(self, integers, exponent):
+        return [n * scale * 2.0 ** exponent for n, scale in zip(integers, self.scale)]
+
+    def numbers(self, level, near):
+        row = []
+        for k in range(self.count):
+            row.append(self.bits.number((level, k), near[k], any(row)))
+        return row
+
+    def read_details(self, level, exponent):
+        found, near, last = {}, [0] * self.count, (0, 0)
+        for i, j in self.points(level + 1):
+            if i % 2 == 0 and j % 2 == 0:
+                continue
+            edge = 2 if i % 2 and j % 2 else j % 2
+            s = (1 if (i < 0) == (j < 0) else -1) if edge == 2 else 1
+            ends = ((i - i % 2, j + s * (j % 2)), (i + i % 2, j - s * (j % 2)))
+            count = sum(self.has(level + 1, p, q) for p, q in ends)
+            bit = self.bits.bit(level, "stored", edge, count, last)
+            last = last[1], bit
+            if bit:
+                near = self.numbers(level, near)
+                self.mark(level + 1, i, j)
+                found[i // 2, j // 2, edge] = self.scaled(near, exponent)
+        return found
 
 
 # ---- HAAR ----------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 #include "hemisphere/tree/tree_open.h"
 #include "hemisphere/tree/tree_sum.h"
 #include "hemisphere/vertex/vertex_open.h"
+#include "hemisphere/vertex/vertex_pack.h"
 #include "hemisphere/vertex/vertex_tree_build.h"
 #include "hemisphere/vertex/vertex_unpack.h"
 #include "hemisphere_fixture.h"
@@ -509,6 +510,33 @@ HEMISPHERE_TEST(a_bad_header_is_named)
     ((float *)(void *)(copy + sizeof(VertexHeader)))[2] = NAN;
     assert_tree_refused(f, copy, size, "scale 2 is nan");
     free(copy);
+}
+
+/* Packed and unpacked, every blob keeps its bytes; damaged bits are refused or make a tree. */
+HEMISPHERE_TEST(packed_trees_keep_their_bytes)
+{
+    for (size_t e = 0; e < sizeof EXAMPLES / sizeof *EXAMPLES; e++) {
+        Tree        tree;
+        Error       err;
+        const void *blob = example_blob(f, &EXAMPLES[e]);
+        Arena       scratch = f->arena;
+        if (!vertex_can_pack(blob)) continue;
+        size_t size, back;
+        uint8_t    *packed = (uint8_t *)vertex_pack(blob, &scratch, &size);
+        const void *same = vertex_unpack_blob(packed, size, &scratch, &back, &err);
+        assert_non_null(same);
+        assert_int_equal(back, tree_size(blob));
+        assert_memory_equal(same, blob, back);
+        if (back > 4096) assert_true(size < back);
+        for (size_t i = 0; i < size; i += size / 40 + 1) {
+            Arena  inner = scratch;
+            size_t left = i % 2 ? size : size - i;
+            packed[i] ^= (uint8_t)(1 + i % 255);
+            const void *other = vertex_unpack_blob(packed, left, &inner, &back, &err);
+            if (other) (void)tree_open(other, back, f->geodesic, &tree, &err);
+            packed[i] ^= (uint8_t)(1 + i % 255);
+        }
+    }
 }
 
 TEST_PROGRAM(NULL, NULL)

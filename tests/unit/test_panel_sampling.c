@@ -451,14 +451,12 @@ TEST(answers_are_finite_in_every_corner)
         for (int j = 0; j < count; j++) expect_finite(corner[i], corner[j], &w);
 }
 
-/* The sampling section of the IPS panel renamed, or emptied, under a checksum that fits. */
-static void expect_forged_is_refused(bool is_emptied, const char *words)
+/* The path of a copy of this panel whose sampling section is renamed, or emptied. */
+static const char *forged(const Fixture *of, bool is_emptied, Arena *arena)
 {
-    Arena       scratch = ips.arena;
-    Panel      *panel;
     PanelHeader header;
-    FileBytes   bytes = read_bytes(ips.panel_path, &scratch);
-    unsigned char *copy = arena_alloc(&scratch, 1, 64, bytes.size);
+    FileBytes   bytes = read_bytes(of->panel_path, arena);
+    unsigned char *copy = arena_alloc(arena, 1, 64, bytes.size);
     memcpy(copy, bytes.data, bytes.size);
     memcpy(&header, copy, sizeof header);
     for (uint32_t i = 0; i < header.section_count; i++) {
@@ -470,16 +468,39 @@ static void expect_forged_is_refused(bool is_emptied, const char *words)
         memcpy(at, &section, sizeof section);
     }
     repair_checksum(copy, bytes.size);
-    const char *path = arena_format(&scratch, "%s/without.panel", ips.folder);
+    const char *path = arena_format(arena, "%s/without.panel", of->folder);
     write_bytes(path, copy, bytes.size);
+    return path;
+}
+
+static void expect_forged_is_refused(const Fixture *of, bool is_emptied, const char *words)
+{
+    Arena  scratch = of->arena;
+    Panel *panel;
+    const char *path = forged(of, is_emptied, &scratch);
     assert_fails_as(panel_open(path, &scratch, &panel, &err), ERROR_INPUT, words);
 }
 
 /* Nothing of a reflection without its sampling: the file would light a scene wrongly. */
 TEST(a_panel_without_its_sampling_is_refused)
 {
-    expect_forged_is_refused(false, "without its sampling tree");
-    expect_forged_is_refused(true, "is empty beside several tables");
+    expect_forged_is_refused(&ips, false, "without its sampling tree");
+    expect_forged_is_refused(&brushed, true, "is empty beside several azimuths");
+}
+
+/* What opening makes of an isotropic reflection draws as what fitting stores. */
+TEST(several_tables_are_sampled_without_a_byte_of_the_file)
+{
+    Arena  scratch = ips.arena;
+    Panel *panel;
+    assert_done(panel_open(forged(&ips, true, &scratch), &scratch, &panel, &err));
+    const PanelSampling *made = &panel->sampling, *stored = &ips.panel->sampling;
+    assert_int_equal(made->incidences, stored->incidences);
+    for (int i = 0; i < made->incidences; i++)
+        assert_true(made->theta[i] == stored->theta[i]);
+    for (int k = 0; k < 8; k++)
+        assert_true(density_integral(panel, radians_from_degrees(0.5 + 11 * k), 0) ==
+                    density_integral(ips.panel, radians_from_degrees(0.5 + 11 * k), 0));
 }
 
 /* A file of one table holds no sampling; opening makes what fitting would have stored. */

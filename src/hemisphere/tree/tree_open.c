@@ -5,6 +5,7 @@
 
 #include "hemisphere/tree.h"
 #include "hemisphere/vertex/vertex_open.h"
+#include "hemisphere/vertex/vertex_pack.h"
 #include "hemisphere/vertex/vertex_unpack.h"
 #include "hemisphere/vertex/vertex_tree.h"
 
@@ -13,7 +14,9 @@ _Static_assert(sizeof(TreeHeader) == 56 && sizeof(TreeNode) == 8, "the blob's la
 
 size_t tree_size(const void *blob)
 {
-    if (*(const uint32_t *)blob == VERTEX_MAGIC) return ((const VertexHeader *)blob)->size;
+    uint32_t magic = *(const uint32_t *)blob;
+    if (magic == VERTEX_MAGIC || magic == VERTEX_PACKED)
+        return ((const VertexHeader *)blob)->size;
     return ((const TreeHeader *)blob)->size;
 }
 

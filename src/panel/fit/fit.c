@@ -5,6 +5,7 @@
 
 #include "base/file_write.h"
 #include "base/units.h"
+#include "hemisphere/vertex/vertex_pack.h"
 #include "panel/fit/fit_bound.h"
 #include "panel/fit/fit_judge.h"
 #include "panel/fit/fit_report.h"
@@ -69,14 +70,13 @@ static void *reported_bytes(const FitParts *parts, json_t *document, Arena *aren
     void    *bytes = NULL;
     json_array_append(rows, json_object_get(document, "total"));
     for (int i = 0; i < 4; i++) json_object_del(meta, apart[i]);
-    char *text = panel_report_text(meta);
-    for (int pass = 0; pass < 2 && text; pass++) {
+    whole.meta_size = panel_report_pack(meta, arena, &whole.meta);
+    for (int pass = 0; pass < 2 && whole.meta_size; pass++) {
         whole.tables_size = panel_report_pack_tables(rows, arena, &whole.tables);
-        bytes = fit_file_bytes(&whole, text, arena, size);
+        bytes = fit_file_bytes(&whole, arena, size);
         fit_table_set_file_size(json_object_get(document, "total"),
                                 *size - (parts->places ? fit_places_bytes(parts->places) : 0));
     }
-    free(text);
     json_decref(rows);
     json_decref(meta);
     return bytes;
@@ -89,6 +89,10 @@ static bool refuse(const json_t *report, const char *path, Error *err)
     return error_at(err, ERROR_DIFFERENT, path, "", "is not written, for the panel would not "
                     "be usable: %s; --force writes it all the same", reason ? reason : "");
 }
+
+#define MANY_VALUES 20000
+#define REPORT_BYTES 700 /* about */
+#define MADE_ANEW 0.25 /* from this share of the other bytes on, opening makes the sampling */
 
 /* A file's bytes, to be; what messages call it. */
 typedef struct FitTarget {
@@ -117,20 +121,34 @@ static bool finish_bytes(const FitParts *parts, FitTarget *out, Arena *arena, js
     return out->bytes && !is_refused;
 }
 
-/* The sampling, a section of the file or the promise that opening makes it, follows from the
- * reflection's answers to queries. */
-static bool sample_reflection(FitParts *parts, Arena *arena, Error *err)
+/* A file would take more than the samples of its reflection, or a tenth of many: its tree is
+ * packed, which opening pays for. */
+static void pack_tree(ReflectionResult *r, size_t file_size, Arena *arena)
+{
+    const void *blob = r->model->tree;
+    double      values = 0;
+    for (int t = 0; t < r->parts.tables; t++)
+        values += (double)r->parts.kept[t].rows * r->model->wavelengths;
+    double most = sizeof(float) * values * (values > MANY_VALUES ? 0.1 : 1);
+    if ((double)(file_size + REPORT_BYTES) > most && vertex_can_pack(blob))
+        r->packed = vertex_pack(blob, arena, &r->packed_size);
+}
+
+/* The sampling follows from the reflection's answers to queries. It is a section of the file,
+ * or empty where it would be much of that: then opening makes it. */
+static bool finish_reflection(FitParts *parts, Arena *arena, Error *err)
 {
     ReflectionResult *reflection = ARENA_NEW(arena, ReflectionResult, 1);
     size_t size;
-    SamplingSection made = {.bytes = ""};
+    SamplingSection made;
     Panel *panel = fit_file_open(parts, "panel", arena, &size, err);
-    if (!panel) return false;
-    if (!panel_makes_sampling(panel->reflection) && !sampling_make(panel, arena, &made, err))
-        return false;
+    if (!panel || !sampling_make(panel, arena, &made, err)) return false;
+    bool is_made_anew = panel_makes_sampling(panel->reflection) &&
+                        (double)made.size > MADE_ANEW * (double)size;
     *reflection = *parts->reflection;
     reflection->sampling = made.bytes;
-    reflection->sampling_size = made.size;
+    reflection->sampling_size = is_made_anew ? 0 : made.size;
+    pack_tree(reflection, size + reflection->sampling_size, arena);
     parts->reflection = reflection;
     return true;
 }
@@ -167,7 +185,7 @@ static bool fit_parts(FitRun *run, const Measurement *set, FitParts *parts)
     step(run);
     step(run);
     if (set->incidence_count && (!fit_bound_reflection(parts, arena, run->err) ||
-                                 !sample_reflection(parts, arena, run->err)))
+                                 !finish_reflection(parts, arena, run->err)))
         return false;
     step(run);
     return true;

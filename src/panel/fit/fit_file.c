@@ -99,6 +99,7 @@ static void write_reflection(FitWriter *writer, const ReflectionResult *r)
 {
     FitPiece section = {r->section.bytes, r->section.size};
     FitPiece tree = {r->model->tree, tree_size(r->model->tree)};
+    if (r->packed) tree = (FitPiece){r->packed, r->packed_size};
     FitPiece sampling = {r->sampling, r->sampling_size};
     FitPiece surface = {&r->model->surface.stored, sizeof r->model->surface.stored};
     write_section(writer, PANEL_REFLECTION, 0, &section, 1);
@@ -143,10 +144,11 @@ static void *finish(FitWriter *writer, uint32_t version, size_t *size)
     return bytes;
 }
 
-void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size_t *size)
+void *fit_file_bytes(const FitParts *parts, Arena *arena, size_t *size)
 {
     FitWriter writer = {.arena = arena};
-    FitPiece  text = {meta, strlen(meta)}, tables = {parts->tables, parts->tables_size};
+    FitPiece  text = {"{}", 2}, tables = {parts->tables, parts->tables_size};
+    if (parts->meta) text = (FitPiece){parts->meta, parts->meta_size};
     write_section(&writer, PANEL_META, 0, &text, 1);
     if (parts->tables) write_section(&writer, PANEL_REPORT_TABLES, 0, &tables, 1);
     if (parts->emission) write_emission(&writer, parts);
@@ -164,6 +166,6 @@ Panel *fit_file_open(const FitParts *parts, const char *path, Arena *arena, size
                      Error *err)
 {
     Panel *panel;
-    void  *bytes = fit_file_bytes(parts, "{}", arena, size);
+    void  *bytes = fit_file_bytes(parts, arena, size);
     return panel_from_bytes(bytes, *size, path, arena, &panel, err) ? panel : NULL;
 }

@@ -24,10 +24,12 @@ typedef struct FitParts {
     const json_t           *spots;  /* its panels' entries in the report; NULL: none */
     const void             *tables; /* of the report, packed (panel_report.h); NULL: not yet */
     size_t                  tables_size;
+    const void             *meta; /* the report, packed; NULL: not yet */
+    size_t                  meta_size;
 } FitParts;
 
-/* The file's bytes with this meta text; *size bytes in the arena, aligned to 64. */
-void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size_t *size);
+/* The file's bytes; *size bytes in the arena, aligned to 64. */
+void *fit_file_bytes(const FitParts *parts, Arena *arena, size_t *size);
 
 /* The panel that these bytes will be; NULL: failed. path: what messages call it. */
 Panel *fit_file_open(const FitParts *parts, const char *path, Arena *arena, size_t *size,

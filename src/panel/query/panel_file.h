@@ -32,7 +32,7 @@ typedef struct PanelHeader {
 } PanelHeader;
 
 typedef enum PanelSectionKind {
-    PANEL_META = 1,            /* JSON text: names, source, what was chosen, notes */
+    PANEL_META = 1,            /* panel_report.h: names, source, what was chosen, notes */
     PANEL_EMISSION = 2,        /* PanelEmissionHead and what follows it */
     PANEL_EMISSION_TREE = 3,
     PANEL_PRIMARIES = 4,       /* PanelPrimariesHead, spectra */
@@ -201,7 +201,7 @@ typedef struct PanelMapHead {
 #define PANEL_INCIDENCES_MAX 32
 
 /* PANEL_SAMPLING: a sampling tree, at the next multiple of four bytes uint16 incidences and
- * azimuths, then float theta[incidences]; nothing where a single table is reflected, from which
+ * azimuths, then float theta[incidences]; or nothing, of an isotropic reflection, from which
  * opening the file makes the same bytes (sampling_make.h). */
 static inline size_t panel_sampling_tree_bytes(size_t tree)
 {

@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "hemisphere/sampling/sampling_tree_build.h"
 #include "hemisphere/tree/tree_open.h"
+#include "hemisphere/vertex/vertex_pack.h"
 #include "panel/query/panel_reflection_layout.h"
 #include "panel/query/sampling_make.h"
 #include "spectrum/fresnel.h"
@@ -406,7 +407,7 @@ static bool make_section(const Panel *panel, Arena *arena, PanelBytes *at)
 {
     SamplingSection made;
     if (!panel_makes_sampling(panel->reflection))
-        return panel_refuse(at, "sampling", "is empty beside several tables");
+        return panel_refuse(at, "sampling", "is empty beside several azimuths");
     if (!sampling_make(panel, arena, &made, at->err)) return error_in_file(at->err, at->name);
     at->data = made.bytes;
     at->size = made.size;
@@ -471,7 +472,11 @@ bool panel_expand_reflection(const PanelReflectionBytes *sections, const Geodesi
         return panel_refuse(at, "reflection", "has another size than its counts say");
     if (!check_axes(at, s, &from) || !read_surface(&sections->surface, s, &surface))
         return false;
-    if (!tree_open(tree->data, tree->size, geodesic, &panel->reflection_tree, at->err))
+    size_t      size = tree->size;
+    const void *blob = vertex_is_packed(tree->data, size)
+                           ? vertex_unpack_blob(tree->data, tree->size, arena, &size, at->err)
+                           : tree->data;
+    if (!blob || !tree_open(blob, size, geodesic, &panel->reflection_tree, at->err))
         return error_prefix(at->err, "reflection tree") || error_in_file(at->err, at->name);
     if (panel->reflection_tree.components != (int)s->components ||
         panel->reflection_tree.octants != (s->azimuths > 1 ? 4 : 2))

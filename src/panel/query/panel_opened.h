@@ -134,9 +134,10 @@ typedef struct PanelPlaces {
     const float    (*white)[3], (*black)[3], (*dark)[3];
 } PanelPlaces;
 
+/* May opening make the sampling? Of several azimuths that would take seconds. */
 static inline bool panel_makes_sampling(const PanelReflection *reflection)
 {
-    return reflection->tables == 1;
+    return reflection->azimuths == 1;
 }
 
 struct Panel {

@@ -4,12 +4,18 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
+#define ZLIB_CONST
+#include <zlib.h>
 
 #include "panel/query/panel_opened.h"
 
 #define COLUMNS_MAX 64
 #define TEXT_MAX 255
+#define REPORT_MOST (1u << 24) /* bytes of its text */
+
+extern const char PANEL_WORDS[]; /* panel_words.txt */
 
 typedef struct Column {
     char kind, key[TEXT_MAX + 1];
@@ -272,25 +278,73 @@ static void change_mirror(json_t *report, json_t *(*change)(const json_t *))
     json_decref(reflection);
 }
 
-char *panel_report_text(json_t *report)
+/* Bytes in the arena; 0: memory is out. */
+static size_t packed(const char *text, Arena *arena, const void **bytes)
+{
+    z_stream stream = {.next_in = (const Bytef *)text, .avail_in = (uInt)strlen(text)};
+    if (deflateInit(&stream, Z_BEST_COMPRESSION) != Z_OK) return 0;
+    bool ok = deflateSetDictionary(&stream, (const Bytef *)PANEL_WORDS,
+                                   (uInt)strlen(PANEL_WORDS)) == Z_OK;
+    uLong          most = deflateBound(&stream, stream.avail_in);
+    unsigned char *out = arena_alloc(arena, 1, 8, most);
+    stream.next_out = out;
+    stream.avail_out = (uInt)most;
+    ok = ok && deflate(&stream, Z_FINISH) == Z_STREAM_END;
+    deflateEnd(&stream);
+    *bytes = out;
+    return ok ? stream.total_out : 0;
+}
+
+size_t panel_report_pack(json_t *report, Arena *arena, const void **bytes)
 {
     leave_unsaid(report);
     change_mirror(report, columns_of);
-    return json_dumps(report, JSON_COMPACT | JSON_REAL_PRECISION(4));
+    char  *text = json_dumps(report, JSON_COMPACT | JSON_REAL_PRECISION(4));
+    size_t size = text ? packed(text, arena, bytes) : 0;
+    free(text);
+    return size;
+}
+
+/* NULL: damaged, or memory is out. */
+static json_t *unpacked(const void *bytes, size_t size)
+{
+    z_stream stream = {.next_in = bytes, .avail_in = (uInt)size};
+    size_t   most = size < REPORT_MOST / 1032 ? size * 1032 : REPORT_MOST; /* deflate's ratio */
+    char    *text = malloc(most + 1);
+    json_t  *out = NULL;
+    stream.next_out = (Bytef *)text;
+    stream.avail_out = (uInt)most;
+    if (text && inflateInit(&stream) == Z_OK) {
+        if (inflate(&stream, Z_FINISH) == Z_NEED_DICT &&
+            inflateSetDictionary(&stream, (const Bytef *)PANEL_WORDS,
+                                 (uInt)strlen(PANEL_WORDS)) == Z_OK &&
+            inflate(&stream, Z_FINISH) == Z_STREAM_END)
+            out = json_loadb(text, stream.total_out, 0, NULL);
+        inflateEnd(&stream);
+    }
+    free(text);
+    return out;
+}
+
+/* Older files hold the text as it is. */
+static json_t *read_report(const Panel *panel)
+{
+    bool is_text = panel->meta_size && panel->meta[0] == '{';
+    return is_text ? json_loadb(panel->meta, panel->meta_size, 0, NULL)
+                   : unpacked(panel->meta, panel->meta_size);
 }
 
 bool panel_report(const Panel *panel, json_t **report, Error *err)
 {
-    json_error_t fault;
     json_t *figures = json_array();
     if (panel->figures) {
         json_decref(figures);
         figures = panel_report_open_tables(panel->figures, panel->figures_size);
     }
-    *report = json_loadb(panel->meta, panel->meta_size, 0, &fault);
+    *report = read_report(panel);
     if (!json_is_object(*report) || !figures) {
-        error_set(err, ERROR_INPUT, "the panel's report is no JSON: %s",
-                  figures ? fault.text : "its figures are damaged");
+        error_set(err, ERROR_INPUT, "the panel's report is damaged: %s",
+                  figures ? "no JSON" : "its figures");
         json_decref(*report);
         json_decref(figures);
         return false;

@@ -21,9 +21,11 @@ size_t panel_report_pack_tables(const json_t *tables, Arena *arena, const void *
 /* A new array of such objects; NULL: the bytes are damaged. */
 json_t *panel_report_open_tables(const void *bytes, size_t size);
 
-/* The JSON text that a file keeps of a report without its tables, which it changes; the
- * caller's to free, NULL when memory is out. */
-char *panel_report_text(json_t *report);
+/* What a file keeps of a report without its tables, which it changes: JSON text, compressed as
+ * zlib does with panel_words.txt as its dictionary (other words need more bytes; a changed
+ * dictionary makes written files unreadable). Returns the size of *bytes in the arena; 0:
+ * memory is out. */
+size_t panel_report_pack(json_t *report, Arena *arena, const void **bytes);
 
 /* The report inside a panel file; the caller's to release. */
 bool panel_report(const Panel *panel, json_t **report, Error *err);

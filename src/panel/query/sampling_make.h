@@ -3,8 +3,8 @@
  * which incidences and azimuths a tree of directions is wanted, and the tree. Private to
  * src/panel.
  *
- * The same bytes on every machine. Some milliseconds for each incidence and azimuth; a panel
- * of one table, for which the section would be half of the file, has it made when opened.
+ * The same bytes on every machine. Some milliseconds for each incidence and azimuth; an
+ * isotropic panel of which the section would be much of the file has it made when opened.
  * Memory    the section's bytes in the arena.
  * Fails     as sampling_tree_build.
  */
