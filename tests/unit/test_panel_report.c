@@ -457,7 +457,7 @@ TEST(what_was_not_measured_is_said)
     const char *levels = fixture_file(&emits, "levels.csv",
                                       "level,luminance\n0,0.5\n0.5,80\n1,380\n");
     fixture_read(&emits, table); /* black on the axis alone: no contrast at an angle */
-    assert_done(measurement_read_levels(emits.set, levels, &emits.arena, &err));
+    assert_done(measurement_read_levels(emits.set, levels, 0, &emits.arena, &err));
     json_decref(emits.report);
     panel_close(emits.panel);
     fixture_fit(&emits, &options);
