@@ -140,7 +140,9 @@ def compare_densities(report, name, found, reader, q):
     share = len(inside) / len(answers)
     print(f"{name} densities: largest relative difference {max(off.values()):.2e}, away from "
           f"edges {100 * share:.1f} %; beyond {DENSITY:g}: {len(beyond)}")
-    report.claim(share > 0.9 and len(beyond) <= 0.01 * len(found) and not wrong,
+    report.claim(len(answers) - len(inside) <= max(2, 0.1 * len(answers)),  # of few, chance
+                 f"{name}: {len(inside)} of {len(answers)} directions are away from edges")
+    report.claim(len(beyond) <= 0.01 * len(found) and not wrong,
                  f"{name}: densities differ: {[asked[i] for i in wrong[:3]]}")
 
 
