@@ -240,7 +240,7 @@ static void find_sample(PathState *path, const Surface *surface, Vec3 wo,
                         const LightAsked *asked, const ShadowRay *ray, Spectrum radiance)
 {
     const LightSample *light = &asked->light;
-    if (!path->collector) {
+    if (!collect_wants_sample(path)) {
         path->gathered.radiance += radiance;
         return;
     }
@@ -348,7 +348,7 @@ static void find_mirrored(const MirrorWalk *asked, const SunMirror *mirror, Vec3
 {
     PathState *path = asked->path;
     Vec3       to_sun = asked->question.sun.wi;
-    if (!path->collector) {
+    if (!collect_wants_sample(path)) {
         path->gathered.radiance += radiance;
         return;
     }

@@ -63,6 +63,7 @@ typedef struct PathCollector PathCollector;
 /* The calls of a collector; NULL: not called. */
 typedef struct CollectorKind {
     size_t size; /* of the whole structure */
+    bool   of_first; /* light samples of the eye's own surface alone are of use to it */
     void (*start)(PathCollector *c, PathState *path); /* its first ray is known */
     void (*meet)(PathCollector *c, PathState *path);  /* the ray meets a surface */
     /* The surface that the eye itself sees, before it is shaded. */
@@ -204,6 +205,16 @@ static inline void collect_light(PathState *path, const PathFound *light)
 {
     for (PathCollector *c = path->collector; c; c = c->next)
         if (c->kind->on_light) c->kind->on_light(c, path, light);
+}
+
+/* Is a light sample worth telling? */
+static inline bool collect_wants_sample(const PathState *path)
+{
+    for (const PathCollector *c = path->collector; c; c = c->next)
+        if ((c->kind->count || c->kind->on_light) &&
+            (!c->kind->of_first || path->first.is_awaited))
+            return true;
+    return false;
 }
 
 /* The path has found light: it counts as collectors leave it. */

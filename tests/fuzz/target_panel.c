@@ -39,7 +39,9 @@ static void claim_emission(const Panel *panel, Vec3 wo, const Wavelengths *w)
     fuzz_claim(all_in((const float *)&spectrum, SPECTRUM_LANES, -1e30f), "so is its spectrum");
     fuzz_claim(panel_mean_luminance(panel, rgb) >= 0, "the mean is not negative");
     const float place[2] = {wo.x, 0.5f + wo.y};
-    panel_place_emission_xyz(panel, place, wo, rgb, xyz);
+    fuzz_claim(panel_place_emission_xyz(panel, place, wo, rgb, xyz) ==
+                   panel_place_emission_is_measured(panel, place, wo),
+               "a direction is measured or not");
     fuzz_claim(all_in(xyz, 3, 0), "nor is it at a place");
     spectrum = panel_place_emission_spectrum(panel, place, wo, rgb, w);
     fuzz_claim(all_in((const float *)&spectrum, SPECTRUM_LANES, -1e30f), "so is that there");
@@ -54,6 +56,8 @@ static void claim_reflection(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelen
                    all_in((const float *)&mirror, SPECTRUM_LANES, 0),
                "reflection is finite and not negative");
     fuzz_claim(panel_pdf(panel, wo, wi) >= 0, "a density is not negative");
+    fuzz_claim(panel_reflects(panel) || !panel_brdf_is_measured(panel, wo, wi),
+               "nothing is measured of a panel that reflects nothing");
     const float place[2] = {wo.x, 0.5f + wo.y};
     PanelMix    mix = panel_place_reflection(panel, place);
     brdf = panel_mix_brdf(&mix, wo, wi, w);

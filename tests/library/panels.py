@@ -113,6 +113,22 @@ def rings(program, folder):
     return fit(program, out)
 
 
+def steps(program, folder):
+    """Light that ends between rings, at another theta each azimuth: kept as its cells."""
+    out = os.path.join(folder, "steps")
+    os.makedirs(out)
+    with open(os.path.join(out, "white.csv"), "w") as file:
+        file.write("theta,phi,X,Y,Z\n")
+        for theta in range(0, 71, 10):
+            for phi in range(0, 360 if theta else 1, 45):
+                y = 500 - theta if theta < 30 + phi // 12 else 2 + 0.01 * phi
+                z = (1.1 + 0.002 * theta) * y
+                file.write(f"{theta},{phi},{0.9 * y:.6g},{y:.6g},{z:.6g}\n")
+    with open(os.path.join(out, "MANIFEST.json"), "w") as file:
+        json.dump({"panel": "steps", "emission": {"white": "white.csv"}}, file)
+    return fit(program, out)
+
+
 def ring_directions(tilt):
     """theta and phi up to 80 degrees, degrees, and the angle to the mirror direction."""
     for ring in (0, 4, 8, 12, 20, 30, 40, 50, 60):

@@ -267,7 +267,8 @@ static void finish_part(PathCollector *c, PathState *path)
 
 static ReflectedPart display_part(PartShare *share_of, float xyz[3], PathCollector *next)
 {
-    static const CollectorKind kind = {.size = sizeof(ReflectedPart), .turn = turn_part,
+    static const CollectorKind kind = {.size = sizeof(ReflectedPart), .of_first = true,
+                                       .turn = turn_part,
                                        .on_light = add_to_part, .finish = finish_part};
     return (ReflectedPart){.base = {&kind, next}, .share_of = share_of,
                          .share = spectrum_all(0), .xyz = xyz};
