@@ -7,8 +7,8 @@ imported, fitted and evaluated between its samples, where it is measured.
 Laws  a panel that is "good" misses at most 5 % of the light (the sum of |panel - truth|,
       weighted by cosine and solid angle, over that of the truth) beside the noise (a lobe of an
       emission that no sample saw is left out: 0), and of a table without a grid's order, in a
-      lobe that a sample saw, no direction by more than 15 % beside three times the noise (10 %
-      are two standard deviations of the estimate, of many panels a few go further); a table
+      lobe that a sample saw, no direction by more than 15 % beside three times the noise (so
+      much are two standard deviations of the verdict's estimate at most); a table
       of a smooth reflection in any layout errs by at most twice what a grid of as many samples
       does; and between samples a white has no colour that its neighbours lack.
 """
