@@ -3,10 +3,12 @@
  * about the mirror direction, scattered, or with other directions at each incidence as on a
  * grid; what samples do not surround is said, and held. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "reflection_fixture.h"
 #include "panel/fit/common/scatter_surface.h"
 #include "panel/fit/common/table_rows.h"
+#include "panel/query/panel_emission.h"
 #include "panel/query/panel_info.h"
 
 #define ROWS_MAX 4000
@@ -286,6 +288,130 @@ TEST(a_surface_passes_beside_noise_and_tells_it)
     assert_true(sqrt(squares / count) < 0.015);
     assert_close(scatter_surface_noise(surface), 0.02, 0.3);
     arena_release(&arena);
+}
+
+/* ---- holes ------------------------------------------------------------------------------- */
+
+#define HOLE_DEG 8.0
+
+/* 1200 directions; none near the mirror direction. */
+static void holed(double theta_i, Layout *out)
+{
+    for (int i = 0; i < 1200; i++) {
+        Vec3 d = around(0, degrees_from_radians(acos(1 - (i + 0.5) / 1200)), 137.50776 * i);
+        if (off_mirror(theta_i, d) > radians_from_degrees(HOLE_DEG)) add(out, d);
+    }
+}
+
+/* The hole filled in steps. */
+static double step_deg;
+
+static void filled(double theta_i, Layout *out)
+{
+    holed(theta_i, out);
+    add(out, around(theta_i, 0, 0));
+    for (double ring = step_deg; ring < HOLE_DEG; ring += step_deg)
+        for (double t = 0; t < 359; t += degrees_from_radians(step_deg / ring))
+            add(out, around(theta_i, ring, t));
+}
+
+static double between(const Fitted *f)
+{
+    return json_number_at(f->fit.report, "judged/reflection_between_samples/worst");
+}
+
+/* The verdict names a hole at a narrow peak; what it says to measure there is enough. */
+TEST(a_hole_at_a_peak_wants_care_and_its_advice_works)
+{
+    Lobe lobe = {12, 0.2, 0.01};
+    ENDS_BY(fitted_end) Fitted f = fit_layout(holed, &lobe);
+    const char *reason = json_string_value(
+        json_array_get(json_object_get(f.fit.report, "reasons"), 0));
+    const char *step = reason ? strstr(reason, "measure every ") : NULL;
+    assert_true(between(&f) > 0.15);
+    assert_non_null(step);
+    assert_non_null(strstr(reason, "no sample lies within "));
+    step_deg = strtod(step + strlen("measure every "), NULL);
+    assert_true(step_deg > 0.5 && step_deg < HOLE_DEG);
+    ENDS_BY(fitted_end) Fitted whole = fit_layout(filled, &lobe);
+    assert_true(between(&whole) < 0.15);
+    assert_string_equal(json_string_value(json_object_get(whole.fit.report, "verdict")),
+                        "good");
+}
+
+/* What a surface says of itself: it errs by about as much as it doubts. */
+TEST(a_surface_knows_how_far_it_is_off)
+{
+    static const double widths[] = {6, 12, 25};
+    Arena   arena = arena_reserve(1 << 28);
+    Layout *layout = ARENA_NEW(&arena, Layout, 1);
+    scattered(0.5, layout);
+    for (size_t k = 0; k < sizeof widths / sizeof *widths; k++) {
+        Lobe       lobe = {widths[k], 1, 0.2};
+        AngleTable table = table_of(layout, &lobe, 0.5, &arena);
+        const ScatterSurface *surface = scatter_surface_make(&table, false, table.value, 1,
+                                                             &arena);
+        double missed = 0, doubted = 0;
+        for (double t = 0; t < 360; t += 7)
+            for (double a = 1; a < widths[k]; a += 1) {
+                Vec3         d = around(0.5, a, t);
+                ScatterDoubt doubt;
+                float        here;
+                scatter_surface_read(surface, d, &here);
+                scatter_surface_doubt(surface, &d, 1, &doubt, arena);
+                double miss = (double)here - lobe_of(&lobe, 0.5, d);
+                double sigma = scatter_doubt_sigma(&doubt);
+                missed += miss * miss, doubted += sigma * sigma;
+            }
+        if (!(doubted > missed / 9 && doubted < 25 * missed))
+            fail_msg("lobe %g: off by %g, doubt %g", widths[k], sqrt(missed), sqrt(doubted));
+    }
+    arena_release(&arena);
+}
+
+/* ---- emission ---------------------------------------------------------------------------- */
+
+static AngleTable lit_table(const AngleTable *of, double share, Arena *arena)
+{
+    AngleTable out = *of;
+    float     *value = ARENA_NEW(arena, float, 3 * of->rows);
+    for (int i = 0; i < 3 * of->rows; i++) value[i] = (float)(share * (double)of->value[i / 3]);
+    out.channels = 3;
+    out.value = value;
+    return out;
+}
+
+/* Harmonics of the azimuth ran away between scattered samples: 10 % and more of the light. */
+TEST(an_emission_of_scattered_samples_is_as_smooth_as_they_are)
+{
+    Fitted     f;
+    FitOptions options = quick();
+    Lobe       lobe = {25, 300, 150};
+    fixture_folder(&f.fit);
+    Measurement *set = ARENA_NEW(&f.fit.arena, Measurement, 1);
+    Layout      *layout = ARENA_NEW(&f.fit.arena, Layout, 1);
+    set->file = set->panel = set->instrument = set->note = "";
+    scattered(0.5, layout);
+    AngleTable bare = table_of(layout, &lobe, 0.5, &f.fit.arena);
+    for (int p = 0; p < 3; p++) {
+        static const double shares[] = {0.2, 0.7, 0.1};
+        set->primary[p].level_count = 1;
+        set->primary[p].level[0] = 255;
+        set->primary[p].table[0] = lit_table(&bare, shares[p], &f.fit.arena);
+    }
+    f.fit.set = set;
+    fixture_fit(&f.fit, &options);
+    double worst = 0;
+    for (double a = 1; a < 75; a += 4)
+        for (double t = 0; t < 360; t += 11) {
+            Vec3  d = around(0, a, t);
+            float xyz[3], white[3] = {255, 255, 255};
+            panel_emission_xyz(f.fit.panel, d, white, xyz);
+            worst = fmax(worst, fabs((double)xyz[1] / lobe_of(&lobe, 0.5, d) - 1));
+        }
+    assert_true(worst < 0.02);
+    assert_true(json_number_at(f.fit.report, "judged/emission_between_samples/light") < 0.01);
+    fitted_end(&f);
 }
 
 TEST_PROGRAM(NULL, NULL)

@@ -281,18 +281,62 @@ static void judge_held_out(Judge *judge, const FitParts *parts)
     double      incidence = set->incidence[worst % set->incidence_count];
     double      degrees = degrees_from_radians(incidence);
     PeakSpacing spacing = peak_window_spacing(&r->parts.haze[worst], incidence, *judge->arena);
-    const char *left = most->is_quarter ? "a quarter of the samples"
-                                        : "every second ring or azimuth";
-    judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "%s left out near the mirror direction is "
-                     "missed by %.2g %% (light from %.4g degrees, theta %.4g, phi %.4g): with "
-                     "all of them, %.2g degrees apart, the panel may miss by %.2g %% between "
-                     "them, wanted at most %.0f %%: measure the BRDF every %.1g degrees there",
-                     left, 100 * most->error, degrees,
+    judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "every second ring or azimuth left out "
+                     "near the mirror direction is missed by %.2g %% (light from %.4g degrees, "
+                     "theta %.4g, phi %.4g): with all of them, %.2g degrees apart, the panel "
+                     "may miss by %.2g %% between them, wanted at most %.0f %%: measure the "
+                     "BRDF every %.1g degrees there", 100 * most->error, degrees,
                      degrees_from_radians(most->theta), degrees_from_radians(most->phi),
                      degrees_from_radians(spacing.widest), 100 * most->estimate,
                      100 * JUDGE_HELD_OUT_CARE, 0.5 * degrees_from_radians(spacing.widest));
     json_object_set_new(judge->figures, "held_out_error", json_real(most->error));
 }
+
+/* Samples that are no grid. key: of the figures; what: which table. */
+static void judge_gaps(Judge *judge, const char *key, const char *what,
+                       const ScatterGaps *gaps)
+{
+    double light = gaps->light / JUDGE_HELD_OUT_CARE, worst = gaps->worst / JUDGE_GAP_CARE;
+    double most = fmin(JUDGE_GAP_CARE, gaps->worst / fmax(1, light));
+    double phi = degrees_from_radians(gaps->phi) + (gaps->phi < 0 ? 360 : 0);
+    json_object_set_new(judge->figures, key,
+                        json_pack("{s:f, s:f}", "light", gaps->light, "worst",
+                                  gaps->worst));
+    if (!(fmax(light, worst) > 1)) return;
+    judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "%s: no sample lies within %.2g degrees "
+                     "of theta %.4g, phi %.4g, and values around it change so much that the "
+                     "panel may miss by %.2g %% there, required <= %.0f %%, and by %.2g %% of "
+                     "the light over all gaps, required <= %.0f %% (as samples are missed that "
+                     "the others predict): measure every %.2g degrees there", what,
+                     degrees_from_radians(gaps->gap), degrees_from_radians(gaps->theta), phi,
+                     100 * gaps->worst, 100 * JUDGE_GAP_CARE, 100 * gaps->light,
+                     100 * JUDGE_HELD_OUT_CARE,
+                     degrees_from_radians(scatter_gaps_step(gaps, most)));
+}
+
+/* Of tables that are no grid: the one that may be missed most. */
+static void judge_scattered(Judge *judge, const FitParts *parts)
+{
+    const HeldOut     *held_out = parts->reflection->held_out;
+    const Measurement *set = parts->set;
+    Arena  arena = *judge->arena;
+    int    worst = -1;
+    double most = -1;
+    for (int t = 0; t < parts->reflection->parts.tables; t++) {
+        const ScatterGaps *gaps = &held_out[t].gaps;
+        double cost = fmax(gaps->worst, gaps->light * JUDGE_GAP_CARE / JUDGE_HELD_OUT_CARE);
+        if (held_out[t].is_scattered && cost > most) most = cost, worst = t;
+    }
+    if (worst < 0) return;
+    double incidence = degrees_from_radians(set->incidence[worst % set->incidence_count]);
+    Judge  behind = *judge;
+    behind.arena = &arena;
+    const char *what = arena_format(&arena, "light from %.4g degrees", incidence);
+    judge_gaps(&behind, "reflection_between_samples", what, &held_out[worst].gaps);
+    judge->grade = behind.grade;
+}
+
+#define SHARED 0.5 /* of the azimuths: fewer see what they miss, as a lobe that is narrow */
 
 /* With none left out the gaps are half as wide. A pattern that neighbours nearly resolve is
  * then missed by a quarter, one that they do not by a half: tests/image/foreign_layouts.py. */
@@ -300,7 +344,8 @@ static void judge_left_out(Judge *judge, const EmissionTree *tree)
 {
     const PanelFollowing *f = &tree->edges.following;
     double apart = degrees_from_radians((double)tree->edges.grid.widest_gap);
-    double estimate = f->missed / (tree->edges.are_there || f->missed > 0.5 ? 2 : 4);
+    bool   is_unresolved = tree->edges.are_there || f->missed > 0.5 || f->shared < SHARED;
+    double estimate = f->missed / (is_unresolved ? 2 : 4);
     if (!tree->has_grid || !(f->missed > 0)) return;
     json_object_set_new(judge->figures, "azimuth_left_out_missed", json_real(f->missed));
     if (!(estimate > JUDGE_HELD_OUT_CARE)) return;
@@ -336,6 +381,7 @@ static void judge_reach(Judge *judge, const FitParts *parts)
     Doubt mirror = no_doubt(), haze = no_doubt();
     judge_specular(judge, set);
     judge_held_out(judge, parts);
+    judge_scattered(judge, parts);
     judge_between(judge, parts);
     if (!of->peak) return;
     for (int t = 0; t < of->tables; t++) {
@@ -389,6 +435,8 @@ void fit_judge(const FitParts *parts, const FitDeviations *all, const FitTable *
         judge_set_levels(&judge, parts->set);
         judge_outliers(&judge, parts);
         judge_left_out(&judge, &parts->emission->tree);
+        if (!parts->emission->tree.has_grid)
+            judge_gaps(&judge, "emission_between_samples", "emission", &parts->emission->gaps);
     }
     if (parts->reflection) {
         judge_albedo(&judge, parts);

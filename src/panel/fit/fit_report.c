@@ -44,7 +44,7 @@ static void find_least(EmissionCheck *check, Arena scratch)
         check->least[j] = fmax(20 * e->dim[check->index][j],
                                emission_samples_floor(table, j, e->outlier[check->index],
                                                       e->model->samples->floor_share));
-        check->noise[j] = table_noise_relative(table, j, scratch);
+        check->noise[j] = emission_samples_noise(table, j, scratch);
     }
 }
 

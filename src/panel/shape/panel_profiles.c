@@ -319,13 +319,15 @@ PanelFollowing panel_profiles_follow(PanelProfiles *e, Arena scratch)
 {
     int     n = e->grid.phis;
     double *still = ARENA_NEW(&scratch, double, n), *moved = ARENA_NEW(&scratch, double, n);
-    double  light = 0, whole;
+    double  light = 0, whole, sum = 0, squares = 0;
     PanelFollowing out = {0};
     for (int i = 0; i < n; i++) {
         still[i] = miss_of(e, i, false, &whole);
         moved[i] = miss_of(e, i, true, &whole);
         light += whole;
+        sum += still[i], squares += still[i] * still[i];
     }
+    out.shared = squares > 0 ? sum * sum / (n * squares) : 1;
     for (int i = 0; i < n; i++) {
         int next = (i + 1) % n;
         e->follows[i] = moved[i] + moved[next] < BETTER * (still[i] + still[next]);

@@ -65,6 +65,7 @@ void panel_profiles_make(PanelProfiles *started, const float *cells, double rest
 typedef struct PanelFollowing {
     int    intervals;
     double missed, missed_still;
+    double shared; /* by how many of the azimuths, as a share: 1, all miss as much */
 } PanelFollowing;
 PanelFollowing panel_profiles_follow(PanelProfiles *profiles, Arena scratch);
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/mathd.h"
+#include "base/units.h"
 #include "panel/shape/least_squares.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/set/measurement.h"
@@ -24,6 +25,7 @@ typedef struct Point {
 struct ScatterSurface {
     int    channels;
     double noise; /* of the values */
+    double share; /* of the noise in a patch's matrix */
     /* a cut: both halves between low and high along an axis */
     const ScatterSurface *half[2];
     int    axis;
@@ -119,8 +121,8 @@ static void fit_patch(ScatterSurface *s, const float *value, Arena *arena)
     Arena   scratch = *arena;
     double *matrix = ARENA_NEW(&scratch, double, n * n);
     double *right = ARENA_NEW(&scratch, double, n);
-    double  share = choose_noise(s, value, matrix, right);
-    factor_patch(s, share, matrix);
+    s->share = choose_noise(s, value, matrix, right);
+    factor_patch(s, s->share, matrix);
     for (size_t k = 0; k < channels; k++) {
         double *plane = s->weight + n * channels + k;
         take_channel(s, value, (int)k, right);
@@ -145,6 +147,116 @@ static void read_patch(const ScatterSurface *s, Point at, double share, double *
         double term = share * kernel(x - s->point[i].x, y - s->point[i].y);
         for (size_t k = 0; k < channels; k++) out[k] += term * s->weight[i * channels + k];
     }
+}
+
+/* ---- what a patch leaves open ------------------------------------------------------------ */
+
+#define NEAR 10  /* samples around a direction that say how rough the values are there */
+#define NOISE_BESIDE 2.0 /* times its variance: so far ten misses of noise alone may reach */
+#define TURNS 36 /* around a direction; */
+#define EDGE 14  /* so many of them without a sample: it lies at the edge or outside */
+
+/* A point's value as the others predict it: its miss, squared, less what noise explains, and
+ * the variance of such a prediction. Both follow from the inverse's diagonal (Dubrule, Math.
+ * Geol. 15, 1983). */
+typedef struct LeftOut {
+    double miss, open;
+    double value; /* of the point itself */
+} LeftOut;
+
+static void leave_out(const ScatterSurface *s, const double *factor, double *column,
+                      LeftOut *left)
+{
+    size_t n = (size_t)s->count, channels = (size_t)s->channels;
+    for (size_t i = 0; i < n; i++) {
+        double diagonal = 0, weight = s->weight[i * channels + channels / 2];
+        for (size_t j = i; j < n; j++) {
+            double sum = j == i;
+            for (size_t k = i; k < j; k++) sum -= factor[j * n + k] * column[k];
+            column[j] = sum / factor[j * n + j];
+            diagonal += column[j] * column[j];
+        }
+        double miss = weight / diagonal;
+        left[i].miss = miss * miss - NOISE_BESIDE * s->noise * s->noise;
+        left[i].open = 1 / diagonal;
+    }
+    for (size_t k = 0; k < n; k++) { /* L L^T weights */
+        column[k] = 0;
+        for (size_t i = k; i < n; i++)
+            column[k] += factor[i * n + k] * s->weight[i * channels + channels / 2];
+    }
+    for (size_t i = 0; i < n; i++) {
+        left[i].value = 0;
+        for (size_t k = 0; k <= i; k++) left[i].value += factor[i * n + k] * column[k];
+    }
+}
+
+/* Variance of the surface there, of unit roughness. */
+static double open_at(const ScatterSurface *s, const double *factor, Point at, double *column)
+{
+    size_t n = (size_t)s->count;
+    double open = PLANE * (1 + at.x * at.x + at.y * at.y);
+    for (size_t i = 0; i < n; i++) {
+        const Point *p = &s->point[i];
+        double sum = kernel(at.x - p->x, at.y - p->y) +
+                     PLANE * (1 + at.x * p->x + at.y * p->y);
+        for (size_t k = 0; k < i; k++) sum -= factor[i * n + k] * column[k];
+        column[i] = sum / factor[i * n + i];
+        open -= column[i] * column[i];
+    }
+    return fmax(0, open);
+}
+
+/* What the nearest points miss over what they might, how much their values differ, and how far
+ * the nearest one is. */
+static ScatterDoubt ask_nearest(const ScatterSurface *s, const LeftOut *left, Point at)
+{
+    double  far[NEAR] = {0}, open = 0, miss = 0, low = INFINITY, high = -INFINITY;
+    LeftOut near[NEAR] = {0};
+    int     count = 0;
+    for (int i = 0; i < s->count; i++) {
+        double x = s->point[i].x - at.x, y = s->point[i].y - at.y, square = x * x + y * y;
+        int    k = count < NEAR ? count++ : NEAR;
+        for (; k > 0 && far[k - 1] > square; k--)
+            if (k < NEAR) far[k] = far[k - 1], near[k] = near[k - 1];
+        if (k < NEAR) far[k] = square, near[k] = left[i];
+    }
+    for (int k = 0; k < count; k++) {
+        miss += near[k].miss, open += near[k].open;
+        low = fmin(low, near[k].value), high = fmax(high, near[k].value);
+    }
+    return (ScatterDoubt){.roughness = sqrt(fmax(0, miss / open)), .spread = high - low,
+                          .gap = sqrt(far[0])};
+}
+
+/* Do points stand all round? */
+static bool is_surrounded(const ScatterSurface *s, Point at)
+{
+    bool is_taken[TURNS] = {false};
+    int  empty = 0, most = 0;
+    for (int i = 0; i < s->count; i++) {
+        double turn = atan2_d(s->point[i].y - at.y, s->point[i].x - at.x) / (2 * PI) + 1;
+        is_taken[(int)(turn * TURNS) % TURNS] = true;
+    }
+    for (int i = 0; i < 2 * TURNS; i++) {
+        empty = is_taken[i % TURNS] ? 0 : empty + 1;
+        if (empty > most) most = empty;
+    }
+    return most < EDGE;
+}
+
+/* Units of values and of the plane: the kernel is a third power of the patch's scale. */
+static ScatterDoubt doubt_at(const ScatterSurface *s, const double *factor,
+                             const LeftOut *left, Point whole, double *column)
+{
+    double scale = s->scale * sqrt(s->scale), flat = whole.x * whole.x + whole.y * whole.y;
+    Point  at = {(whole.x - s->centre[0]) * s->scale, (whole.y - s->centre[1]) * s->scale, 0};
+    ScatterDoubt out = ask_nearest(s, left, at);
+    out.roughness *= scale;
+    out.open = sqrt(open_at(s, factor, at, column)) / scale;
+    out.gap *= 2 / (s->scale * (1 + flat));
+    out.is_between = is_surrounded(s, at);
+    return out;
 }
 
 /* ---- cuts -------------------------------------------------------------------------------- */
@@ -211,6 +323,36 @@ static void read_part(const ScatterSurface *s, Point at, double share, double *o
     if (right > 0) read_part(s->half[1], at, share * right, out);
 }
 
+/* The patch that says most at a place. */
+static const ScatterSurface *patch_at(const ScatterSurface *s, Point at)
+{
+    while (s->half[0]) s = s->half[along(&at, s->axis) > 0.5 * (s->low + s->high)];
+    return s;
+}
+
+static void doubt_patches(const ScatterSurface *root, const ScatterSurface *s, const Vec3 *at,
+                          int count, ScatterDoubt *out, Arena scratch)
+{
+    for (int h = 0; h < 2 && s->half[0]; h++)
+        doubt_patches(root, s->half[h], at, count, out, scratch);
+    if (s->half[0]) return;
+    size_t  n = (size_t)s->count;
+    double *factor = ARENA_NEW(&scratch, double, n * n);
+    double *column = ARENA_NEW(&scratch, double, n);
+    LeftOut *left = ARENA_NEW(&scratch, LeftOut, n);
+    bool    is_made = false;
+    for (int i = 0; i < count; i++) {
+        Point place = point_of(at[i]);
+        if (patch_at(root, place) != s) continue;
+        if (!is_made) {
+            factor_patch(s, s->share, factor);
+            leave_out(s, factor, column, left);
+            is_made = true;
+        }
+        out[i] = doubt_at(s, factor, left, place, column);
+    }
+}
+
 /* ---- the whole --------------------------------------------------------------------------- */
 
 const ScatterSurface *scatter_surface_make(const AngleTable *table, bool mirrored,
@@ -235,7 +377,42 @@ void scatter_surface_read(const ScatterSurface *surface, Vec3 at, float *out)
     for (int k = 0; k < surface->channels; k++) out[k] = (float)sum[k];
 }
 
+#define NOISE_ROWS 2000 /* at most about so many tell a table's noise */
+#define LEAST_LOG_SHARE 1e-6 /* of the largest value, where logarithms are taken */
+
+double scatter_surface_table_noise(const AngleTable *table, int channel, bool in_logs,
+                                   Arena scratch)
+{
+    AngleTable some = *table;
+    int        stride = 1 + table->rows / NOISE_ROWS, rows = table->rows / stride;
+    size_t     channels = (size_t)table->channels;
+    float     *theta = ARENA_NEW(&scratch, float, rows);
+    float     *phi = ARENA_NEW(&scratch, float, rows);
+    float     *value = ARENA_NEW(&scratch, float, rows), most = 1e-30f;
+    for (int i = 0; i < rows; i++) {
+        theta[i] = table->theta[i * stride], phi[i] = table->phi[i * stride];
+        value[i] = table->value[(size_t)(i * stride) * channels + (size_t)channel];
+        most = fmaxf(most, value[i]);
+    }
+    for (int i = 0; i < rows && in_logs; i++)
+        value[i] = (float)log_d(fmax((double)value[i], LEAST_LOG_SHARE * (double)most));
+    some.rows = rows, some.channels = 1;
+    some.theta = theta, some.phi = phi, some.value = value;
+    return scatter_surface_noise(scatter_surface_make(&some, false, value, 1, &scratch));
+}
+
 double scatter_surface_noise(const ScatterSurface *surface)
 {
     return surface->noise;
+}
+
+void scatter_surface_doubt(const ScatterSurface *surface, const Vec3 *at, int count,
+                           ScatterDoubt *out, Arena scratch)
+{
+    doubt_patches(surface, surface, at, count, out, scratch);
+}
+
+double scatter_doubt_sigma(const ScatterDoubt *doubt)
+{
+    return fmin(doubt->open * doubt->roughness, doubt->spread);
 }

@@ -30,3 +30,24 @@ void scatter_surface_read(const ScatterSurface *surface, Vec3 at, float *out);
 
 /* Standard deviation of the noise beside the surface, in the values' units. */
 double scatter_surface_noise(const ScatterSurface *surface);
+
+/* The same of a table's channel, or of its logarithms: what its scattered rows show. */
+double scatter_surface_table_noise(const AngleTable *table, int channel, bool in_logs,
+                                   Arena scratch);
+
+/* How far the surface may be off at a direction. */
+typedef struct ScatterDoubt {
+    double open;       /* of a surface of roughness 1 through the same samples */
+    double roughness;  /* what the samples around miss by as the others predict them, over it */
+    double spread;     /* by how much the values around differ */
+    double gap;        /* to the nearest sample, radians */
+    bool   is_between; /* samples stand all round */
+} ScatterDoubt;
+
+/* Of the middle channel, at many directions. |p - q|^3 is a covariance; the values' own noise
+ * is part of the roughness. */
+void scatter_surface_doubt(const ScatterSurface *surface, const Vec3 *at, int count,
+                           ScatterDoubt *out, Arena scratch);
+
+/* A standard deviation: open * roughness, and no more than the values around differ by. */
+double scatter_doubt_sigma(const ScatterDoubt *doubt);

@@ -8,6 +8,7 @@
 #include "base/sort.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/emission/emission_beam.h"
+#include "panel/fit/emission/emission_gaps.h"
 #include "panel/query/panel_file.h"
 #include "panel/set/primary_bands.h"
 #include "panel/shape/spectral_warp.h"
@@ -36,7 +37,7 @@ static void survey_tables(const Measurement *set, Arena *arena, EmissionResult *
     out->holes.flag = ARENA_NEW(arena, EmissionFlag, EMISSION_FLAGS_MAX);
     for (int i = 0; (table = emission_samples_table(set, out->has_black, i).table); i++) {
         out->table_count = i + 1;
-        out->noise[i] = table_noise_relative(table, 1, *arena);
+        out->noise[i] = emission_samples_noise(table, 1, *arena);
         for (int j = 0; j < 3; j++) out->dim[i][j] = table_noise_dim(table, j, *arena);
         out->outlier[i] = ARENA_NEW(arena, uint8_t, table->rows);
         out->outlier_count += emission_outliers_find(table, out->outlier[i], &out->outliers,
@@ -339,7 +340,9 @@ static void find_score_noise(EmissionModel *model, Arena *arena)
     table.value = model->rank->score;
     model->score_noise = ARENA_NEW(arena, float, n);
     for (int k = 0; k < n; k++)
-        model->score_noise[k] = (float)table_noise_plain(&table, k, *arena);
+        model->score_noise[k] = (float)(model->is_scattered
+            ? scatter_surface_table_noise(&table, k, false, *arena)
+            : table_noise_plain(&table, k, *arena));
 }
 
 /* Noise of a channel due to the scores' noise; the median of all. */
@@ -405,6 +408,7 @@ static bool build_model(const Measurement *set, const FitOptions *options, Arena
         samples->held_share = HELD_EDGED;
         gather(model, set, out, samples, arena);
     }
+    model->is_scattered = emission_samples_are_scattered(samples->master, *arena);
     emission_samples_note(samples, *arena, notes);
     find_score_noise(model, arena);
     model->noise = channel_noise(model, *arena);
@@ -426,6 +430,8 @@ bool emission_fit(const Measurement *set, const FitOptions *options, Arena *aren
     if (!build_model(set, options, arena, notes, out, model))
         return error_set(err, ERROR_INPUT, "emission: the smooth part cannot be stored");
     if (!emission_tree_build(model, options, arena, &out->tree, err)) return false;
+    if (!out->tree.has_grid)
+        out->gaps = emission_gaps_find(model, out->tree.bytes, out->tree.level, *arena);
     emission_beam_note(model, notes);
     if (out->tree.has_grid) emission_edges_note(&out->tree.edges, notes);
     if (out->tree.missed)

@@ -7,6 +7,7 @@
  * Fails    when smooth part or tree cannot be stored (ERROR_INPUT).
  */
 #pragma once
+#include "panel/fit/common/scatter_gaps.h"
 #include "panel/fit/emission/emission_outliers.h"
 #include "panel/fit/emission/emission_tree.h"
 
@@ -14,6 +15,7 @@ typedef struct EmissionResult {
     const void   *section; /* as in the file */
     size_t        section_size;
     EmissionTree  tree;
+    ScatterGaps   gaps; /* of samples that are no grid */
     const EmissionModel *model; /* in the end */
     int           table_count;
     bool          has_black;

@@ -6,9 +6,13 @@
 
 #include "base/mathd.h"
 #include "base/mathf.h"
+#include "hemisphere/vertex/vertex.h"
+#include "panel/fit/common/scatter_surface.h"
 #include "panel/shape/least_squares.h"
 #include "panel/query/panel_components.h"
 #include "panel/shape/panel_spline.h"
+
+#define SURFACE_LEVEL 5 /* of the lattice at which a surface through scattered rows is read */
 
 static void add_beams(const EmissionModel *model, Vec3 direction, float *components)
 {
@@ -183,6 +187,45 @@ static bool keep_smooth(EmissionModel *model, const PanelSplineNumbers *all, Are
                              &model->spline, &used);
 }
 
+static void add_rows(Normal *normal, const EmissionModel *model)
+{
+    const EmissionSamples *s = model->samples;
+    for (int i = 0; i < s->rows; i++) {
+        Taps  taps;
+        float score[PANEL_COMPONENTS_MAX];
+        find_taps(normal->term, normal->terms, s->direction[i], &taps);
+        emission_model_bare_scores(model, i, score);
+        add_sample(normal, &taps, score, (double)model->rank->belief[i] * s->area[i]);
+    }
+}
+
+/* Scattered rows leave holes in which harmonics would run away: the surface through them is
+ * fitted instead. */
+static void add_surface(Normal *normal, const EmissionModel *model, Arena scratch)
+{
+    const EmissionSamples *s = model->samples;
+    VertexLattice lattice = {SURFACE_LEVEL, 4};
+    size_t n = (size_t)normal->components, count = vertex_count(lattice);
+    float *scores = ARENA_NEW(&scratch, float, n * (size_t)s->rows);
+    Vec3  *at = ARENA_NEW(&scratch, Vec3, count);
+    for (int i = 0; i < s->rows; i++) {
+        float score[PANEL_COMPONENTS_MAX];
+        emission_model_bare_scores(model, i, score);
+        memcpy(scores + (size_t)i * n, score, n * sizeof *score);
+    }
+    const ScatterSurface *surface = scatter_surface_make(s->master, false, scores, (int)n,
+                                                         &scratch);
+    vertex_directions(lattice, at);
+    for (size_t v = 0; v < count; v++) {
+        Taps  taps;
+        float score[PANEL_COMPONENTS_MAX];
+        if ((double)at[v].z < cos_d(s->cone)) continue;
+        scatter_surface_read(surface, at[v], score);
+        find_taps(normal->term, normal->terms, at[v], &taps);
+        add_sample(normal, &taps, score, 1);
+    }
+}
+
 bool emission_model_fit_smooth(EmissionModel *model, Arena *arena)
 {
     const EmissionSamples *samples = model->samples;
@@ -194,13 +237,8 @@ bool emission_model_fit_smooth(EmissionModel *model, Arena *arena)
     size_t  unknowns = (size_t)normal.unknowns;
     normal.matrix = ARENA_NEW(&scratch, double, unknowns * unknowns);
     normal.right = ARENA_NEW(&scratch, double, unknowns * (size_t)components);
-    for (int i = 0; i < samples->rows; i++) {
-        Taps  taps;
-        float score[PANEL_COMPONENTS_MAX];
-        find_taps(term, terms, samples->direction[i], &taps);
-        emission_model_bare_scores(model, i, score);
-        add_sample(&normal, &taps, score, (double)rank->belief[i] * samples->area[i]);
-    }
+    if (model->is_scattered) add_surface(&normal, model, scratch);
+    else add_rows(&normal, model);
     float *numbers = ARENA_NEW(&scratch, float, unknowns * (size_t)components);
     for (int k = 0; k < components; k++)
         solve_component(&normal, k, model, numbers, scratch);

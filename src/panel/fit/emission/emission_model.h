@@ -30,6 +30,7 @@ typedef struct EmissionModel {
     float        *score_noise; /* per component, of a row's score */
     const double (*dim)[3];  /* noise without light of every table's X, Y, Z, cd m^-2 */
     double        tolerance; /* relative to M */
+    bool          is_scattered; /* the samples have no rings */
     double        noise;     /* of the channels after the components pooled it, a median */
 } EmissionModel;
 

@@ -8,6 +8,7 @@
 #include "base/sort.h"
 #include "base/units.h"
 #include "panel/fit/common/direction_grid.h"
+#include "panel/fit/common/scatter_surface.h"
 #include "panel/fit/common/table_rows.h"
 
 EmissionTable emission_samples_table(const Measurement *set, bool has_black, int index)
@@ -75,12 +76,30 @@ double emission_samples_floor(const AngleTable *table, int channel, const uint8_
     return fmax(share * most, EMISSION_NO_LIGHT);
 }
 
+/* Most rows stand on a ring of their own, which is what rings are looked for in first. */
+bool emission_samples_are_scattered(const AngleTable *table, Arena scratch)
+{
+    DirectionGrid grid;
+    int           rings = 0;
+    for (int i = 0; i < table->rows; i = table_ring_end(table, i)) rings++;
+    if (2 * rings <= table->rows) return false;
+    direction_grid_build(table, false, &scratch, &grid);
+    return grid.is_scattered;
+}
+
+double emission_samples_noise(const AngleTable *table, int channel, Arena scratch)
+{
+    return emission_samples_are_scattered(table, scratch)
+               ? scatter_surface_table_noise(table, channel, true, scratch)
+               : table_noise_relative(table, channel, scratch);
+}
+
 static TableNoise table_noise(const AngleTable *table, const double floor[3], Arena scratch)
 {
     TableNoise noise;
     for (int j = 0; j < 3; j++) {
         noise.floor[j] = floor[j];
-        noise.relative[j] = table_noise_relative(table, j, scratch);
+        noise.relative[j] = emission_samples_noise(table, j, scratch);
         noise.dim[j] = table_noise_dim(table, j, scratch);
     }
     return noise;

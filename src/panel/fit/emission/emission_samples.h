@@ -45,6 +45,12 @@ typedef struct EmissionTable {
 /* Table `index` of a set in the order of channels; has_black: the pattern is one of them. */
 EmissionTable emission_samples_table(const Measurement *set, bool has_black, int index);
 
+/* Have a table's rows no grid's order? */
+bool emission_samples_are_scattered(const AngleTable *table, Arena scratch);
+
+/* A channel's relative noise, of a grid or of scattered rows. */
+double emission_samples_noise(const AngleTable *table, int channel, Arena scratch);
+
 /* The least value that errors of a table's channel are relative to: a share of its largest
  * value in rows that outlier (NULL: none) does not mark. */
 double emission_samples_floor(const AngleTable *table, int channel, const uint8_t *outlier,

@@ -4,9 +4,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "base/mathf.h"
 #include "hemisphere/vertex/vertex.h"
 #include "hemisphere/vertex/vertex_fit.h"
+#include "panel/fit/common/scatter_surface.h"
 
 /* The ridge: noise^2 / (rows * the rest's expected curvature^2) is where a detail's own
  * evidence and the expectation that it is small weigh the same. */
@@ -77,6 +79,24 @@ static bool fit_values(const EmissionValues *on, const VertexSamples *samples, F
     }
 }
 
+/* What the surface through scattered rows says; beyond the cone what it says at its edge. */
+static void read_surface(const EmissionValues *on, const float *one, Arena scratch,
+                         float *values)
+{
+    const EmissionSamples *s = on->model->samples;
+    const ScatterSurface  *surface = scatter_surface_make(s->master, false, one, 1, &scratch);
+    Vec3  *at = ARENA_NEW(&scratch, Vec3, on->vertices);
+    double low = cos_d(s->cone), across = sin_d(s->cone);
+    vertex_directions(on->lattice, at);
+    for (uint32_t v = 0; v < on->vertices; v++) {
+        double r = sqrt((double)(at[v].x * at[v].x + at[v].y * at[v].y));
+        if ((double)at[v].z < low)
+            at[v] = vec3((float)(at[v].x * across / r), (float)(at[v].y * across / r),
+                         (float)low);
+        scatter_surface_read(surface, at[v], &values[v]);
+    }
+}
+
 bool emission_values_fit(const EmissionValues *on, const float *rest, int component,
                          Arena scratch, Error *err)
 {
@@ -90,8 +110,10 @@ bool emission_values_fit(const EmissionValues *on, const float *rest, int compon
         weight[i] = on->model->rank->belief[i] * (float)s->area[i];
         low = fminf(low, one[i]), high = fmaxf(high, one[i]);
     }
+    if (on->model->is_scattered) read_surface(on, one, scratch, values);
     VertexSamples samples = {s->rows, 1, s->direction, one, weight};
-    if (!fit_values(on, &samples, goal_of(on, rest, component), scratch, values, err))
+    if (!on->model->is_scattered &&
+        !fit_values(on, &samples, goal_of(on, rest, component), scratch, values, err))
         return false;
     for (uint32_t v = 0; v < on->vertices; v++) /* what nothing measures cannot run away */
         on->value[v * (uint32_t)n + (uint32_t)component] = clampf(values[v], low, high);

@@ -204,6 +204,7 @@ bool reflection_fit(const Measurement *set, const FitOptions *options, Arena *ar
     reflection_surface_choose(model, notes);
     HeldOutPass pass = {model, ARENA_NEW(arena, HeldOut, model->tables)};
     parallel_for(options->threads, model->tables, hold_out, &pass);
+    reflection_held_out_peaks(model, pass.held_out);
     if (!choose_frame(model, err) || !code_frames(model, &misses, err)) return false;
     parallel_for(options->threads, model->tables, look_between, &pass);
     out->held_out = pass.held_out;

@@ -9,10 +9,8 @@
 #include "hemisphere/tree/tree_open.h"
 #include "hemisphere/tree/tree_query.h"
 #include "panel/fit/common/table_rows.h"
-#include "panel/fit/reflection/reflection_reach.h"
 #include "panel/fit/reflection/reflection_read.h"
 #include "panel/fit/reflection/reflection_spectra.h"
-#include "panel/query/panel_reach.h"
 
 #define NEAR_DEG 15.0      /* rows nearer to the mirror direction than this */
 #define NEAR_STEPS 2.0     /* or than so many steps */
@@ -33,8 +31,6 @@ typedef struct Thinned {
     AngleTable      kept;
     DirectionGrid   grid;
     float          *cells;
-    const ScatterSurface *scatter; /* of a table without a grid's order, instead */
-    PanelReachStored reach_left; /* of such a table: what the rows that are left surround */
     ReflectionGuide guide;
     Arena          *arena;
 } Thinned;
@@ -72,35 +68,12 @@ static bool is_guided(const Thinned *thinned)
     return thinned->model->guide[thinned->table].is_used;
 }
 
-static bool is_scattered(const Thinned *thinned)
-{
-    return thinned->model->scatter[thinned->table] != NULL;
-}
-
-/* Rows without rings or azimuths to leave out. */
-static bool has_no_order(const Thinned *thinned)
-{
-    return thinned->model->grid[thinned->table].is_scattered;
-}
-
-/* 0 to 3 by the direction; the same for its mirror image. */
-static int lot_of(float theta, float phi)
-{
-    unsigned a = (unsigned)(theta * 1e4f + 0.5f), b = (unsigned)(phi * 1e4f + 0.5f);
-    unsigned mixed = (a * 2654435761u) ^ (b * 2246822519u);
-    return (int)((mixed ^ (mixed >> 15)) * 3266489917u >> 30);
-}
-
-/* Is a row left out? Of a table without rings a quarter, four ways. Ways 0 and 1: every second
- * ring; 2 and 3: every second azimuth. In a guided table every second azimuth of every second
- * ring, four ways. The pole never. */
+/* Is a row left out? Ways 0 and 1: every second ring; 2 and 3: every second azimuth. In a
+ * guided table every second azimuth of every second ring, four ways. The pole never. */
 static bool is_out(const Thinned *thinned, int row, int way)
 {
     const AngleTable *table = rows_of(thinned);
     if (!(table->theta[row] > SAME_ANGLE)) return false;
-    if (has_no_order(thinned))
-        return lot_of(table->theta[row], folded(thinned, table->phi[row])) == way &&
-               angle_of(thinned, row) < thinned->reach;
     int ring = ring_of(thinned, row) % 2;
     int azimuth = direction_grid_index(thinned->azimuth, thinned->azimuths,
                                        folded(thinned, table->phi[row]), SAME_ANGLE) % 2;
@@ -165,16 +138,6 @@ static double guide_log(const Thinned *thinned, double theta, double phi)
     return thinned->guide.is_used ? reflection_guide_log(&thinned->guide, theta, phi) : 0;
 }
 
-/* The surface through what is left, as the fit makes it. */
-static void build_surface(Thinned *thinned, float *over)
-{
-    bool mirrored = thinned->model->set->azimuth_count < 2;
-    for (int i = 0; i < thinned->kept.rows; i++)
-        over[i] = (float)log_d((double)fmaxf(over[i], 1e-30f));
-    thinned->scatter = scatter_surface_make(&thinned->kept, mirrored, over, 1, thinned->arena);
-    thinned->reach_left = reflection_reach(&thinned->kept, mirrored, *thinned->arena);
-}
-
 /* Cells hold values over the guide, so that missing rows are filled relative to it. */
 static void build_cells(Thinned *thinned)
 {
@@ -185,10 +148,6 @@ static void build_cells(Thinned *thinned)
         over[i] = (float)((double)fmaxf(kept->value[i], least) *
                           exp_d(-guide_log(thinned, (double)kept->theta[i],
                                            (double)kept->phi[i])));
-    if (is_scattered(thinned)) {
-        build_surface(thinned, over);
-        return;
-    }
     direction_grid_build(kept, thinned->model->set->azimuth_count < 2, thinned->arena,
                          &thinned->grid);
     thinned->cells = direction_grid_cells(&thinned->grid, over, 1, thinned->arena);
@@ -200,13 +159,8 @@ static double predict(const Thinned *thinned, float theta, float phi)
 {
     GridTaps taps;
     float    log;
-    if (thinned->scatter) {
-        scatter_surface_read(thinned->scatter, table_direction((double)theta, (double)phi),
-                             &log);
-    } else {
-        direction_grid_taps(&thinned->grid, theta, phi, &taps);
-        direction_grid_read(&taps, thinned->cells, 1, &log);
-    }
+    direction_grid_taps(&thinned->grid, theta, phi, &taps);
+    direction_grid_read(&taps, thinned->cells, 1, &log);
     return exp_d((double)log + guide_log(thinned, (double)theta, (double)phi));
 }
 
@@ -232,8 +186,6 @@ static bool *steep_rings(const Thinned *thinned)
 static bool is_between(const Thinned *thinned, int row, const bool *steep)
 {
     const AngleTable *table = rows_of(thinned), *kept = &thinned->kept;
-    if (has_no_order(thinned))
-        return panel_reach_room(&thinned->reach_left, table_row_direction(table, row)) > 0;
     return table->theta[row] >= kept->theta[0] &&
            table->theta[row] <= kept->theta[kept->rows - 1] && steep[ring_of(thinned, row)];
 }
@@ -259,9 +211,57 @@ static void compare(const Thinned *thinned, int way, double core, const bool *st
     }
 }
 
+/* ---- tables without a grid's order ------------------------------------------------------- */
+
+typedef struct GapRead {
+    const ReflectionModel *model;
+    int                    table;
+} GapRead;
+
+static double read_gap(void *context, Vec3 at, double *off)
+{
+    const GapRead *read = context;
+    float logs[MEASUREMENT_WAVELENGTHS_MAX];
+    *off = 0;
+    reflection_read_logs(read->model, read->table, at, logs);
+    return (double)logs[read->model->wavelengths / 2];
+}
+
+static HeldOut find_gaps(const ReflectionModel *model, int table, Arena scratch)
+{
+    GapRead      read = {model, table};
+    ScatterAsked asked = {model->scatter[table], read_gap, &read};
+    HeldOut      out = {.is_scattered = true};
+    Vec3 mirror = table_direction(reflection_model_incidence(model, table), 0);
+    out.gaps = scatter_gaps_find(&asked, scratch);
+    scatter_surface_doubt(asked.surface, &mirror, 1, &out.mirror, scratch);
+    return out;
+}
+
+void reflection_held_out_peaks(const ReflectionModel *model, HeldOut *held_out)
+{
+    double roughness = 0, spread = 0;
+    for (int t = 0; t < model->tables; t++) {
+        roughness = fmax(roughness, held_out[t].mirror.roughness);
+        spread = fmax(spread, held_out[t].mirror.spread);
+    }
+    for (int t = 0; t < model->tables; t++) {
+        HeldOut     *out = &held_out[t];
+        ScatterDoubt doubt = out->mirror;
+        doubt.roughness = roughness, doubt.spread = spread;
+        double miss = scatter_gaps_miss(scatter_doubt_sigma(&doubt));
+        if (!doubt.is_between || miss <= out->gaps.worst) continue;
+        out->gaps.worst = miss, out->gaps.gap = doubt.gap;
+        out->gaps.theta = reflection_model_incidence(model, t), out->gaps.phi = 0;
+    }
+}
+
+/* ---- one table --------------------------------------------------------------------------- */
+
 HeldOut reflection_held_out(const ReflectionModel *model, int table, Arena scratch)
 {
     HeldOut out = {0};
+    if (model->scatter[table]) return find_gaps(model, table, scratch);
     Thinned thinned = {.model = model, .table = table, .arena = &scratch,
                        .incidence = reflection_model_incidence(model, table)};
     PeakSpacing spacing = peak_window_spacing(rows_of(&thinned), thinned.incidence, scratch);
@@ -270,8 +270,7 @@ HeldOut reflection_held_out(const ReflectionModel *model, int table, Arena scrat
     list_angles(&thinned);
     bool *steep = steep_rings(&thinned);
     for (int way = 0; way < 4; way++) {
-        bool is_few = (way < 2 ? thinned.rings : thinned.azimuths) < FEWEST;
-        if (is_few && !has_no_order(&thinned)) continue;
+        if ((way < 2 ? thinned.rings : thinned.azimuths) < FEWEST) continue;
         Arena   inner = scratch;
         Thinned one = thinned;
         one.arena = &inner;
@@ -280,7 +279,6 @@ HeldOut reflection_held_out(const ReflectionModel *model, int table, Arena scrat
         build_cells(&one);
         compare(&one, way, model->parts->has_mirror ? CORE_FWHMS * fwhm : 0, steep, &out);
     }
-    out.is_quarter = has_no_order(&thinned);
     out.estimate = out.error / (is_guided(&thinned) ? 1 : CUBIC_ORDER);
     return out;
 }

@@ -4,13 +4,14 @@
  *
  * Every second ring is left out, then every second azimuth, each both ways; what is left is
  * read as the fit reads tables: a cubic, whose error falls with the third power of the step. Of
- * a table without rings a quarter of the rows is left out, four ways, by lot. Of
  * a table with a guide a quarter of the rows near the mirror direction is left out, four ways,
- * and the guide is fitted anew without them. Rows under the mirror's image do not count: the
+ * and the guide is fitted anew without them. Of scattered rows none is left out, but the gaps
+ * between them are judged. Rows under the mirror's image do not count: the
  * fit made them.
  * Memory   scratch. Threads: pure functions. Fails: never.
  */
 #pragma once
+#include "panel/fit/common/scatter_gaps.h"
 #include "panel/fit/reflection/reflection_model.h"
 
 /* The row that is missed most. */
@@ -20,10 +21,15 @@ typedef struct HeldOut {
     double between;    /* of the tree halfway between rows, relative */
     double theta, phi; /* radians, in the table's frame */
     int    rows;       /* that were left out and counted */
-    bool   is_quarter; /* of a table without rings: a quarter of its rows, by lot */
+    bool   is_scattered; /* no grid: none of the above, but gaps */
+    ScatterGaps  gaps;
+    ScatterDoubt mirror; /* of the surface in the mirror direction */
 } HeldOut;
 
 HeldOut reflection_held_out(const ReflectionModel *model, int table, Arena scratch);
+
+/* What one table's samples show in the mirror direction may lie in another one's gap there. */
+void reflection_held_out_peaks(const ReflectionModel *model, HeldOut *held_out);
 
 /* At samples the coder sees what the tree misses; between the rows of a coarse table only this
  * does: it compares the tree with reading the table (and its guide), near the mirror direction,
