@@ -101,7 +101,8 @@ def lattice_corners(level, n):
 
 
 def open_tree(data):
-    return {b"VRTX": VertexTree, b"VRTP": PackedTree, b"HAAR": HaarTree, b"GRID": Cells}[data[:4]](data)
+    kind = {b"VRTX": VertexTree, b"VRTP": PackedTree, b"HAAR": HaarTree, b"GRID": Cells}
+    return kind[data[:4]](data)
 
 
 # ---- GRID ----------------------------------------------------------------------------------
