@@ -39,9 +39,7 @@ FILES = { # what a file does not say itself
     "photometry/road_luminaire.ldt": [],
     "photometry/threejs_007cfb.ies": [],
 }
-LARGER = { # trees of what is between scattered samples; of 20 components
-    "bsdf/loft-rt300s/AnoBlackNiTEonINVAR.bsdf": 1.05,
-    "bsdf/loft-rt300s/BrownVinyl_TIS_validation.bsdf": 1.15,
+LARGER = { # a tree of 20 components
     "bsdf/speos/R_test.anisotropicbsdf": 0.15,
 }
 

@@ -16,7 +16,7 @@
 #include "panel/query/panel_reach.h"
 
 #define PLACE_SHARE 0.8    /* of the bound, for places: the rest is for what lies between */
-#define PEAK_SHARE 0.35    /* of that where a table is within 1/e of its largest value */
+#define PEAK_SHARE 0.35    /* of that where a grid is within 1/e of its largest value */
 #define GUIDED_SHARE 0.6   /* of tables between whose rows no sample checks the tree */
 #define HELD_FROM 0.05f    /* radians behind their edge: triangles reach across it */
 #define HELD_ROOM 4.0      /* times the bound, for what is held outside of the samples */
@@ -73,7 +73,7 @@ static void start_tolerances(ReflectionModel *model)
             double f = exp_d((double)row[middle]) * reflection_view_reference(&view, local);
             double bound = fmax(model->bound,
                                 5 * reflection_parts_noise(model->parts, t, f)) * PLACE_SHARE;
-            if (row[middle] > peak - 1) bound *= PEAK_SHARE;
+            if (row[middle] > peak - 1 && !model->scatter[t]) bound *= PEAK_SHARE;
             if (model->guide[t].is_used) bound *= GUIDED_SHARE;
             if (model->scatter[t] && panel_reach_room(&model->reach[t], local) < -HELD_FROM)
                 bound *= HELD_ROOM;
