@@ -83,6 +83,7 @@ static void mixed(double theta_i, Layout *out)
 
 typedef struct Lobe {
     double width_deg, height, floor;
+    double noise; /* of its samples, relative, rms */
 } Lobe;
 
 static double lobe_of(const Lobe *lobe, double theta_i, Vec3 d)
@@ -106,12 +107,14 @@ static AngleTable table_of(const Layout *layout, const Lobe *lobe, double theta_
     float *theta = ARENA_NEW(arena, float, layout->rows);
     float *phi = ARENA_NEW(arena, float, layout->rows);
     float *value = ARENA_NEW(arena, float, layout->rows);
+    uint32_t random = 5;
     for (int i = 0; i < layout->rows; i++) {
         Vec3   d = layout->direction[i];
+        double error = lobe->noise * sqrt(12) * (steady_random(&random) - 0.5);
         double turn = atan2((double)d.y, (double)d.x);
         row[i][0] = (float)atan2(hypot((double)d.x, (double)d.y), (double)d.z);
         row[i][1] = (float)(turn < 0 ? turn + 2 * PI : turn);
-        row[i][2] = (float)lobe_of(lobe, theta_i, d);
+        row[i][2] = (float)(lobe_of(lobe, theta_i, d) * (1 + error));
     }
     qsort(row, (size_t)layout->rows, sizeof *row, by_direction);
     for (int i = 0; i < layout->rows; i++)
@@ -169,7 +172,7 @@ static double error_of(LayoutMaker *make, const Lobe *lobe)
 
 TEST(any_layout_fits_like_a_grid)
 {
-    static const Lobe lobes[] = {{25, 0.03, 0.006}, {12, 0.2, 0.01}};
+    static const Lobe lobes[] = {{25, 0.03, 0.006, 0}, {12, 0.2, 0.01, 0}};
     static LayoutMaker *const layouts[] = {mirror_rings, mixed};
     for (size_t k = 0; k < sizeof lobes / sizeof *lobes; k++) {
         double grid = error_of(normal_rings, &lobes[k]);
@@ -198,7 +201,7 @@ static double off_mirror(double theta_i, Vec3 d)
 
 TEST(outside_of_the_samples_values_are_held_and_said_to_be_extrapolated)
 {
-    Lobe   lobe = {25, 0.1, 0.005};
+    Lobe   lobe = {25, 0.1, 0.005, 0};
     ENDS_BY(fitted_end) Fitted f = fit_layout(narrow_rings, &lobe);
     double ring = radians_from_degrees(40), near = radians_from_degrees(3);
     for (int i = 0; i < COUNT; i++)
@@ -223,7 +226,7 @@ TEST(outside_of_the_samples_values_are_held_and_said_to_be_extrapolated)
 /* What surrounds the cone has no hulls in its file, and what was measured is its cone. */
 TEST(scattered_samples_of_the_whole_cone_need_no_hulls)
 {
-    Lobe lobe = {25, 0.1, 0.005};
+    Lobe lobe = {25, 0.1, 0.005, 0};
     ENDS_BY(fitted_end) Fitted f = fit_layout(scattered, &lobe);
     assert_false(panel_info_has_hulls(f.fit.panel));
     assert_true(panel_brdf_is_measured(f.fit.panel, direction_deg(77, 123),
@@ -237,7 +240,7 @@ TEST(a_surface_of_many_patches_is_smooth)
 {
     Arena   arena = arena_reserve(1 << 28);
     Layout *layout = ARENA_NEW(&arena, Layout, 1);
-    Lobe    lobe = {30, 1, 0.5};
+    Lobe    lobe = {30, 1, 0.5, 0};
     for (int i = 0; i < 3000; i++)
         add(layout, around(0, degrees_from_radians(acos(1 - (i + 0.5) / 3000 * 0.8)),
                            137.50776 * i));
@@ -267,7 +270,7 @@ TEST(a_surface_passes_beside_noise_and_tells_it)
 {
     Arena   arena = arena_reserve(1 << 28);
     Layout *layout = ARENA_NEW(&arena, Layout, 1);
-    Lobe    lobe = {30, 1, 0.5};
+    Lobe    lobe = {30, 1, 0.5, 0};
     float   here;
     double  squares = 0, count = 0;
     uint32_t seed = 7;
@@ -323,7 +326,7 @@ static double between(const Fitted *f)
 /* The verdict names a hole at a narrow peak; what it says to measure there is enough. */
 TEST(a_hole_at_a_peak_wants_care_and_its_advice_works)
 {
-    Lobe lobe = {12, 0.2, 0.01};
+    Lobe lobe = {12, 0.2, 0.01, 0};
     ENDS_BY(fitted_end) Fitted f = fit_layout(holed, &lobe);
     const char *reason = json_string_value(
         json_array_get(json_object_get(f.fit.report, "reasons"), 0));
@@ -339,6 +342,21 @@ TEST(a_hole_at_a_peak_wants_care_and_its_advice_works)
                         "good");
 }
 
+/* What may be noise or fine structure is no "good" panel: the sentence says how much. */
+TEST(samples_that_scatter_want_care)
+{
+    Lobe steady = {25, 0.03, 0.006, 0.005}, unsteady = {25, 0.03, 0.006, 0.06};
+    ENDS_BY(fitted_end) Fitted good = fit_layout(scattered, &steady);
+    ENDS_BY(fitted_end) Fitted poor = fit_layout(scattered, &unsteady);
+    double spread = json_number_at(poor.fit.report, "judged/reflection_spread");
+    char  *reasons = json_dumps(json_object_get(poor.fit.report, "reasons"), 0);
+    assert_true(json_number_at(good.fit.report, "judged/reflection_spread") < 0.02);
+    assert_true(spread > 0.03 && spread < 0.12);
+    assert_non_null(strstr(reasons, "the samples scatter by "));
+    assert_non_null(strstr(reasons, "measure in half the steps"));
+    free(reasons);
+}
+
 /* What a surface says of itself: it errs by about as much as it doubts. */
 TEST(a_surface_knows_how_far_it_is_off)
 {
@@ -347,7 +365,7 @@ TEST(a_surface_knows_how_far_it_is_off)
     Layout *layout = ARENA_NEW(&arena, Layout, 1);
     scattered(0.5, layout);
     for (size_t k = 0; k < sizeof widths / sizeof *widths; k++) {
-        Lobe       lobe = {widths[k], 1, 0.2};
+        Lobe       lobe = {widths[k], 1, 0.2, 0};
         AngleTable table = table_of(layout, &lobe, 0.5, &arena);
         const ScatterSurface *surface = scatter_surface_make(&table, false, table.value, 1,
                                                              &arena);
@@ -386,7 +404,7 @@ TEST(an_emission_of_scattered_samples_is_as_smooth_as_they_are)
 {
     Fitted     f;
     FitOptions options = quick();
-    Lobe       lobe = {25, 300, 150};
+    Lobe       lobe = {25, 300, 150, 0};
     fixture_folder(&f.fit);
     Measurement *set = ARENA_NEW(&f.fit.arena, Measurement, 1);
     Layout      *layout = ARENA_NEW(&f.fit.arena, Layout, 1);

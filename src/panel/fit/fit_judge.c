@@ -336,6 +336,48 @@ static void judge_scattered(Judge *judge, const FitParts *parts)
     judge->grade = behind.grade;
 }
 
+/* Noise of a table's samples, relative, rms. */
+static double table_spread(const ReflectionParts *parts, int t, int wavelengths)
+{
+    const AngleTable *table = &parts->kept[t];
+    double squares = 0;
+    int    count = 0;
+    for (int i = 0; i < table->rows; i++) {
+        double f = (double)table->value[(size_t)i * (size_t)wavelengths +
+                                        (size_t)wavelengths / 2];
+        double noise = reflection_parts_noise(parts, t, f);
+        if (!(f > 0) || noise > 1) continue; /* dark: held above a floor */
+        squares += noise * noise;
+        count++;
+    }
+    return sqrt(squares / fmax(1, count));
+}
+
+/* What looks like noise in scattered samples is pardoned: structure that is finer than the
+ * samples cannot be told from it. */
+static void judge_spread(Judge *judge, const FitParts *parts)
+{
+    const ReflectionResult *r = parts->reflection;
+    const Measurement      *set = parts->set;
+    double most = -1;
+    int    worst = 0;
+    for (int t = 0; t < r->parts.tables; t++) {
+        double spread = r->held_out[t].is_scattered
+                        ? table_spread(&r->parts, t, set->wavelength_count) : -1;
+        if (spread > most) most = spread, worst = t;
+    }
+    if (most < 0) return;
+    add_figure(judge, "reflection_spread", most);
+    if (!(most > JUDGE_SPREAD_CARE)) return;
+    judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "light from %.4g degrees: the samples "
+                     "scatter by %.2g %% rms about what their neighbours say, required <= "
+                     "%.0f %%; errors within that are taken for noise, and may be structure "
+                     "finer than the samples: measure in half the steps (structure is then "
+                     "followed), or again (repeated directions tell the noise)",
+                     degrees_from_radians(set->incidence[worst % set->incidence_count]),
+                     100 * most, 100 * JUDGE_SPREAD_CARE);
+}
+
 #define SHARED 0.5 /* of the azimuths: fewer see what they miss, as a lobe that is narrow */
 
 /* With none left out the gaps are half as wide. A pattern that neighbours nearly resolve is
@@ -442,6 +484,7 @@ void fit_judge(const FitParts *parts, const FitDeviations *all, const FitTable *
         judge_albedo(&judge, parts);
         judge_zeros(&judge, parts);
         judge_reach(&judge, parts);
+        judge_spread(&judge, parts);
     }
     judge_errors(&judge, parts, all);
     judge_integral(&judge, total);

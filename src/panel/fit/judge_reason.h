@@ -102,5 +102,9 @@ JudgeGrade judge_reason_grade(double value, double care, double unusable);
  * (tests/image/foreign_layouts.py). Of the light the limit of samples left out. */
 #define JUDGE_GAP_CARE 0.15
 
+/* Noise of scattered samples, rms: laboratories' gonioreflectometers repeat within
+ * 1 to 2 %. */
+#define JUDGE_SPREAD_CARE 0.03
+
 /* How reasons begin that name what the instrument could not see. */
 #define JUDGE_COARSE "coarse: "
