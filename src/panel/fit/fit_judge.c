@@ -373,7 +373,7 @@ static void judge_spread(Judge *judge, const FitParts *parts)
                      "scatter by %.2g %% rms about what their neighbours say, required <= "
                      "%.0f %%; errors within that are taken for noise, and may be structure "
                      "finer than the samples: measure in half the steps (structure is then "
-                     "followed), or again (repeated directions tell the noise)",
+                     "followed), or again (repeated directions show the noise)",
                      degrees_from_radians(set->incidence[worst % set->incidence_count]),
                      100 * most, 100 * JUDGE_SPREAD_CARE);
 }

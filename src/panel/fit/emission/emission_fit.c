@@ -430,8 +430,8 @@ bool emission_fit(const Measurement *set, const FitOptions *options, Arena *aren
     if (!build_model(set, options, arena, notes, out, model))
         return error_set(err, ERROR_INPUT, "emission: the smooth part cannot be stored");
     if (!emission_tree_build(model, options, arena, &out->tree, err)) return false;
-    if (!out->tree.has_grid)
-        out->gaps = emission_gaps_find(model, out->tree.bytes, out->tree.level, *arena);
+    if (!out->tree.has_grid && !emission_gaps_find(model, &out->tree, *arena, &out->gaps, err))
+        return false;
     emission_beam_note(model, notes);
     if (out->tree.has_grid) emission_edges_note(&out->tree.edges, notes);
     if (out->tree.missed)

@@ -5,7 +5,6 @@
 
 #include "base/mathd.h"
 #include "hemisphere/tree/tree_open.h"
-#include "panel/fit/emission/emission_coder.h"
 
 typedef struct LightRead {
     const EmissionModel  *model;
@@ -45,20 +44,20 @@ static int brightest(const EmissionSamples *s)
     return out;
 }
 
-ScatterGaps emission_gaps_find(const EmissionModel *model, const void *tree_bytes, int level,
-                               Arena scratch)
+bool emission_gaps_find(const EmissionModel *model, const EmissionTree *tree, Arena scratch,
+                        ScatterGaps *out, Error *err)
 {
     const EmissionSamples *s = model->samples;
     LightRead read = {.model = model, .channel = brightest(s),
                     .total = ARENA_NEW(&scratch, float, s->channels)};
     float *log = ARENA_NEW(&scratch, float, s->rows);
-    Error  err;
     for (int i = 0; i < s->rows; i++)
         log[i] = (float)log_of(&read, s->total[i * s->channels + read.channel]);
     read.surface = scatter_surface_make(s->master, false, log, 1, &scratch);
-    if (!tree_open(tree_bytes, tree_size(tree_bytes), geodesic_create(level, &scratch),
-                   &read.tree, &err))
-        return (ScatterGaps){0};
+    if (!tree_open(tree->bytes, tree_size(tree->bytes), geodesic_create(tree->level, &scratch),
+                   &read.tree, err))
+        return false;
     ScatterAsked asked = {read.surface, read_gap, &read};
-    return scatter_gaps_find(&asked, scratch);
+    *out = scatter_gaps_find(&asked, scratch);
+    return true;
 }

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* emission_gaps.h -- what a panel may miss of an emission between samples that are no grid.
  *
- * Asked of the brightest channel.
- * Memory   scratch. Threads: pure functions. Fails: never.
+ * Of the brightest channel.
+ * Memory   scratch. Threads: pure functions. Fails: with a tree that cannot be opened.
  */
 #pragma once
 #include "panel/fit/common/scatter_gaps.h"
-#include "panel/fit/emission/emission_model.h"
+#include "panel/fit/emission/emission_coder.h"
 
-/* tree_bytes: of what the smooth part leaves. */
-ScatterGaps emission_gaps_find(const EmissionModel *model, const void *tree_bytes, int level,
-                               Arena scratch);
+/* tree: of what the smooth part leaves. */
+bool emission_gaps_find(const EmissionModel *model, const EmissionTree *tree, Arena scratch,
+                        ScatterGaps *out, Error *err);
