@@ -6,9 +6,9 @@ imported, fitted and evaluated between its samples, where it is measured.
 
 Laws  a panel that is "good" misses at most 5 % of the light (the sum of |panel - truth|,
       weighted by cosine and solid angle, over that of the truth) beside the noise (a lobe of an
-      emission that no sample saw is left out: 0), and of a table without a grid's order, in a
-      lobe that a sample saw, no direction by more than 15 % beside three times the noise (so
-      much are two standard deviations of the verdict's estimate at most); a table
+      emission that no sample saw is left out: 0), and in a lobe that a sample saw no direction
+      by more than 15 % beside three times the noise (so much are two standard deviations of
+      the verdict's estimate at most); a table
       of a smooth reflection in any layout errs by at most twice what a grid of as many samples
       does; and between samples a white has no colour that its neighbours lack.
 """
@@ -295,7 +295,7 @@ def law_of_good(report, program, count, start):
         if is_good and error > GOOD_MISSES + noise:
             report.claim(False, f"{text}, noise {noise:g}: good, and misses "
                          f"{100 * error:.2g} % of the light")
-        if is_good and name != "grid" and worst > GOOD_PEAK + 3 * noise:
+        if is_good and worst > GOOD_PEAK + 3 * noise:
             report.claim(False, f"{text}, noise {noise:g}: good, and misses {100 * worst:.2g} "
                          "% of its lobe")
     print_table(found)

@@ -224,6 +224,23 @@ TEST(hot_pixels_are_found_listed_and_not_followed)
     assert_int_equal(json_number_at(f.report, "total/outliers"), 4);
     assert_true(json_number_at(f.report, "total/outliers_max_error") > 0.8);
     expect_misses("f", &f, 75, 31, 3000, (Misses){0.015, 0.004});
+    assert_string_equal(json_text_at(f.report, "verdict"), "good");
+}
+
+TEST(a_direction_that_is_hot_in_every_table_may_be_a_peak)
+{
+    ENDS_BY(fixture_end) Fixture f;
+    fixture_measure(&f, RECIPE(FOUR CHECK_EMISSION, COARSE ", \"noise_relative\": 0.01"));
+    for (int p = 0; p < 3; p++)
+        for (int i = 0; i < f.set->primary[p].level_count; i++) {
+            float *value = (float *)table_of(&f, p, i)->value + 3 * 300;
+            for (int j = 0; j < 3; j++) value[j] *= 8;
+        }
+    fixture_fit(&f, NULL);
+    const char *reason = json_string_value(json_array_get(json_object_get(f.report, "reasons"),
+                                                          0));
+    assert_string_equal(json_text_at(f.report, "verdict"), "usable with care");
+    assert_non_null(strstr(reason, "coarse: emission: 1 direction is in every table far from"));
 }
 
 static void drop_row(AngleTable *t, int row)

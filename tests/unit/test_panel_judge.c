@@ -19,6 +19,7 @@ typedef struct Fault {
     double phi_step;
     double corners; /* 0: round; how much squarer than an ellipse, and how much narrower in y */
     double zeros;   /* share of rows that are 0 */
+    double lobe, lobe_height; /* degrees about theta 30, phi 45 where it is 1/e; over the rest */
 } Fault;
 
 /* What the last fit said; its panel is x.panel in the folder. */
@@ -48,7 +49,10 @@ static double luminance(const Fault *fault, double theta, double phi)
     double t = radians_from_degrees(theta), p = radians_from_degrees(phi);
     double power = 2 + 4 * fault->corners, x = fabs(sin(t) * cos(p)) / 0.75;
     double y = fabs(sin(t) * sin(p)) / (0.75 - 0.4 * fault->corners);
-    return 400 * exp(-pow(x, power) - pow(y, power)) + 1;
+    double c = cos(t) * sqrt(0.75) + 0.5 * sin(t) * cos(p - PI / 4);
+    double off = fault->lobe > 0 ? acos(fmin(1, c)) / radians_from_degrees(fault->lobe) : 0;
+    double lobe = fault->lobe > 0 ? fault->lobe_height * exp(-off * off) : 0;
+    return 400 * exp(-pow(x, power) - pow(y, power)) * (1 + lobe) + 1;
 }
 
 static bool is_missing(const Fault *fault, double phi)
@@ -257,6 +261,39 @@ TEST(a_missing_sector_is_named_and_a_round_panel_does_not_need_it)
     expect(&fault, WHITE, JUDGE_CARE, JUDGE_CARE, "between the azimuths 15 and 105 degrees");
     fault.corners = 0;
     expect(&fault, WHITE, JUDGE_GOOD, JUDGE_GOOD, "[]");
+}
+
+TEST(four_azimuths_that_agree_do_not_tell_a_pattern_of_four_lobes)
+{
+    Fault fault = {.factor = 1, .phi_step = 90};
+    expect(&fault, WHITE, JUDGE_CARE, JUDGE_CARE, "the 4 azimuths agree");
+    fault.phi_step = 60;
+    expect(&fault, WHITE, JUDGE_GOOD, JUDGE_GOOD, "[]");
+}
+
+/* ---- peaks ------------------------------------------------------------------------------- */
+
+TEST(a_peak_that_one_sample_shows_is_coarse_and_one_that_several_show_is_not)
+{
+    const double widths[] = {2, 4, 6, 25}, heights[] = {0.6, 0.8, 0.8, 0.5};
+    for (int i = 0; i < 4; i++) {
+        Fault fault = {.factor = 1, .phi_step = 15, .lobe = widths[i],
+                       .lobe_height = heights[i]};
+        fit(&fault, WHITE, false);
+        double told = json_number_at(work.report, "judged/emission_peak_error");
+        double worst = 0;
+        Panel *panel = fitted_panel();
+        for (double theta = 26; theta < 35; theta++)
+            for (double phi = 36; phi < 55; phi++) {
+                double truth = luminance(&fault, theta, phi);
+                worst = fmax(worst, fabs(white_at(panel, theta, phi) / truth - 1));
+            }
+        panel_close(panel);
+        if (i < 3) expect_verdict(JUDGE_CARE, JUDGE_CARE, "coarse: emission:");
+        else expect_verdict(JUDGE_GOOD, JUDGE_GOOD, "[]");
+        if (i != 3 && !(worst < 1.5 * told))
+            fail_msg("lobe of %g degrees: %g stated, %g found", widths[i], told, worst);
+    }
 }
 
 /* Luminances of lamps in a direction, degrees. */

@@ -113,6 +113,16 @@ static void judge_outliers(Judge *judge, const FitParts *parts)
     judge_reason_add(judge, grade, "emission: %.3g %% of the samples stand out of their "
                      "neighbours and are not followed: a noisy instrument, or columns "
                      "that are mixed up", 100 * share);
+    if (!parts->emission->shared) return;
+    const EmissionFlag *at = &parts->emission->shared_first;
+    judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "emission: %d %s in every table far from "
+                     "all neighbours (theta %.4g, phi %.4g%s) and %s not followed: a defect of "
+                     "the instrument, or a peak narrower than the samples are apart: measure "
+                     "there again in finer steps", parts->emission->shared,
+                     parts->emission->shared == 1 ? "direction is" : "directions are",
+                     degrees_from_radians(at->theta), degrees_from_radians(at->phi),
+                     parts->emission->shared == 1 ? "" : " and others",
+                     parts->emission->shared == 1 ? "is" : "are");
 }
 
 static void judge_zeros(Judge *judge, const FitParts *parts)
@@ -398,6 +408,23 @@ static void judge_left_out(Judge *judge, const EmissionTree *tree)
                      100 * estimate, 100 * JUDGE_HELD_OUT_CARE, 0.5 * apart);
 }
 
+/* A peak or a hole that one sample of a grid shows. */
+static void judge_peak(Judge *judge, const EmissionTree *tree)
+{
+    const EmissionPeak *p = &tree->edges.peak;
+    double step = degrees_from_radians(p->step);
+    if (!tree->has_grid) return;
+    add_figure(judge, "emission_peak_error", p->estimate);
+    if (!(p->estimate > JUDGE_GAP_CARE)) return;
+    judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "emission: one sample alone shows a peak "
+                     "or a hole at theta %.4g, phi %.4g: its neighbours, %.3g degrees of %s "
+                     "apart, miss it by %.2g %%, and between them the panel may miss by "
+                     "%.2g %%, required <= %.0f %%: measure every %.2g degrees there",
+                     degrees_from_radians(p->theta), degrees_from_radians(p->phi), step,
+                     p->is_azimuth ? "azimuth" : "theta", 100 * p->missed, 100 * p->estimate,
+                     100 * JUDGE_GAP_CARE, 0.5 * step);
+}
+
 /* Compares the panel with the fitted haze between the tables' rows. */
 static void judge_between(Judge *judge, const FitParts *parts)
 {
@@ -477,6 +504,7 @@ void fit_judge(const FitParts *parts, const FitDeviations *all, const FitTable *
         judge_set_levels(&judge, parts->set);
         judge_outliers(&judge, parts);
         judge_left_out(&judge, &parts->emission->tree);
+        judge_peak(&judge, &parts->emission->tree);
         if (!parts->emission->tree.has_grid)
             judge_gaps(&judge, "emission_between_samples", "emission", &parts->emission->gaps);
     }

@@ -71,9 +71,11 @@ JudgeGrade judge_reason_grade(double value, double care, double unusable);
 #define JUDGE_ZEROS_UNUSABLE 0.95
 
 /* Between azimuths further apart than this (eight around the circle) two-lobed and four-lobed
- * patterns cannot be resolved; not asked where all azimuths agree within 5 % and the noise. */
+ * patterns cannot be resolved. Where all azimuths agree within 5 % and the noise six are enough:
+ * patterns of displays repeat twice or four times around the circle, not six times. */
 #define JUDGE_GAP_DEG 45.0
 #define JUDGE_GAP_ISOTROPIC 0.05
+#define JUDGE_REPEAT_DEG 60.5
 
 /* Luminance of white along the normal: displays show 2 to 30000 cd/m2, so a factor of 1000 in
  * the unit leaves this range at one end; a lamp may lie above, a display dimmed for the night
@@ -99,7 +101,8 @@ JudgeGrade judge_reason_grade(double value, double care, double unusable);
 
 /* The same between scattered samples, in the one direction that is worst, where two standard
  * deviations are estimated: at 10 % one ring layout in three would be a false alarm
- * (tests/image/foreign_layouts.py). Of the light the limit of samples left out. */
+ * (tests/image/foreign_layouts.py). Of the light the limit of samples left out. So it is beside
+ * a sample of a grid that alone shows a peak. */
 #define JUDGE_GAP_CARE 0.15
 
 /* Noise of scattered samples, rms: laboratories' gonioreflectometers repeat within

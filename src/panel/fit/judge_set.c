@@ -192,6 +192,18 @@ static void name_gap(Judge *judge, const char *what, const AzimuthGap *gap,
     json_object_set_new(judge->figures, "azimuth_gap_error", json_real(spread->ratio));
 }
 
+/* Four azimuths agree also where a pattern of four domains swings between them. */
+static void judge_even(Judge *judge, const char *what, const Azimuths *a)
+{
+    double least = INFINITY;
+    for (int i = 0; i < a->count; i++) least = fmin(least, (double)gap_behind(a, i).width);
+    if (degrees_from_radians(least) <= JUDGE_REPEAT_DEG) return;
+    judge_reason_add(judge, JUDGE_CARE, "%s: the %d azimuths agree, but %.0f degrees lie "
+                     "between them: what repeats from azimuth to azimuth, such as the light of "
+                     "pixels of four domains, cannot be seen: measure every %.0f degrees or "
+                     "closer", what, a->count, degrees_from_radians(least), JUDGE_GAP_DEG);
+}
+
 /* The gap that costs most. */
 static void judge_table_azimuths(Judge *judge, const char *what, const AngleTable *table,
                                  bool is_mirrored)
@@ -205,7 +217,11 @@ static void judge_table_azimuths(Judge *judge, const char *what, const AngleTabl
                          "taken as the same all round, which these tables cannot tell: "
                          "measure every %.0f degrees or closer", what,
                          degrees_from_radians((double)a.phi[0]), JUDGE_GAP_DEG);
-    if (a.count < 2 || is_even(table, &a, scratch)) return;
+    if (a.count < 2) return;
+    if (is_even(table, &a, scratch)) {
+        if (!is_mirrored) judge_even(judge, what, &a);
+        return;
+    }
     for (int i = 0; i < a.count; i++) {
         AzimuthGap gap = gap_behind(&a, i);
         if (degrees_from_radians((double)gap.width) <= JUDGE_GAP_DEG + 0.5) continue;

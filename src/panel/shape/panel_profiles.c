@@ -76,6 +76,11 @@ static double read_cubic(const double x[4], const double y[4], Steep steep, doub
     return hermite(y[1], y[2], first * h, last * h, (at - x[1]) / h);
 }
 
+double panel_profiles_cubic(const double x[4], const double y[4], double at)
+{
+    return read_cubic(x, y, (Steep){false, false}, at);
+}
+
 /* How the light goes between four places: decided once, by the channel that counts, for all
  * channels of a direction. Were each decided alone, one would end where another goes on, and
  * between samples a white would shine in a colour that no sample has. */
@@ -121,8 +126,7 @@ static double light_on(const Course *c, const double y[4], double least)
 
 /* ---- profiles over theta ---------------------------------------------------------------- */
 
-/* The azimuth opposite to one, or the one before it. */
-static int opposite(const PanelAxes *grid, int azimuth)
+int panel_profiles_opposite(const PanelAxes *grid, int azimuth)
 {
     double wanted = (double)grid->phi[azimuth] + PI;
     int    best = azimuth;
@@ -142,7 +146,7 @@ static Four four_rings(const PanelProfiles *e, const float *cells, int azimuth, 
     Four f;
     for (int i = 0; i < 4; i++) {
         int ring = interval - 1 + i, at = azimuth;
-        if (ring < 0) ring = 1, at = opposite(g, azimuth);
+        if (ring < 0) ring = 1, at = panel_profiles_opposite(g, azimuth);
         if (ring > g->thetas - 1) ring = g->thetas - 1;
         f.x[i] = interval - 1 + i < 0 ? -(double)g->theta[1] : (double)g->theta[ring];
         f.y[i] = (double)cells[(ring * g->phis + at) * e->channels + channel];
@@ -241,7 +245,7 @@ static void find_thetas(const PanelProfiles *e, const Around *a, double phi, dou
     for (int step = 0; step < HALVINGS && a->follows; step++) {
         double middle = (low + high) / 2;
         for (int i = 0; i < 4; i++) f.y[i] = out[i] = theta_of(e, a->azimuth[i], middle);
-        if (read_cubic(f.x, f.y, (Steep){false, false}, phi) <= theta) low = middle;
+        if (panel_profiles_cubic(f.x, f.y, phi) <= theta) low = middle;
         else high = middle;
     }
 }

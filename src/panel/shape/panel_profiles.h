@@ -34,6 +34,12 @@ typedef struct PanelAxes {
     const float *theta, *phi;  /* phi in [0, 2 pi) */
 } PanelAxes;
 
+/* The azimuth opposite to one, or the nearest to it. */
+int panel_profiles_opposite(const PanelAxes *grid, int azimuth);
+
+/* Hermite's cubic between the middle two of four rising places; slopes of parabolas. */
+double panel_profiles_cubic(const double x[4], const double y[4], double at);
+
 typedef struct PanelProfiles {
     PanelAxes grid;
     int       channels, bright; /* bright: the channel of Y whose edges count */

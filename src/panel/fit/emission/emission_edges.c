@@ -59,11 +59,23 @@ static const float *brightest(const EmissionEdges *e, const float *cells, Arena 
     return out;
 }
 
+/* A channel's relative noise where there is light. */
+static double noise_of(const EmissionSamples *s, int channel)
+{
+    double least = INFINITY;
+    for (int i = channel; i < s->rows * s->channels; i += s->channels)
+        if (s->total[i] > 0) least = fmin(least, (double)(s->sigma[i] / s->total[i]));
+    return least;
+}
+
 bool emission_edges_find(const EmissionModel *model, double rest, bool is_small, Arena *arena,
                          EmissionEdges *out)
 {
     const float *cells = start(model, arena, out);
     if (!cells) return false;
+    out->peak = emission_peaks_find(&out->profiles.grid, cells, out->profiles.channels,
+                                    out->profiles.bright,
+                                    noise_of(model->samples, out->profiles.bright));
     if (!is_small && !out->are_there) {
         PanelAxes axes = out->profiles.grid;
         cells = brightest(out, cells, arena);

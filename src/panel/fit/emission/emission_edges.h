@@ -9,6 +9,7 @@
 #include "panel/fit/common/direction_grid.h"
 #include "panel/fit/common/fit_options.h"
 #include "panel/fit/emission/emission_model.h"
+#include "panel/fit/emission/emission_peaks.h"
 #include "panel/query/panel_grid.h"
 
 typedef struct EmissionEdges {
@@ -18,6 +19,7 @@ typedef struct EmissionEdges {
     bool           are_there; /* edges */
     double         share;     /* of a channel's largest value: ratios count above it */
     PanelFollowing following; /* of four azimuths or more */
+    EmissionPeak   peak;      /* of the brightest table */
 } EmissionEdges;
 
 /* Do neighbouring samples of the brightest table jump? False also where they are no grid with

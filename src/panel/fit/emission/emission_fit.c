@@ -30,6 +30,23 @@ static bool black_shines(const Measurement *set)
     return sum > 0.5 * noise && sum / set->black.rows > 1e-4;
 }
 
+/* What every table shows in one direction may be a peak of the display as well: no other table
+ * says that it is not. */
+static void find_shared(const Measurement *set, EmissionResult *out)
+{
+    const AngleTable *first = emission_samples_table(set, out->has_black, 0).table;
+    for (int row = 0; first && row < first->rows; row++) {
+        EmissionTable one;
+        bool          is_shared = true;
+        for (int i = 0; (one = emission_samples_table(set, out->has_black, i)).table; i++)
+            is_shared &= one.primary == 3 ||
+                         (one.table->rows == first->rows && out->outlier[i][row]);
+        if (is_shared && !out->shared++)
+            out->shared_first = (EmissionFlag){.theta = (double)first->theta[row],
+                                               .phi = (double)first->phi[row]};
+    }
+}
+
 static void survey_tables(const Measurement *set, Arena *arena, EmissionResult *out)
 {
     const AngleTable *table;
@@ -44,6 +61,7 @@ static void survey_tables(const Measurement *set, Arena *arena, EmissionResult *
                                                      *arena);
         out->hole_count += emission_outliers_find_holes(table, &out->holes, *arena);
     }
+    find_shared(set, out);
 }
 
 static void note_flags(const EmissionResult *e, FitNotes *notes)

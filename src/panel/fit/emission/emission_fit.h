@@ -23,6 +23,8 @@ typedef struct EmissionResult {
     double        dim[EMISSION_TABLES_MAX][3]; /* cd m^-2, per table and channel */
     uint8_t      *outlier[EMISSION_TABLES_MAX]; /* per row */
     int           outlier_count, hole_count;
+    int           shared;   /* directions that stand out in every table but the black one */
+    EmissionFlag  shared_first;
     EmissionFlags outliers, holes;
 } EmissionResult;
 
