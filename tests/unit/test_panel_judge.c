@@ -19,7 +19,7 @@ typedef struct Fault {
     double phi_step;
     double corners; /* 0: round; how much squarer than an ellipse, and how much narrower in y */
     double zeros;   /* share of rows that are 0 */
-    double lobe, lobe_height; /* degrees about theta 30, phi 45 where it is 1/e; over the rest */
+    double lobe, lobe_height; /* degrees to 1/e, about theta 30, phi 45; over the rest */
 } Fault;
 
 /* What the last fit said; its panel is x.panel in the folder. */

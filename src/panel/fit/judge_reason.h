@@ -71,7 +71,7 @@ JudgeGrade judge_reason_grade(double value, double care, double unusable);
 #define JUDGE_ZEROS_UNUSABLE 0.95
 
 /* Between azimuths further apart than this (eight around the circle) two-lobed and four-lobed
- * patterns cannot be resolved. Where all azimuths agree within 5 % and the noise six are enough:
+ * patterns cannot be resolved. Where all azimuths agree within 5 % and the noise, 6 are enough:
  * patterns of displays repeat twice or four times around the circle, not six times. */
 #define JUDGE_GAP_DEG 45.0
 #define JUDGE_GAP_ISOTROPIC 0.05

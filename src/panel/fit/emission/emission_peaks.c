@@ -16,19 +16,19 @@ typedef struct Five {
     double x[5], y[5]; /* y: ln */
 } Five;
 
-typedef struct Cells {
+typedef struct PeakCells {
     const PanelAxes *grid;
     const float     *value;
     int              channels, channel;
-} Cells;
+} PeakCells;
 
-static double value_at(const Cells *c, int ring, int azimuth)
+static double value_at(const PeakCells *c, int ring, int azimuth)
 {
     return (double)c->value[(ring * c->grid->phis + azimuth) * c->channels + c->channel];
 }
 
 /* Along the meridian: through the pole to the opposite azimuth, straight on at the end. */
-static Five five_rings(const Cells *c, int ring, int azimuth)
+static Five five_rings(const PeakCells *c, int ring, int azimuth)
 {
     const PanelAxes *g = c->grid;
     int  last = g->thetas - 1, across = panel_profiles_opposite(g, azimuth);
@@ -42,7 +42,7 @@ static Five five_rings(const Cells *c, int ring, int azimuth)
     return f;
 }
 
-static Five five_azimuths(const Cells *c, int ring, int azimuth)
+static Five five_azimuths(const PeakCells *c, int ring, int azimuth)
 {
     int  n = c->grid->phis;
     Five f;
@@ -76,7 +76,7 @@ static EmissionPeak peak_of(const Five *f, double noise)
 EmissionPeak emission_peaks_find(const PanelAxes *grid, const float *cells, int channels,
                                  int channel, double noise)
 {
-    Cells        c = {grid, cells, channels, channel};
+    PeakCells        c = {grid, cells, channels, channel};
     EmissionPeak worst = {0};
     double       most = 0;
     int          count = (grid->thetas - 1) * grid->phis; /* nothing is behind the last ring */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* emission_peaks.h -- does one sample of a grid alone show a peak or a hole? Then the samples do
+/* emission_peaks.h -- does one sample of a grid alone show a peak or a hole? Then samples do
  * not resolve it: how high and how wide it is between them, nobody measured.
  *
  * A sample that is above both its neighbours on the meridian (on the ring), or below both, is
