@@ -148,6 +148,16 @@ static void print_content(const ContentContrast *c)
               "this\n");
 }
 
+/* Of frames with the layer. */
+static void print_extrapolated(const FrameMeasurement *m)
+{
+    if (isnan(m->extrapolated_reflected)) return;
+    print("  %.1f %% of the light that it reflects", 100 * m->extrapolated_reflected);
+    if (!isnan(m->extrapolated_shown))
+        print(" and %.1f %% of what it emits", 100 * m->extrapolated_shown);
+    print(" by directions that were not measured\n");
+}
+
 static void print_display(const FrameMeasurement *m)
 {
     print_figure("  Weber", m->weber, "");
@@ -156,6 +166,7 @@ static void print_display(const FrameMeasurement *m)
     if (!isnan(m->mirror)) print(": %.6g by the mirror", m->mirror);
     if (!isnan(m->lambertian)) print(", %.6g lambertian", m->lambertian);
     print("\n");
+    print_extrapolated(m);
     if (!m->has_errors) return;
     print("  shown %.6g cd/m2; what is seen is off by\n", m->shown);
     print_figure("  luminance", m->luminance_error, " of what is shown");
@@ -273,6 +284,11 @@ static json_t *json_contrast(const FrameMeasurement *m)
     json_object_set_new(out, "haze_cd_m2", json_figure(m->reflected - m->mirror -
                                                        m->lambertian));
     json_object_set_new(out, "lambertian_cd_m2", json_figure(m->lambertian));
+    if (!isnan(m->extrapolated_reflected))
+        json_object_set_new(out, "extrapolated_share", json_real(m->extrapolated_reflected));
+    if (!isnan(m->extrapolated_shown))
+        json_object_set_new(out, "extrapolated_emitted_share",
+                            json_real(m->extrapolated_shown));
     set_figure(out, "weber", "weber_interval", m->weber);
     set_figure(out, "michelson", "michelson_interval", m->michelson);
     if (!m->has_errors) return out;

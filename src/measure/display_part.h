@@ -46,3 +46,10 @@ DisplayPart display_part(const DisplayLayers *layers, size_t i, int id);
  * frame's. */
 FrameImage display_part_frame(const FrameImage *frame, const DisplayLayers *layers, int id,
                               Arena *arena);
+
+/* How the pixels at a display's rim count. */
+typedef enum RimCount {
+    RIM_BY_COVERAGE, /* by their part */
+    RIM_LEFT_OUT,    /* pixels that show nothing else count alone */
+    RIM_WHOLE        /* with what is around; and wherever no display was asked for */
+} RimCount;

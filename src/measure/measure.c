@@ -2,16 +2,14 @@
 #include "measure/measure.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/confidence.h"
 #include "base/count.h"
 #include "image/frame_view.h"
-#include "image/layer_view.h"
 #include "image/legibility.h"
 #include "measure/pixel_noise.h"
+#include "measure/region_planes.h"
 #include "spectrum/photometry.h"
 
 /* Sums over the pixels, each times its part. */
@@ -25,24 +23,10 @@ typedef struct Sums {
                                           light, and of what is reflected there */
     DisplayLight light; /* of displays */
     double mirror, lambertian, display_area, reflected_rgb[3];
+    double extrapolated[2]; /* of what is shown, and reflected, there */
     long   pixels, display_pixels, nonfinite, rim_pixels, shared_pixels, unknown_pixels;
     double least, greatest;
 } Sums;
-
-/* The planes that are looked at; has_... states which the frame has. */
-typedef struct RegionPlanes {
-    LayerView    light, variance, halves, white, black, reflected, shown, mirror, lambertian;
-    LayerView    display_halves, fine;
-    const float *display_id; /* NULL: every pixel is wanted */
-    int          wanted;     /* id of the display that is; -1: all pixels */
-    RimCount     rim;
-    const float *coverage;   /* by displays; NULL: not known */
-    DisplayLayers parts;
-    ExrWindow    data, window; /* of the frame: the layers of parts are of the data window */
-    bool         has_parts;
-    bool has_variance, has_halves, has_display, has_shown, has_mirror, has_lambertian;
-    bool has_display_halves, has_fine;
-} RegionPlanes;
 
 static void xyz_at(const LayerView *view, size_t i, double xyz[3])
 {
@@ -56,68 +40,6 @@ static double luminance_at(const LayerView *view, size_t i)
     double xyz[3];
     xyz_at(view, i, xyz);
     return xyz[1];
-}
-
-/* ---- what the frame has -------------------------------------------------------------- */
-
-/* Three planes of a layer as they are, without a change of colour space. */
-static bool raw_layer(const FrameImage *frame, const char *layer, Arena *arena, LayerView *out)
-{
-    const float *rgb[3];
-    LayerView    views[3];
-    char         name[128];
-    Error        unused;
-    if (!frame_rgb(frame, layer, rgb)) return false;
-    for (int c = 0; c < 3; c++) {
-        snprintf(name, sizeof name, "%s.%c", layer, "RGB"[c]);
-        if (!layer_view_find(frame, name, arena, &views[c], &unused)) return false;
-    }
-    *out = views[0];
-    for (int c = 1; c < 3; c++) out->planes[c] = views[c].planes[0];
-    return true;
-}
-
-static bool find_display(const FrameImage *frame, const char *display, Arena *arena, int *id,
-                         const float **plane, Error *err)
-{
-    LayerView view;
-    *id = frame_id_of(frame, "display", display);
-    if (*id < 0)
-        return error_set(err, ERROR_USAGE, "has no display \"%s\"; its displays: %s", display,
-                         frame_display_names(frame, arena));
-    if (!frame_channel(frame, "id.display"))
-        return error_set(err, ERROR_INPUT,
-                         "has no layer id, which tells the pixels of a display; render it with "
-                         "--layers id,display");
-    if (!layer_view_find(frame, "id.display", arena, &view, err)) return false;
-    *plane = view.planes[0];
-    return true;
-}
-
-static bool find_planes(const FrameImage *frame, Arena *arena, RegionPlanes *out, Error *err)
-{
-    if (!layer_view_find(frame, NULL, arena, &out->light, err)) return false;
-    out->has_variance = raw_layer(frame, "variance", arena, &out->variance);
-    out->has_halves = raw_layer(frame, "halves", arena, &out->halves);
-    out->has_display = raw_layer(frame, "display.white", arena, &out->white) &&
-                       raw_layer(frame, "display.black", arena, &out->black) &&
-                       raw_layer(frame, "display.reflected", arena, &out->reflected);
-    out->has_shown = raw_layer(frame, "display.emitted", arena, &out->shown);
-    out->has_mirror = raw_layer(frame, "display.mirror", arena, &out->mirror);
-    out->has_lambertian = raw_layer(frame, "display.lambertian", arena, &out->lambertian);
-    out->has_display_halves = raw_layer(frame, "display.halves", arena, &out->display_halves);
-    out->has_fine = raw_layer(frame, "display.fine", arena, &out->fine);
-    out->has_parts = display_layers_find(frame, &out->parts);
-    out->data = frame->data;
-    out->window = frame->display;
-    LayerView coverage;
-    Error     unused;
-    if (frame_channel(frame, "display.coverage") &&
-        layer_view_find(frame, "display.coverage", arena, &coverage, &unused))
-        out->coverage = coverage.planes[0];
-    out->rim = out->wanted < 0 ? RIM_WHOLE : out->has_parts ? RIM_BY_COVERAGE
-               : out->coverage ? RIM_LEFT_OUT : RIM_WHOLE;
-    return true;
 }
 
 /* ---- one pixel after the other ------------------------------------------------------- */
@@ -196,6 +118,10 @@ static bool add_display(const RegionPlanes *planes, size_t i, double weight, Sum
     if (planes->has_mirror) sums->mirror += weight * luminance_at(&planes->mirror, i);
     if (planes->has_lambertian)
         sums->lambertian += weight * luminance_at(&planes->lambertian, i);
+    for (int k = 0; k < 2; k++)
+        if (planes->extrapolated[k])
+            sums->extrapolated[k] += weight * (double)planes->extrapolated[k][i] *
+                                     (k ? light.reflected : light.shown)[1];
     sums->display_area += weight;
     sums->display_pixels++;
     return true;
@@ -447,6 +373,12 @@ static void measure_errors(const DisplayLight *light, Measured reflected, const 
                                        colour_error_width(light, variance));
 }
 
+/* NaN: not known; 0 where there is no light. */
+static double share_of(bool is_known, double part, double all)
+{
+    return !is_known ? (double)NAN : all > 0 ? part / all : 0;
+}
+
 static void measure_display(const RegionPlanes *planes, const Sums *sums,
                             FrameMeasurement *out)
 {
@@ -464,6 +396,10 @@ static void measure_display(const RegionPlanes *planes, const Sums *sums,
     out->reflected = light.reflected[1];
     out->mirror = planes->has_mirror ? sums->mirror / n : (double)NAN;
     out->lambertian = planes->has_lambertian ? sums->lambertian / n : (double)NAN;
+    out->extrapolated_shown = share_of(planes->has_shown && planes->extrapolated[0],
+                                       sums->extrapolated[0], sums->light.shown[1]);
+    out->extrapolated_reflected = share_of(planes->extrapolated[1], sums->extrapolated[1],
+                                           sums->light.reflected[1]);
     out->has_errors = planes->has_shown;
     Measured reflected = reflected_interval(light.reflected[1], sums);
     measure_ratios(&light, reflected, out);
@@ -577,10 +513,9 @@ bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena
     ExrWindow r = frame->data, w = frame->display;
     FrameView circle = frame_view_circle(frame);
     if (!check_region(frame, request, &r, err)) return false;
-    if (request->display && !find_display(frame, request->display, &scratch, &planes.wanted,
-                                          &planes.display_id, err))
-        return error_in_file(err, request->frame_name);
-    if (!find_planes(frame, &scratch, &planes, err))
+    if ((request->display &&
+         !region_planes_choose(frame, request->display, &scratch, &planes, err)) ||
+        !region_planes_find(frame, &scratch, &planes, err))
         return error_in_file(err, request->frame_name);
     for (int y = r.y0; y < r.y1; y++)
         for (int x = r.x0; x < r.x1; x++)

@@ -37,13 +37,6 @@ typedef struct MeasureRequest {
     const char *display; /* only what this display sends; NULL: all pixels */
 } MeasureRequest;
 
-/* How the pixels at a display's rim count. */
-typedef enum RimCount {
-    RIM_BY_COVERAGE, /* by their part */
-    RIM_LEFT_OUT,    /* pixels that show nothing else count alone */
-    RIM_WHOLE        /* with what is around; and wherever no display was asked for */
-} RimCount;
-
 typedef struct FrameMeasurement {
     long     pixels;    /* that were taken */
     long     nonfinite; /* that were left out, NaN or infinite */
@@ -62,6 +55,9 @@ typedef struct FrameMeasurement {
     double   white, black, reflected; /* means over the display's parts of pixels, cd m^-2 */
     double   mirror;   /* of the reflected, by way of the panel's mirror; NaN: not known */
     double   lambertian; /* and what its lambertian part scattered; NaN: not known */
+    double   extrapolated_shown, extrapolated_reflected; /* shares of what is shown and of what
+                                is reflected, by directions that were not measured; NaN: not
+                                known */
     Measured contrast, weber, michelson; /* of these means, as legibility.h defines them */
     bool     has_errors; /* what the display shows is in the frame: */
     double   shown;      /* cd m^-2 */

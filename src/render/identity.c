@@ -264,13 +264,43 @@ static const char *value_text(const char *value, Arena *arena)
     return value ? arena_string(arena, value, strcspn(value, "\n")) : "none";
 }
 
+static bool has_name(const char *list, const char *name, size_t length)
+{
+    for (size_t other; *list; list += other + (list[other] == ',')) {
+        other = strcspn(list, ",");
+        if (other == length && !memcmp(list, name, length)) return true;
+    }
+    return false;
+}
+
+/* The names of a list with commas that the other has not, and where that is. */
+static void add_names_alone(Text *text, const char *list, const char *other, const char *where)
+{
+    const char *before = text->size ? "; " : "layers: ", *first = before;
+    for (size_t length; *list; list += length + (list[length] == ',')) {
+        length = strcspn(list, ",");
+        if (has_name(other, list, length)) continue;
+        text_format(text, "%s%.*s", before, (int)length, list);
+        before = ",";
+    }
+    if (before != first) text_add(text, where);
+}
+
+/* Layers are lists: all of both would hide the one that is missing. */
 static const char *difference(const char *line_begin, const char *there, const char *here,
                               Arena *arena)
 {
-    size_t length = strcspn(line_begin, "\t\n");
-    return arena_format(arena, "%.*s: %s there, %s here", (int)length, line_begin,
-                        value_text(value_of(there, line_begin, length), arena),
-                        value_text(value_of(here, line_begin, length), arena));
+    size_t      length = strcspn(line_begin, "\t\n");
+    const char *old = value_text(value_of(there, line_begin, length), arena);
+    const char *now = value_text(value_of(here, line_begin, length), arena);
+    Text        text = {.arena = arena};
+    if (!strncmp(line_begin, "layers\t", 7)) {
+        add_names_alone(&text, old, now, " there, not here");
+        add_names_alone(&text, now, old, " here, not there");
+    }
+    if (!text.size)
+        text_format(&text, "%.*s: %s there, %s here", (int)length, line_begin, old, now);
+    return text.data;
 }
 
 const char *identity_difference(const char *there, const char *here, Arena *arena)

@@ -34,6 +34,7 @@ void identity_add_environment(Text *text, const Scene *scene);
 
 void identity_add_camera(Text *text, const SceneCamera *camera);
 
-/* The first line that differs, as a phrase for an error ("seed: 1 there, 2 here"; "none" where
- * one of them has no such line); NULL when the texts are the same. */
+/* The first line that differs, as a phrase for an error ("seed: 1 there, 2 here", "none" where
+ * one of them has no such line; "layers: uv there, not here"); NULL when the texts are
+ * the same. */
 const char *identity_difference(const char *there, const char *here, Arena *arena);

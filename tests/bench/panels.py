@@ -320,7 +320,8 @@ FLAT = "flat.csv" # an emission that hardly takes any bytes
 def reflection_only(manifest, flat=False):
     """Without emission, or with a flat one for a program that insists on it."""
     def change(text):
-        text.pop("emission", None)
+        for key in ("emission", "polarisation"):  # of emitted light
+            text.pop(key, None)
         if flat:
             text["emission"] = {"white": FLAT}
             rows = [(t, p, 95, 100, 109) for t in range(0, 81, 10) for p in range(0, 360, 30)]

@@ -174,7 +174,7 @@ def check_places(bench):
     folder = bench.file("folders")
     for name in ("f.exr", "p.png", "x.panel", "plot.svg", "MANIFEST.json", "sky.exr"):
         os.makedirs(os.path.join(folder, name), exist_ok=True)
-    for name in ("set", "sim"):
+    for name in ("set", "sim", "tables"):
         with open(os.path.join(folder, name), "w") as file:
             file.write("kept")
     before = tree(folder)

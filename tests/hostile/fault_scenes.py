@@ -174,7 +174,7 @@ def check_display_level(bench):
         picture = scene.image("image/png", png(1, 1, [[255, 255, 255]]))
         shown = scene.material("shown", extensions={"PARHELION_display": {
             "panel": "in/x.panel", "content": {"index": picture}}})
-        scene.quad(shown, [-1, 0, -2], [2, 0, 0], [0, 2, 0])
+        scene.quad(shown, [-0.5, 0.5, -2], [1, 0, 0], [0, 1, 0])
         scene.view("eye", [0, 1, 0], [0, 0, -1], 30)
         mean = mean_of(bench, scene, what=f"a display at {level} %",
                        options=("--display-level", f"shown={level}"))

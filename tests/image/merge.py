@@ -192,11 +192,21 @@ def check_holes(report, program):
                   "no part has samples 1:2 of pixels 0,0,52,36")
 
 
+def layers_but(program, part, name):
+    """The layers of a part as the program lists them, less one."""
+    text = program.read(part)
+    begin = text.index(b"\nlayers\t") + len(b"\nlayers\t")
+    names = text[begin:text.index(b"\n", begin)].decode().split(",")
+    return ",".join(other for other in names if other != name)
+
+
 def check_foreign(report, program):
     """Parts of another frame, and files that are no parts."""
     a = program.part((0, 3))
     program.render("seed.exr", "--layers", "all", "--samples", "3:7", "--seed", "2")
     program.render("layers.exr", "--samples", "3:7")
+    program.render("fewer.exr", "--samples", "3:7", "--layers", layers_but(
+        program, a, "display.extrapolated"))
     program.render("size.exr", "--layers", "all", "--samples", "3:7", "--size", "52x37")
     scene = json.loads(program.read("small.gltf"))
     scene["nodes"][0]["name"] = "another"
@@ -204,6 +214,7 @@ def check_foreign(report, program):
     program.run("render", "other.gltf", "-o", "scene.exr", *program.options, "--layers", "all",
                 "--samples", "3:7", "--quiet")
     for name, words in (("seed.exr", "seed: 0 there, 2 here"), ("layers.exr", "layers: xyz"),
+                        ("fewer.exr", "layers: display.extrapolated there, not here "),
                         ("size.exr", "size: 52x36 there, 52x37 here"),
                         ("scene.exr", "input 0: small.gltf ")):
         claim_refused(report, program, [a, name],

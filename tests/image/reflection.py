@@ -148,21 +148,33 @@ def scene_of(panel_path, environment, eyes):
     return scene
 
 
+def stated_share(program, frame):
+    """Of the reflected light; the sentence says the same."""
+    text, answer = (subprocess.run([program, "measure", frame, *words], check=True,
+                                   capture_output=True, text=True).stdout
+                    for words in ((), ("--json",)))
+    contrast = json.loads(answer)["contrast"]
+    share, emitted = (contrast[key] for key in ("extrapolated_share",
+                                                "extrapolated_emitted_share"))
+    assert (f"  {100 * share:.1f} % of the light that it reflects and {100 * emitted:.1f} % of "
+            "what it emits by directions that were not measured\n") in text, text
+    return share
+
+
 def shown(program, path, camera, folder, with_parts):
     """The frame's luminance, with samples until its own error is a fifth of the allowed; that
-    of the lambertian layer and the extrapolated share, for which the first samples do; None
-    where nobody asks."""
+    of the lambertian layer and the extrapolated share as `measure` states it, for which the
+    first samples do; None where nobody asks."""
     samples, out, parts = 256, os.path.join(folder, "frame.exr"), None
     while True:
-        more = ",display.lambertian,display.extrapolated" if with_parts and not parts else ""
+        more = ",display" if with_parts and not parts else ""
         subprocess.run([program, "render", path, "-o", out, "--camera", camera, "--size",
                         "16x16", "--spp", str(samples), "--max-bounces", "1", "--layers",
                         "variance" + more, "--quiet"],
                        check=True, capture_output=True, text=True)
         frame = Frame(out)
         if more:
-            guess = frame.channels["display.extrapolated.reflected"]
-            parts = frame.mean_of("display.lambertian"), sum(guess) / len(guess)
+            parts = frame.mean_of("display.lambertian"), stated_share(program, out)
         mean, sigma = frame.mean_luminance()
         excess = 5 * sigma / (WITHIN * mean)
         if excess <= 1 or samples >= 65536:

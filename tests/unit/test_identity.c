@@ -96,7 +96,7 @@ static const Change changes[] = {
     {"seed: 0 there, 7 here", seed},
     {"max bounces: 64 there, 1 here", bounces},
     {"field: none there, 0000000000000abc here", learnt},
-    {"layers: depth,id there, depth,id,uv here", layers},
+    {"layers: uv here, not there", layers},
     {"input 0: scene.gltf 0000000000000001 there, scene.gltf 0000000000000abc here", content},
     {"input 1: ips.panel 0000000000000002 there, none here", one_less},
     {"decoded pictures: ", picture},
@@ -176,6 +176,10 @@ MEMORY_TEST(the_first_line_that_differs_is_named)
         {"a", "a\t1\n", "a: none there, 1 here"}, /* from a file: anything may come */
         {"a\t1", "a\t1\n", NULL},
         {"\n\n", "a\t1\n", "a: none there, 1 here"},
+        {"layers\txyz,display.mirror,uv\n", "layers\txyz,display,uv\n",
+         "layers: display.mirror there, not here; display here, not there"},
+        {"layers\txyz,id,uv\n", "layers\tuv\n", "layers: xyz,id there, not here"},
+        {"layers\t\n", "layers\tuv\n", "layers: uv here, not there"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const char *text = identity_difference(cases[i].there, cases[i].here, arena);

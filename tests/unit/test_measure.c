@@ -23,6 +23,22 @@ static void add_layer(FrameImage *frame, const char *layer, float value, Arena *
     }
 }
 
+static void add_plane(FrameImage *frame, const char *name, float value, Arena *arena)
+{
+    float *plane = frame_add_channel(frame, name, false, arena);
+    for (size_t i = 0; i < frame_pixel_count(frame); i++) plane[i] = value;
+}
+
+static float *plane_of(FrameImage *frame, const char *layer, int channel)
+{
+    char name[64];
+    snprintf(name, sizeof name, "%s.%c", layer, "RGB"[channel]);
+    for (int c = 0; c < frame->channel_count; c++)
+        if (!strcmp(frame->channels[c].name, name)) return frame->channels[c].values;
+    fail_msg("no channel %s", name);
+    return NULL;
+}
+
 /* A display of 10 x 10 pixels: 400 cd m^-2 in white, 20 reflected. */
 static FrameImage display_frame(float variance, float black, Arena *arena)
 {
@@ -141,6 +157,31 @@ ARENA_TEST(a_display_has_its_contrast)
     assert_int_equal(m.pixels, 10);
 }
 
+/* Of the light, not of the pixels: half of them reflect 20 cd/m2, half 60, of which 0.1 and 0.5
+ * by directions that were not measured. */
+ARENA_TEST(a_display_states_what_was_not_measured)
+{
+    FrameImage frame = display_frame(4, 0.4f, &arena);
+    for (int c = 0; c < 3; c++)
+        for (int i = 50; i < 100; i++) plane_of(&frame, "display.reflected", c)[i] = 60;
+    FrameMeasurement without = measure(&frame, (MeasureRequest){0}, arena);
+    assert_true(isnan(without.extrapolated_reflected) && isnan(without.extrapolated_shown));
+    add_plane(&frame, "display.extrapolated.emitted", 1, &arena);
+    add_plane(&frame, "display.extrapolated.reflected", 0.1f, &arena);
+    float *share = frame.channels[frame.channel_count - 1].values;
+    for (int i = 50; i < 100; i++) share[i] = 0.5f;
+    FrameMeasurement m = measure(&frame, (MeasureRequest){0}, arena);
+    assert_close(m.extrapolated_reflected, (0.1 * 20 + 0.5 * 60) / 80, 1e-6);
+    assert_true(isnan(m.extrapolated_shown)); /* what is shown is not in the frame */
+    add_layer(&frame, "display.emitted", 0, &arena);
+    assert_near(measure(&frame, (MeasureRequest){0}, arena).extrapolated_shown, 0, 0);
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < 20; i++) plane_of(&frame, "display.emitted", c)[i] = 80;
+    m = measure(&frame, (MeasureRequest){0, true, {0, 0, 10, 5}, NULL}, arena);
+    assert_close(m.extrapolated_reflected, 0.1, 1e-6);
+    assert_close(m.extrapolated_shown, 1, 1e-6);
+}
+
 /* A contrast hangs on what is reflected alone: its halves count, not those of the pixel, which
  * differ by what the display emits, too. */
 ARENA_TEST(a_contrast_has_the_noise_of_the_reflected)
@@ -154,12 +195,6 @@ ARENA_TEST(a_contrast_has_the_noise_of_the_reflected)
     double above = below + (1 + 14.0 / 100) * 0.5 / 100; /* bright_missing of 100 alike */
     assert_close(half(m.luminance), half(whole.luminance), 1e-9);
     assert_interval(m.contrast, (420 + above) / (20.4 + above), (420 - below) / (20.4 - below));
-}
-
-static void add_plane(FrameImage *frame, const char *name, float value, Arena *arena)
-{
-    float *plane = frame_add_channel(frame, name, false, arena);
-    for (size_t i = 0; i < frame_pixel_count(frame); i++) plane[i] = value;
 }
 
 /* A pixel that shows a display alone has the noise of what is reflected, and of what is shown:
@@ -232,16 +267,6 @@ static int poisson(double mean, unsigned *seed)
     double least = exp(-mean);
     for (double product = uniform(seed); product > least; product *= uniform(seed)) count++;
     return count;
-}
-
-static float *plane_of(FrameImage *frame, const char *layer, int channel)
-{
-    char name[64];
-    snprintf(name, sizeof name, "%s.%c", layer, "RGB"[channel]);
-    for (int c = 0; c < frame->channel_count; c++)
-        if (!strcmp(frame->channels[c].name, name)) return frame->channels[c].values;
-    fail_msg("no channel %s", name);
-    return NULL;
 }
 
 #define GLINT 5.0 /* cd m^-2 that one bright sample adds to its pixel */

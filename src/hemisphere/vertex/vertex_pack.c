@@ -155,10 +155,10 @@ static void code_level(PackWalk *w, int l, Arena scratch)
     for (uint32_t i = 0; i < count; i++) {
         const bool *stored = w->code->stored;
         int         ends = stored[edge[i].end[0]] + stored[edge[i].end[1]];
-        PackChance *chance = &is_stored[edge[i].cell_edge][ends][before & 3];
+        PackChance *chance = &is_stored[edge[i].cell_edge][ends][before];
         int bit = code_bit(&w->coder, chance, stored[edge[i].vertex]);
         if (bit) code_row(w, w->detail[l], edge[i].vertex, false);
-        before = before << 1 | bit;
+        before = (before << 1 | bit) & 3;
     }
 }
 
