@@ -449,7 +449,7 @@ TEST(stated_figures_are_never_rounded_down)
             "max_error", 0.001 * i + 0.00012345, "source_bytes_float32", (json_int_t)(977 * i),
             "bytes", 12.5 * i + 1));
     const void *bytes;
-    size_t      size = panel_report_pack_tables(tables, &arena, &bytes);
+    size_t      size = panel_report_pack_tables(tables, false, &arena, &bytes);
     json_auto_t *back = panel_report_open_tables(bytes, size);
     assert_non_null(back);
     for (size_t i = 0; i < 50; i++) {
@@ -461,6 +461,13 @@ TEST(stated_figures_are_never_rounded_down)
         assert_non_null(json_object_get(b, "ratio"));
     }
     for (size_t cut = 0; cut < size; cut++) assert_null(panel_report_open_tables(bytes, cut));
+    const void *fewer;
+    size_t      packed = panel_report_pack_tables(tables, true, &arena, &fewer);
+    json_auto_t *again = panel_report_open_tables(fewer, packed);
+    assert_true(packed > 0 && 2 * packed < size);
+    assert_true(json_equal(back, again));
+    for (size_t cut = 0; cut < packed; cut++)
+        assert_null(panel_report_open_tables(fewer, cut));
 }
 
 TEST_PROGRAM(start_all, end_all)

@@ -8,9 +8,11 @@
 
 #include "base/sampler.h"
 #include "hemisphere/geodesic.h"
+#include "hemisphere/sampling/sampling_tree_build.h"
 #include "hemisphere/specular_frame.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_file.h"
+#include "panel/query/panel_open.h"
 #include "panel/query/panel_opened.h"
 #include "panel/query/panel_sampling.h"
 #include "panel/query/sampling_make.h"
@@ -360,11 +362,12 @@ TEST(weights_vary_little_at_every_incidence)
             double deg = degrees_from_radians(theta);
             if (deg > 80.5) break;
             Weights found = draw_weights(cases[c].panel, fmax(theta, 1e-3), 0.37 * k, 6000);
-            bool    steep = deg > 65;
+            bool    steep = deg > 65, is_coarse = cases[c].panel == brushed.panel;
+            double  most = steep ? 0.1 : is_coarse ? 0.08 : 0.035;
             worst[steep] = fmax(worst[steep], found.variance);
             furnace = fmax(furnace, found.furnace);
             lane = fmax(lane, steep ? 0 : found.worst);
-            if (!(found.variance <= (steep ? 0.1 : 0.035)) || !(found.furnace <= 1.001))
+            if (!(found.variance <= most) || !(found.furnace <= 1.001))
                 fail_msg("%s at %.1f degrees: variance %.4f, furnace %.5f", cases[c].name, deg,
                          found.variance, found.furnace);
         }
@@ -485,7 +488,6 @@ static void expect_forged_is_refused(const Fixture *of, bool is_emptied, const c
 TEST(a_panel_without_its_sampling_is_refused)
 {
     expect_forged_is_refused(&ips, false, "without its sampling tree");
-    expect_forged_is_refused(&brushed, true, "is empty beside several azimuths");
 }
 
 /* What opening makes of an isotropic reflection draws as what fitting stores. */
@@ -501,6 +503,40 @@ TEST(several_tables_are_sampled_without_a_byte_of_the_file)
     for (int k = 0; k < 8; k++)
         assert_true(density_integral(panel, radians_from_degrees(0.5 + 11 * k), 0) ==
                     density_integral(ips.panel, radians_from_degrees(0.5 + 11 * k), 0));
+}
+
+/* The samples of several azimuths leave no room for their sampling: opening makes a coarse one,
+ * which draws as if its bytes stood in the file. What is cut is refused. */
+TEST(several_azimuths_are_sampled_without_a_byte_of_the_file)
+{
+    Arena           scratch = brushed.arena;
+    Panel           stored = *brushed.panel, *none;
+    SamplingSection made;
+    assert_true(stored.size <= 32 * (28 * 60 + 1) * sizeof(float) / 10);
+    assert_done(sampling_make(brushed.panel, true, &scratch, &made, &err) &&
+                sampling_tree_open(made.bytes, made.size,
+                                   geodesic_create(SAMPLING_MADE_LEVEL, &scratch), &scratch,
+                                   &stored.sampling.tree, &err));
+    assert_true(made.azimuths > 1 && made.azimuths == stored.sampling.azimuths);
+    assert_int_equal(made.incidences, stored.sampling.incidences);
+    uint32_t random = 7;
+    for (int k = 0; k < 400; k++) {
+        float u[3], pdf[2];
+        Vec3  wo = direction_deg(0.2 * k, 31 * k), wi[2];
+        for (int j = 0; j < 3; j++) u[j] = (float)steady_random(&random);
+        bool drawn = panel_sample(brushed.panel, wo, u, &wi[0], &pdf[0]);
+        assert_true(drawn == panel_sample(&stored, wo, u, &wi[1], &pdf[1]));
+        if (!drawn) continue;
+        assert_memory_equal(&wi[0], &wi[1], sizeof wi[0]);
+        assert_true(pdf[0] == pdf[1] && panel_pdf(&stored, wo, wi[0]) > 0);
+    }
+    FileBytes bytes = read_bytes(brushed.panel_path, &scratch);
+    for (size_t cut = 0; cut < bytes.size; cut++) {
+        Arena left = scratch;
+        assert_fails_as(panel_open_memory(bytes.data, cut, "cut", &left, &none, &err),
+                        ERROR_INPUT, "");
+        assert_null(strchr(why()->text, '\n'));
+    }
 }
 
 /* A file of one table holds no sampling; opening makes what fitting would have stored. */
@@ -524,7 +560,7 @@ TEST(one_table_is_sampled_without_a_byte_of_the_file)
                     1e-3);
     SamplingSection made[2];
     for (int i = 0; i < 2; i++)
-        assert_done(sampling_make(one.panel, &one.arena, &made[i], &err));
+        assert_done(sampling_make(one.panel, false, &one.arena, &made[i], &err));
     assert_int_equal(made[0].size, made[1].size);
     assert_memory_equal(made[0].bytes, made[1].bytes, made[0].size);
 }

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/fit/fit.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/file_write.h"
 #include "base/units.h"
+#include "hemisphere/tree/tree_open.h"
 #include "hemisphere/vertex/vertex_pack.h"
 #include "panel/fit/fit_bound.h"
 #include "panel/fit/fit_judge.h"
@@ -59,6 +61,11 @@ static void note_limits(const Measurement *set, FitNotes *notes)
                  degrees_from_radians(set->incidence[set->incidence_count - 1]));
 }
 
+static size_t places_bytes(const FitParts *parts)
+{
+    return parts->places ? fit_places_bytes(parts->places) : 0;
+}
+
 /* The file with its report: the long lists stay out of it, its tables are packed. Its own
  * size is one of the numbers. */
 static void *reported_bytes(const FitParts *parts, json_t *document, Arena *arena, size_t *size)
@@ -72,10 +79,11 @@ static void *reported_bytes(const FitParts *parts, json_t *document, Arena *aren
     for (int i = 0; i < 4; i++) json_object_del(meta, apart[i]);
     whole.meta_size = panel_report_pack(meta, arena, &whole.meta);
     for (int pass = 0; pass < 2 && whole.meta_size; pass++) {
-        whole.tables_size = panel_report_pack_tables(rows, arena, &whole.tables);
+        whole.tables_size = panel_report_pack_tables(rows, parts->saves, arena,
+                                                     &whole.tables);
         bytes = fit_file_bytes(&whole, arena, size);
         fit_table_set_file_size(json_object_get(document, "total"),
-                                *size - (parts->places ? fit_places_bytes(parts->places) : 0));
+                                *size - places_bytes(parts));
     }
     json_decref(rows);
     json_decref(meta);
@@ -101,36 +109,81 @@ typedef struct FitTarget {
     size_t      size;
 } FitTarget;
 
-/* Errors are measured on the file's own bytes. A report comes also of what is not written for
- * being not usable. */
-static bool finish_bytes(const FitParts *parts, FitTarget *out, Arena *arena, json_t **report,
-                         Error *err)
+/* The law of sizes: a file has at most the bytes of its samples as 32-bit numbers, of many
+ * samples a tenth of them. */
+static double most_bytes(double values)
+{
+    return sizeof(float) * values * (values > MANY_VALUES ? 0.1 : 1);
+}
+
+static double values_of(const json_t *report)
+{
+    const json_t *total = json_object_get(report, "total");
+    return json_number_value(json_object_get(total, "source_bytes_float32")) / sizeof(float);
+}
+
+/* By how many bytes a panel is larger than that; 0: it is not. */
+static double excess(const FitParts *parts, const FitTarget *target, const json_t *report)
+{
+    double size = (double)(target->size - places_bytes(parts));
+    return fmax(0, size - most_bytes(values_of(report)));
+}
+
+/* Errors are measured on the file's own bytes. */
+static bool measured_bytes(const FitParts *parts, FitTarget *out, Arena *arena,
+                           json_t **report, Error *err)
 {
     size_t size;
     Panel *panel = fit_file_open(parts, out->path, arena, &size, err);
     if (!panel) return false;
-    if (parts->places) size -= fit_places_bytes(parts->places);
-    json_t *document = fit_report_measure(parts, panel, size);
-    out->bytes = reported_bytes(parts, document, arena, &out->size);
-    if (!out->bytes) error_set(err, ERROR_MEMORY, "the report does not fit into memory");
-    bool is_refused = out->bytes && !parts->options->force &&
-                      fit_judge_grade(document) == JUDGE_UNUSABLE;
-    if (is_refused) refuse(document, out->path, err);
-    if (out->bytes) *report = document;
-    else json_decref(document);
-    return out->bytes && !is_refused;
+    *report = fit_report_measure(parts, panel, size - places_bytes(parts));
+    out->bytes = reported_bytes(parts, *report, arena, &out->size);
+    if (out->bytes) return true;
+    json_decref(*report);
+    *report = NULL;
+    return error_set(err, ERROR_MEMORY, "the report does not fit into memory");
 }
 
-/* A file would take more than the samples of its reflection, or a tenth of many: its tree is
- * packed, which opening pays for. */
+/* What a file that is too large does without: first a plain report, then its sampling. False:
+ * nothing is left. */
+static bool save(FitParts *parts, Arena *arena)
+{
+    ReflectionResult *reflection;
+    bool had_plain_report = !parts->saves;
+    parts->saves = true;
+    if (had_plain_report) return true;
+    if (!parts->reflection || !parts->reflection->sampling_size) return false;
+    reflection = ARENA_NEW(arena, ReflectionResult, 1);
+    *reflection = *parts->reflection;
+    reflection->sampling_size = 0;
+    parts->reflection = reflection;
+    return true;
+}
+
+/* A report comes also of what is not written for being not usable. */
+static bool finish_bytes(FitParts *parts, FitTarget *out, Arena *arena, json_t **report,
+                         Error *err)
+{
+    json_t *document;
+    if (!measured_bytes(parts, out, arena, &document, err)) return false;
+    while (excess(parts, out, document) > 0 && save(parts, arena)) {
+        json_decref(document);
+        if (!measured_bytes(parts, out, arena, &document, err)) return false;
+    }
+    *report = document;
+    return parts->options->force || fit_judge_grade(document) != JUDGE_UNUSABLE ||
+           refuse(document, out->path, err);
+}
+
+/* A file would take more than its reflection may: its tree is packed, which opening pays
+ * for. */
 static void pack_tree(ReflectionResult *r, size_t file_size, Arena *arena)
 {
     const void *blob = r->model->tree;
     double      values = 0;
     for (int t = 0; t < r->parts.tables; t++)
         values += (double)r->parts.kept[t].rows * r->model->wavelengths;
-    double most = sizeof(float) * values * (values > MANY_VALUES ? 0.1 : 1);
-    if ((double)(file_size + REPORT_BYTES) > most && vertex_can_pack(blob))
+    if ((double)(file_size + REPORT_BYTES) > most_bytes(values) && vertex_can_pack(blob))
         r->packed = vertex_pack(blob, arena, &r->packed_size);
 }
 
@@ -142,14 +195,86 @@ static bool finish_reflection(FitParts *parts, Arena *arena, Error *err)
     size_t size;
     SamplingSection made;
     Panel *panel = fit_file_open(parts, "panel", arena, &size, err);
-    if (!panel || !sampling_make(panel, arena, &made, err)) return false;
-    bool is_made_anew = panel_makes_sampling(panel->reflection) &&
+    if (!panel || !sampling_make(panel, false, arena, &made, err)) return false;
+    bool is_made_anew = panel->reflection->azimuths == 1 &&
                         (double)made.size > MADE_ANEW * (double)size;
     *reflection = *parts->reflection;
     reflection->sampling = made.bytes;
     reflection->sampling_size = is_made_anew ? 0 : made.size;
     pack_tree(reflection, size + reflection->sampling_size, arena);
     parts->reflection = reflection;
+    return true;
+}
+
+/* ---- a looser bound ---------------------------------------------------------------------- */
+
+#define LOOSEST 0.05 /* of a reflection, for the sake of its size */
+#define LOOSER 1.26  /* from one bound to the next */
+
+static bool may_loosen(const FitParts *parts, double too_many)
+{
+    const FitOptions *options = parts->options;
+    const ReflectionResult *r = parts->reflection;
+    return too_many > 0 && r && !options->bound && !options->level &&
+           options->basis == FIT_VERTEX &&
+           (double)(r->packed ? r->packed_size : tree_size(r->model->tree)) > too_many;
+}
+
+typedef struct LooserBound {
+    double own, bound;
+    bool   is_tenth; /* of its source: what the file may take */
+} LooserBound;
+
+/* The panel as it is, with a reflection to a looser bound. */
+static bool loosened(const FitParts *parts, LooserBound to, Arena *arena, FitParts *out,
+                     Error *err)
+{
+    FitNotes *notes = ARENA_NEW(arena, FitNotes, 1);
+    *notes = *parts->notes;
+    notes->count = parts->notes_before_reflection;
+    *out = *parts;
+    out->notes = notes;
+    if (!fit_bound_loosened(out, (float)to.bound, arena, err) ||
+        !finish_reflection(out, arena, err))
+        return false;
+    fit_note(notes, "reflection: the bound was loosened from %.3g %% to %.3g %%, so that the "
+             "file is at most %s its source as 32-bit numbers; --max-error %.3g keeps the "
+             "tighter bound", 100 * to.own, 100 * to.bound,
+             to.is_tenth ? "10 % of" : "as large as", to.own);
+    return true;
+}
+
+/* Where all savings leave a file too large, its reflection has the tightest of some looser
+ * bounds that is enough; where none is, its own. From the loosest on, so that a file for which
+ * none is enough costs one fit. */
+static void loosen(FitParts *parts, FitTarget *out, Arena *arena, json_t **report)
+{
+    double too_many = excess(parts, out, *report);
+    double own = parts->reflection ? parts->reflection->model->bound : LOOSEST;
+    bool   keeps = may_loosen(parts, too_many), is_many = values_of(*report) > MANY_VALUES;
+    for (double bound = LOOSEST; keeps && bound > 1.001 * own; bound /= LOOSER) {
+        Error     unheard;
+        FitTarget target = *out;
+        Arena     before = *arena;
+        json_t   *document = NULL, *other;
+        FitParts  next;
+        keeps = loosened(parts, (LooserBound){own, bound, is_many}, arena, &next,
+                         &unheard) &&
+                finish_bytes(&next, &target, arena, &document, &unheard) &&
+                excess(&next, &target, document) == 0;
+        other = keeps ? *report : document;
+        if (keeps) *parts = next, *out = target, *report = document;
+        else *arena = before;
+        json_decref(other);
+    }
+}
+
+/* A panel's bytes, and what is reported of it. */
+static bool finish_panel(FitParts *parts, FitTarget *out, Arena *arena, json_t **report,
+                         Error *err)
+{
+    if (!finish_bytes(parts, out, arena, report, err)) return false;
+    loosen(parts, out, arena, report);
     return true;
 }
 
@@ -184,6 +309,7 @@ static bool fit_parts(FitRun *run, const Measurement *set, FitParts *parts)
         return false;
     step(run);
     step(run);
+    parts->notes_before_reflection = notes->count;
     if (set->incidence_count && (!fit_bound_reflection(parts, arena, run->err) ||
                                  !finish_reflection(parts, arena, run->err)))
         return false;
@@ -212,7 +338,7 @@ static bool fit_spot(FitRun *run, const Measurement *whole, FitPlaces *places, i
     json_t   *report = NULL;
     const MeasuredSpot *spot = &whole->spot[places->spot_of_panel[k]];
     bool ok = fit_parts(run, &places->of_panel[k], &parts) &&
-              finish_bytes(&parts, &target, run->arena, &report, run->err);
+              finish_panel(&parts, &target, run->arena, &report, run->err);
     if (ok) {
         places->bytes[k] = target.bytes;
         places->sizes[k] = target.size;
@@ -251,7 +377,7 @@ static bool fit_whole(FitRun *run, const Measurement *set, FitPlaces *places, js
     parts.places = places;
     parts.spots = spots;
     bool ok = add_map(run, set, &parts, places) &&
-              finish_bytes(&parts, &target, run->arena, report, run->err) &&
+              finish_panel(&parts, &target, run->arena, report, run->err) &&
               file_write(run->path, target.bytes, target.size, run->err);
     json_decref(spots);
     if (!ok && *report && run->err->code != ERROR_DIFFERENT) {

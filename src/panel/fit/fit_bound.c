@@ -142,11 +142,24 @@ bool fit_bound_emission(FitParts *parts, Arena *arena, Error *err)
     return true;
 }
 
+static void take_reflection(const FitAttempt *held, FitParts *parts)
+{
+    *parts->notes = held->notes;
+    parts->reflection = held->parts.reflection;
+}
+
 bool fit_bound_reflection(FitParts *parts, Arena *arena, Error *err)
 {
     FitAttempt held;
     if (!approach(parts, fit_reflection, arena, &held, err)) return false;
-    *parts->notes = held.notes;
-    parts->reflection = held.parts.reflection;
+    take_reflection(&held, parts);
+    return true;
+}
+
+bool fit_bound_loosened(FitParts *parts, float bound, Arena *arena, Error *err)
+{
+    FitAttempt held;
+    if (!attempt_bound(parts, bound, fit_reflection, arena, &held, err)) return false;
+    take_reflection(&held, parts);
     return true;
 }

@@ -14,3 +14,6 @@
 /* Fill a part of the panel, and its notes. */
 bool fit_bound_emission(FitParts *parts, Arena *arena, Error *err);
 bool fit_bound_reflection(FitParts *parts, Arena *arena, Error *err);
+
+/* The reflection once more, to a bound that nobody required; replaces it and its notes. */
+bool fit_bound_loosened(FitParts *parts, float bound, Arena *arena, Error *err);

@@ -20,6 +20,8 @@ typedef struct FitParts {
     const char             *spectra_assumed; /* in words; NULL: they were measured */
     const ReflectionResult *reflection; /* NULL: none */
     FitNotes               *notes;
+    int                     notes_before_reflection;
+    bool                    saves; /* the tables of the report are compressed */
     const FitPlaces        *places; /* NULL: one panel everywhere */
     const json_t           *spots;  /* its panels' entries in the report; NULL: none */
     const void             *tables; /* of the report, packed (panel_report.h); NULL: not yet */

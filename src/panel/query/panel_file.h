@@ -39,7 +39,8 @@ typedef enum PanelSectionKind {
     PANEL_REFLECTION = 5,      /* PanelReflectionStored and what follows it */
     PANEL_REFLECTION_TREE = 6,
     PANEL_SAMPLING = 7,          /* a sampling tree, PanelSampling's counts and thetas */
-    PANEL_REPORT_TABLES = 8,   /* panel_report.h: the tables of the report, then the total */
+    PANEL_REPORT_TABLES = 8,   /* panel_report.h: the tables of the report, then the total;
+                                  compressed maybe, which older readers call damaged */
     PANEL_SURFACE = 9,         /* PanelSurfaceStored: how the reflection is read */
     PANEL_POLARISED = 10,      /* PanelPolarisedStored: of the emission; absent: unpolarised */
     PANEL_SPOTS = 11,          /* PanelSpotsHead and what follows it; absent: one everywhere */
@@ -201,8 +202,9 @@ typedef struct PanelMapHead {
 #define PANEL_INCIDENCES_MAX 32
 
 /* PANEL_SAMPLING: a sampling tree, at the next multiple of four bytes uint16 incidences and
- * azimuths, then float theta[incidences]; or nothing, of an isotropic reflection, from which
- * opening the file makes the same bytes (sampling_make.h). */
+ * azimuths, then float theta[incidences]; or nothing: opening the file makes it from the
+ * reflection (sampling_make.h), of an isotropic one the same bytes. Readers that make none of
+ * several azimuths refuse the file. */
 static inline size_t panel_sampling_tree_bytes(size_t tree)
 {
     return (tree + 3) / 4 * 4;

@@ -406,9 +406,8 @@ static bool check_thetas(const PanelBytes *at, const PanelSampling *s)
 static bool make_section(const Panel *panel, Arena *arena, PanelBytes *at)
 {
     SamplingSection made;
-    if (!panel_makes_sampling(panel->reflection))
-        return panel_refuse(at, "sampling", "is empty beside several azimuths");
-    if (!sampling_make(panel, arena, &made, at->err)) return error_in_file(at->err, at->name);
+    if (!sampling_make(panel, panel->reflection->azimuths > 1, arena, &made, at->err))
+        return error_in_file(at->err, at->name);
     at->data = made.bytes;
     at->size = made.size;
     return true;

@@ -134,12 +134,6 @@ typedef struct PanelPlaces {
     const float    (*white)[3], (*black)[3], (*dark)[3];
 } PanelPlaces;
 
-/* May opening make the sampling? Of several azimuths that would take seconds. */
-static inline bool panel_makes_sampling(const PanelReflection *reflection)
-{
-    return reflection->azimuths == 1;
-}
-
 struct Panel {
     Arena   copy; /* of the file; empty where the bytes belong to somebody else */
     size_t  size;

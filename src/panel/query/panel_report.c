@@ -13,6 +13,7 @@
 
 #define COLUMNS_MAX 64
 #define TEXT_MAX 255
+#define COMPRESSED 0x2000 /* no count of rows is as large: the beginning of a zlib stream */
 #define REPORT_MOST (1u << 24) /* bytes of its text */
 
 extern const char PANEL_WORDS[]; /* panel_words.txt */
@@ -20,6 +21,47 @@ extern const char PANEL_WORDS[]; /* panel_words.txt */
 typedef struct Column {
     char kind, key[TEXT_MAX + 1];
 } Column;
+
+/* ---- compression ------------------------------------------------------------------------ */
+
+/* Bytes in the arena; 0: memory is out. */
+static size_t packed(const void *bytes, size_t size, Arena *arena, const void **out)
+{
+    z_stream stream = {.next_in = bytes, .avail_in = (uInt)size};
+    if (deflateInit(&stream, Z_BEST_COMPRESSION) != Z_OK) return 0;
+    bool ok = deflateSetDictionary(&stream, (const Bytef *)PANEL_WORDS,
+                                   (uInt)strlen(PANEL_WORDS)) == Z_OK;
+    uLong          most = deflateBound(&stream, stream.avail_in);
+    unsigned char *to = arena_alloc(arena, 1, 8, most);
+    stream.next_out = to;
+    stream.avail_out = (uInt)most;
+    ok = ok && deflate(&stream, Z_FINISH) == Z_STREAM_END;
+    deflateEnd(&stream);
+    *out = to;
+    return ok ? stream.total_out : 0;
+}
+
+/* The caller's to free; NULL: damaged, or memory is out. */
+static char *unpacked(const void *bytes, size_t size, size_t *out_size)
+{
+    z_stream stream = {.next_in = bytes, .avail_in = (uInt)size};
+    size_t   most = size < REPORT_MOST / 1032 ? size * 1032 : REPORT_MOST; /* deflate's ratio */
+    char    *text = malloc(most + 1);
+    bool     ok = false;
+    stream.next_out = (Bytef *)text;
+    stream.avail_out = (uInt)most;
+    if (text && inflateInit(&stream) == Z_OK) {
+        ok = inflate(&stream, Z_FINISH) == Z_NEED_DICT &&
+             inflateSetDictionary(&stream, (const Bytef *)PANEL_WORDS,
+                                  (uInt)strlen(PANEL_WORDS)) == Z_OK &&
+             inflate(&stream, Z_FINISH) == Z_STREAM_END;
+        inflateEnd(&stream);
+    }
+    *out_size = stream.total_out;
+    if (ok) return text;
+    free(text);
+    return NULL;
+}
 
 /* ---- packing --------------------------------------------------------------------------- */
 
@@ -99,7 +141,7 @@ static const char *name_of(const json_t *table)
     return name ? name : "";
 }
 
-size_t panel_report_pack_tables(const json_t *tables, Arena *arena, const void **bytes)
+static size_t plain_tables(const json_t *tables, Arena *arena, const void **bytes)
 {
     Column  column[COLUMNS_MAX];
     size_t  i, size = 3, rows = json_array_size(tables);
@@ -123,6 +165,13 @@ size_t panel_report_pack_tables(const json_t *tables, Arena *arena, const void *
             put_number(&to, column[c].kind, json_object_get(table, column[c].key));
     *bytes = out;
     return (size_t)(to.at - out);
+}
+
+size_t panel_report_pack_tables(const json_t *tables, bool is_compressed, Arena *arena,
+                                const void **bytes)
+{
+    size_t size = plain_tables(tables, arena, bytes);
+    return is_compressed ? packed(*bytes, size, arena, bytes) : size;
 }
 
 /* ---- opening --------------------------------------------------------------------------- */
@@ -208,7 +257,7 @@ static bool get_rows(Reader *from, const Column *column, int columns, int rows, 
     return true;
 }
 
-json_t *panel_report_open_tables(const void *bytes, size_t size)
+static json_t *open_plain_tables(const void *bytes, size_t size)
 {
     Reader   from = {bytes, (const unsigned char *)bytes + size};
     uint16_t rows;
@@ -220,6 +269,19 @@ json_t *panel_report_open_tables(const void *bytes, size_t size)
         return out;
     json_decref(out);
     return NULL;
+}
+
+json_t *panel_report_open_tables(const void *bytes, size_t size)
+{
+    uint16_t rows;
+    size_t   plain_size;
+    if (size < sizeof rows) return NULL;
+    memcpy(&rows, bytes, sizeof rows);
+    if (rows < COMPRESSED) return open_plain_tables(bytes, size);
+    void   *plain = unpacked(bytes, size, &plain_size);
+    json_t *out = plain ? open_plain_tables(plain, plain_size) : NULL;
+    free(plain);
+    return out;
 }
 
 /* ---- the whole report -------------------------------------------------------------------- */
@@ -278,60 +340,26 @@ static void change_mirror(json_t *report, json_t *(*change)(const json_t *))
     json_decref(reflection);
 }
 
-/* Bytes in the arena; 0: memory is out. */
-static size_t packed(const char *text, Arena *arena, const void **bytes)
-{
-    z_stream stream = {.next_in = (const Bytef *)text, .avail_in = (uInt)strlen(text)};
-    if (deflateInit(&stream, Z_BEST_COMPRESSION) != Z_OK) return 0;
-    bool ok = deflateSetDictionary(&stream, (const Bytef *)PANEL_WORDS,
-                                   (uInt)strlen(PANEL_WORDS)) == Z_OK;
-    uLong          most = deflateBound(&stream, stream.avail_in);
-    unsigned char *out = arena_alloc(arena, 1, 8, most);
-    stream.next_out = out;
-    stream.avail_out = (uInt)most;
-    ok = ok && deflate(&stream, Z_FINISH) == Z_STREAM_END;
-    deflateEnd(&stream);
-    *bytes = out;
-    return ok ? stream.total_out : 0;
-}
-
 size_t panel_report_pack(json_t *report, Arena *arena, const void **bytes)
 {
     leave_unsaid(report);
     change_mirror(report, columns_of);
     char  *text = json_dumps(report, JSON_COMPACT | JSON_REAL_PRECISION(4));
-    size_t size = text ? packed(text, arena, bytes) : 0;
+    size_t size = text ? packed(text, strlen(text), arena, bytes) : 0;
     free(text);
     return size;
-}
-
-/* NULL: damaged, or memory is out. */
-static json_t *unpacked(const void *bytes, size_t size)
-{
-    z_stream stream = {.next_in = bytes, .avail_in = (uInt)size};
-    size_t   most = size < REPORT_MOST / 1032 ? size * 1032 : REPORT_MOST; /* deflate's ratio */
-    char    *text = malloc(most + 1);
-    json_t  *out = NULL;
-    stream.next_out = (Bytef *)text;
-    stream.avail_out = (uInt)most;
-    if (text && inflateInit(&stream) == Z_OK) {
-        if (inflate(&stream, Z_FINISH) == Z_NEED_DICT &&
-            inflateSetDictionary(&stream, (const Bytef *)PANEL_WORDS,
-                                 (uInt)strlen(PANEL_WORDS)) == Z_OK &&
-            inflate(&stream, Z_FINISH) == Z_STREAM_END)
-            out = json_loadb(text, stream.total_out, 0, NULL);
-        inflateEnd(&stream);
-    }
-    free(text);
-    return out;
 }
 
 /* Older files hold the text as it is. */
 static json_t *read_report(const Panel *panel)
 {
-    bool is_text = panel->meta_size && panel->meta[0] == '{';
-    return is_text ? json_loadb(panel->meta, panel->meta_size, 0, NULL)
-                   : unpacked(panel->meta, panel->meta_size);
+    size_t size;
+    if (panel->meta_size && panel->meta[0] == '{')
+        return json_loadb(panel->meta, panel->meta_size, 0, NULL);
+    char   *text = unpacked(panel->meta, panel->meta_size, &size);
+    json_t *out = text ? json_loadb(text, size, 0, NULL) : NULL;
+    free(text);
+    return out;
 }
 
 bool panel_report(const Panel *panel, json_t **report, Error *err)

@@ -15,8 +15,10 @@
 #include "base/error.h"
 #include "panel/query/panel.h"
 
-/* tables: objects of a "name" and numbers. Returns the size of *bytes in the arena. */
-size_t panel_report_pack_tables(const json_t *tables, Arena *arena, const void **bytes);
+/* tables: objects of a "name" and numbers. Returns the size of *bytes in the arena; 0: memory
+ * is out. is_compressed: as the report's text is; its first two bytes are no count of rows. */
+size_t panel_report_pack_tables(const json_t *tables, bool is_compressed, Arena *arena,
+                                const void **bytes);
 
 /* A new array of such objects; NULL: the bytes are damaged. */
 json_t *panel_report_open_tables(const void *bytes, size_t size);

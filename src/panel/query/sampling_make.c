@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/count.h"
 #include "base/mathd.h"
 #include "base/units.h"
 #include "hemisphere/sampling/sampling_tree_build.h"
@@ -12,10 +13,8 @@
 #include "panel/query/panel_reflection.h"
 #include "spectrum/spectral_table.h"
 
-#define PROBE_LEVEL 5             /* at which incidences and azimuths are chosen */
 #define CELLS 1200             /* of two octants, at most */
 #define CELL_VARIANCE 0.018f   /* of the weights at the incidences chosen */
-#define BETWEEN_VARIANCE 0.004 /* more of it half way between two of them */
 #define UNIFORM_SHARE 0.004f
 #define LAST_DEG 88.0
 #define INCIDENCES_MAX 24
@@ -23,32 +22,46 @@
 #define PROBES 3                  /* azimuths at which incidences are chosen */
 #define AZIMUTHS_MAX 32
 
+/* How much work a tree is. */
+typedef struct SamplingDetail {
+    int    probe_level; /* at which incidences and azimuths are chosen */
+    int    level;
+    int    intervals, azimuths; /* of incidences; at most */
+    double between;     /* variance of the weights half way between two of them, the more */
+} SamplingDetail;
+
+static const SamplingDetail fine = {5, SAMPLING_MADE_LEVEL, 16, AZIMUTHS_MAX, 0.004};
+static const SamplingDetail coarse = {4, 5, 8, 16, 0.016};
+
 /* Places of the stored frame, and the weights of the lanes. */
 typedef struct SamplingWork {
     const Panel *panel;
     int          level, octants, leaves, azimuths, incidences;
     Vec3        *stored;
     double      *area;
-    Wavelengths  wavelengths;
+    const SamplingDetail *detail;
+    PanelLanes   lanes;
     double       luminous[SPECTRUM_LANES];
     double       theta[INCIDENCES_MAX];
 } SamplingWork;
 
 /* Lanes evenly over what is measured of the visible range, weighted as the eye does and a
  * little more, so that no wavelength is forgotten. */
-static void choose_wavelengths(SamplingWork *work)
+static void choose_lanes(SamplingWork *work)
 {
     const PanelReflection *r = work->panel->reflection;
+    Wavelengths wavelengths = {0};
     double first = fmax(400, (double)r->wavelength_nm[0]), total = 0;
     double last = fmin(700, (double)r->wavelength_nm[r->wavelengths - 1]);
     for (int i = 0; i < SPECTRUM_LANES; i++) {
         double nm = first + fmax(0, last - first) * i / (SPECTRUM_LANES - 1);
         int    k = (int)fmin(SPECTRAL_COUNT - 1, fmax(0, nm - SPECTRAL_FIRST_NM + 0.5));
-        work->wavelengths.nm[i] = (float)nm;
+        wavelengths.nm[i] = (float)nm;
         work->luminous[i] = (double)spectral_table[k].y + 0.002;
         total += work->luminous[i];
     }
     for (int i = 0; i < SPECTRUM_LANES; i++) work->luminous[i] /= total;
+    panel_lanes(work->panel, &wavelengths, &work->lanes);
 }
 
 static void choose_places(SamplingWork *work, int level, Arena *arena)
@@ -82,7 +95,7 @@ static void read_function(const SamplingWork *work, double theta, double phi, fl
         double   f = 0;
         Vec3     d = specular_frame_outer_jacobian(&frame, work->stored[i], &jacobian);
         Vec3     wi = vec3(ex * d.x - ey * d.y, ey * d.x + ex * d.y, d.z);
-        Spectrum brdf = panel_brdf(work->panel, wo, wi, &work->wavelengths);
+        Spectrum brdf = panel_brdf_at(work->panel, wo, wi, &work->lanes);
         for (int k = 0; k < SPECTRUM_LANES; k++) f += work->luminous[k] * (double)brdf[k];
         f *= (double)(fmaxf(0, d.z) * jacobian) * area_of(work, i);
         integral[i] = isfinite(f) ? (float)f : 0;
@@ -137,7 +150,7 @@ static void divide(SamplingWork *work, Interval all, int room, Arena scratch)
         worst = fmax(worst, mixed_variance(work, at_middle + from, all.function[0] + from,
                                            all.function[1] + from));
     }
-    if (worst > BETWEEN_VARIANCE && room > 1) {
+    if (worst > work->detail->between && room > 1) {
         Interval low = {{all.theta[0], middle}, {all.function[0], at_middle}};
         Interval high = {{middle, all.theta[1]}, {at_middle, all.function[1]}};
         divide(work, low, room / 2, scratch);
@@ -153,26 +166,28 @@ static void choose_incidences(SamplingWork *work, Arena scratch)
     Interval all = {{first, last}, {read_probes(work, first, &scratch),
                                     read_probes(work, last, &scratch)}};
     work->theta[work->incidences++] = first;
-    divide(work, all, 16, scratch);
+    divide(work, all, work->detail->intervals, scratch);
 }
 
 /* Azimuths evenly, so many that half way between two of them is drawn well by these. */
 static void choose_azimuths(SamplingWork *work, Arena scratch)
 {
-    float *f[3];
-    double theta = radians_from_degrees(45);
+    float *read[2 * AZIMUTHS_MAX + 1] = {NULL};
     work->azimuths = 1;
     if (work->octants < 4) return;
-    for (int i = 0; i < 3; i++) f[i] = ARENA_NEW(&scratch, float, work->leaves);
-    for (int n = AZIMUTHS_LEAST; n <= AZIMUTHS_MAX; n *= 2) {
+    for (int n = AZIMUTHS_LEAST; n <= work->detail->azimuths; n *= 2) {
         double worst = 0;
+        int    half = AZIMUTHS_MAX / n; /* between two of them, of what is read */
         work->azimuths = n;
-        for (int a = 0; a < n; a++) {
-            for (int i = 0; i < 3; i++)
-                read_function(work, theta, 2 * PI * (a + 0.5 * i) / n, f[i]);
-            worst = fmax(worst, mixed_variance(work, f[1], f[0], f[2]));
-        }
-        if (worst <= BETWEEN_VARIANCE) return;
+        for (int at = 0; at < COUNT_OF(read); at += half)
+            if (!read[at]) {
+                read[at] = ARENA_NEW(&scratch, float, work->leaves);
+                read_function(work, radians_from_degrees(45), PI * at / AZIMUTHS_MAX, read[at]);
+            }
+        for (int at = half; at < COUNT_OF(read); at += 2 * half)
+            worst = fmax(worst, mixed_variance(work, read[at], read[at - half],
+                                               read[at + half]));
+        if (worst <= work->detail->between) return;
     }
 }
 
@@ -194,23 +209,24 @@ static void write_section(const SamplingWork *work, const void *tree, Arena *are
     *out = (SamplingSection){bytes, size, work->incidences, work->azimuths};
 }
 
-bool sampling_make(const Panel *panel, Arena *arena, SamplingSection *out, Error *err)
+bool sampling_make(const Panel *panel, bool is_coarse, Arena *arena, SamplingSection *out,
+                   Error *err)
 {
-    SamplingWork        work = {.panel = panel};
-    Arena       scratch = *arena;
-    const void *tree;
-    choose_wavelengths(&work);
-    choose_places(&work, PROBE_LEVEL, &scratch);
+    SamplingWork work = {.panel = panel, .detail = is_coarse ? &coarse : &fine};
+    Arena        scratch = *arena;
+    const void  *tree;
+    choose_lanes(&work);
+    choose_places(&work, work.detail->probe_level, &scratch);
     choose_incidences(&work, scratch);
     choose_azimuths(&work, scratch);
-    choose_places(&work, SAMPLING_MADE_LEVEL, &scratch);
+    choose_places(&work, work.detail->level, &scratch);
     int    functions = work.incidences * work.azimuths;
     float *integrals = ARENA_NEW(&scratch, float, (size_t)functions * (size_t)work.leaves);
     for (int i = 0; i < functions; i++)
         read_function(&work, work.theta[i % work.incidences],
                       2 * PI * (i / work.incidences) / work.azimuths,
                       integrals + (size_t)i * (size_t)work.leaves);
-    SamplingOptions options = {.level = SAMPLING_MADE_LEVEL, .octants = work.octants,
+    SamplingOptions options = {.level = work.detail->level, .octants = work.octants,
                                .functions = functions, .cells = CELLS * work.octants / 2,
                                .variance = CELL_VARIANCE, .uniform_share = UNIFORM_SHARE};
     bool ok = sampling_tree_build(&options, integrals, &scratch, &tree, err) ||

@@ -3,8 +3,9 @@
  * which incidences and azimuths a tree of directions is wanted, and the tree. Private to
  * src/panel.
  *
- * The same bytes on every machine. Some milliseconds for each incidence and azimuth; an
- * isotropic panel of which the section would be much of the file has it made when opened.
+ * The same bytes on every machine. Some milliseconds for each incidence and azimuth. Where the
+ * section would be too much of the file it is made when the file is opened: of several azimuths
+ * a coarse one, whose weights vary by some percent more, in a tenth of the time.
  * Memory    the section's bytes in the arena.
  * Fails     as sampling_tree_build.
  */
@@ -25,4 +26,5 @@ typedef struct SamplingSection {
 } SamplingSection;
 
 /* panel: its reflection can be queried, its sampling need not be there. */
-bool sampling_make(const Panel *panel, Arena *arena, SamplingSection *out, Error *err);
+bool sampling_make(const Panel *panel, bool is_coarse, Arena *arena, SamplingSection *out,
+                   Error *err);

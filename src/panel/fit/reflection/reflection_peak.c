@@ -375,7 +375,8 @@ static double row_angle(const AngleTable *slice, int row, double incidence)
 }
 
 /* Full width at half of the largest value near the mirror direction; 0: the largest value is
- * not there. By the outermost row above half of it, or the grid's step if that is wider. */
+ * not there, or 0. By the outermost row above half of it, or the grid's step if that is
+ * wider. */
 static double guess_width(const AngleTable *slice, double incidence)
 {
     double top = 0, reach = radians_from_degrees(SEARCH_DEG), half = 0, nearest = 1;
@@ -384,6 +385,7 @@ static double guess_width(const AngleTable *slice, double incidence)
         if (angle < reach) top = fmax(top, peak_window_row_mean(slice, i));
         if (angle > 1e-6) nearest = fmin(nearest, angle);
     }
+    if (!(top > 0)) return 0;
     for (int i = 0; i < slice->rows; i++) {
         double angle = row_angle(slice, i, incidence);
         if (angle < reach && peak_window_row_mean(slice, i) > 0.5 * top)
