@@ -6,6 +6,10 @@
 
 #include "base/mathd.h"
 
+const char *const limit_kind_names[LIMIT_KIND_COUNT + 1] = {
+    "contrast_ratio", "luminance_contrast", "modulation", "character_height", "stroke_ratio",
+    "width_ratio"};
+
 const LimitKindFacts limit_kinds[LIMIT_KIND_COUNT] = {
     [LIMIT_CONTRAST_RATIO] = {"contrast_ratio", "1", true, true},
     [LIMIT_LUMINANCE_CONTRAST] = {"luminance_contrast", "1", true, true},

@@ -31,6 +31,7 @@ typedef struct LimitKindFacts {
 } LimitKindFacts;
 
 extern const LimitKindFacts limit_kinds[LIMIT_KIND_COUNT];
+extern const char *const    limit_kind_names[LIMIT_KIND_COUNT + 1]; /* the last one NULL */
 
 /* LIMIT_KIND_COUNT: none has that name, or it is NULL. */
 LimitKind limit_kind_named(const char *name);

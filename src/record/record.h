@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* record.h -- a format of JSON is a table: one row a key.
+ *
+ * A row says of what kind the value is, where it goes in a struct, what range it has, whether it
+ * is required, and what it means. From the same rows a file is read (here) and its JSON Schema
+ * is written (record_schema.h). What rows cannot say (one list is as long as another) is a
+ * function of the format, called when the rows of the object have been read.
+ *
+ * Reading  refuses an unknown key (with the nearest known one), a required key that is missing,
+ *          null, another kind, and a value out of range; each error names file, JSON path, what
+ *          was found and what is required. What is absent leaves the struct as it is, so a caller
+ *          or `start` sets the defaults.
+ * Units    a row's: numbers are taken as they stand in the file.
+ * Memory   texts and lists lie in the view's arena. Threads: tables are constant.
+ */
+#pragma once
+#include <stddef.h>
+
+#include "text/json_view.h"
+
+typedef enum RecordKind {
+    RECORD_NUMBER,  /* double, in [low, high] */
+    RECORD_INTEGER, /* int, likewise */
+    RECORD_NUMBERS, /* double[most], all of them, each in [low, high] */
+    RECORD_FIGURES, /* const double *, least to most of them; int at `count` */
+    RECORD_FLAG,    /* bool */
+    RECORD_TEXT,    /* const char * */
+    RECORD_TEXTS,   /* const char **, least to most of them; int at `count` */
+    RECORD_CHOICE,  /* int: the place of the word among `words` */
+    RECORD_CONST,   /* nothing is kept: the text is words[0], or the number is low */
+    RECORD_OBJECT,  /* a struct `of`, in place; if `count` is given, the bool there: is it? */
+    RECORD_LIST,    /* const struct *, least to most of them; int at `count` */
+    RECORD_OWN      /* whatever `read` makes of it; `schema` is its JSON Schema */
+} RecordKind;
+
+enum RecordFlags {
+    RECORD_REQUIRED = 1,
+    RECORD_ABOVE = 2, /* low itself is out of range */
+    RECORD_FILLED = 4 /* a text has something in it */
+};
+
+typedef struct RecordFormat RecordFormat;
+typedef struct RecordRow RecordRow;
+
+struct RecordRow {
+    const char *key;
+    RecordKind  kind;
+    unsigned    flags;
+    size_t      offset; /* of the value in the struct */
+    double      low, high;
+    int         least, most;       /* items of a list; most 0: any number */
+    size_t      count;             /* offset of how many, or of whether it is there; 0: none */
+    const char *const  *words;     /* a NULL ends them */
+    const RecordFormat *of;
+    bool (*read)(const JsonView *view, const RecordRow *row, void *item, Error *err);
+    const char *schema;            /* of RECORD_OWN, JSON; "default": JSON of an absent value */
+    const char *fallback;
+    const char *doc;               /* one sentence; NULL: the key says it */
+};
+
+/* Of a row: where the value goes, and its range. */
+#define RECORD_AT(Type, member) .offset = offsetof(Type, member)
+#define RECORD_RANGE(least, most) .low = (least), .high = (most)
+
+struct RecordFormat {
+    const char      *name;  /* in a schema's "$defs" */
+    size_t           size;  /* of the struct */
+    const RecordRow *rows;  /* a key that is NULL ends them */
+    void (*start)(void *item);    /* defaults of a list's item; NULL: zeros */
+    bool (*check)(const JsonView *view, void *item, Error *err); /* NULL: rows say all */
+    const char *rules; /* what `check` wants, as members of a JSON Schema; NULL: nothing */
+    const char *doc;
+};
+
+/* All members of an object. item: a struct of the format, with its defaults. */
+bool record_read(const JsonView *view, const RecordFormat *format, void *item, Error *err);
+
+/* One member, which is there; item: what the row's offset counts from. */
+bool record_read_value(const JsonView *view, const RecordRow *row, void *item, Error *err);
+
+/* A fault of a member: "..., required: ...". Always false. */
+bool record_fails(const JsonView *view, const char *key, Error *err, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
