@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "base/units.h"
 #include "text/nearest_word.h"
 
 #define KEYS_MAX 256
@@ -33,16 +34,18 @@ static bool read_number(const JsonView *view, const RecordRow *row, double *out,
     if (!json_view_number(view, row->key, low, row->high, &value, err) ||
         !check_low(view, row, value, err))
         return false;
-    *out = value;
+    if (row->flags & RECORD_WHOLE && value != floor(value))
+        return record_fails(view, row->key, err, "is %g, required: a whole number", value);
+    *out = row->flags & RECORD_RADIANS ? radians_from_degrees(value) : value;
     return true;
 }
 
 static bool read_integer(const JsonView *view, const RecordRow *row, int *out, Error *err)
 {
-    double value;
-    if (!read_number(view, row, &value, err)) return false;
-    if (value != floor(value))
-        return record_fails(view, row->key, err, "is %g, required: a whole number", value);
+    double    value;
+    RecordRow whole = *row;
+    whole.flags |= RECORD_WHOLE;
+    if (!read_number(view, &whole, &value, err)) return false;
     *out = (int)value;
     return true;
 }
@@ -114,11 +117,14 @@ static bool read_numbers(const JsonView *view, const RecordRow *row, void *item,
                                                  : ARENA_NEW(view->arena, double, count);
     JsonRange range = {row->flags & RECORD_ABOVE ? -HUGE_VAL : row->low, row->high, count};
     if (count && !json_view_numbers(view, row->key, range, list, &found, err)) return false;
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count; i++) {
         if (!check_low(view, row, list[i], err)) return false;
-    if (row->kind == RECORD_NUMBERS) return true;
-    memcpy(at_offset(item, row->offset), &list, sizeof list);
-    *(int *)at_offset(item, row->count) = count;
+        if (row->flags & RECORD_WHOLE && list[i] != floor(list[i]))
+            return record_fails(view, row->key, err, "is %g, required: whole numbers", list[i]);
+    }
+    if (row->kind == RECORD_FIGURES)
+        memcpy(at_offset(item, row->offset), &list, sizeof list);
+    if (row->count) *(int *)at_offset(item, row->count) = count;
     return true;
 }
 

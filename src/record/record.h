@@ -21,8 +21,9 @@
 typedef enum RecordKind {
     RECORD_NUMBER,  /* double, in [low, high] */
     RECORD_INTEGER, /* int, likewise */
-    RECORD_NUMBERS, /* double[most], all of them, each in [low, high] */
-    RECORD_FIGURES, /* const double *, least to most of them; int at `count` */
+    RECORD_NUMBERS, /* double[most] in place, least to most of them, each in [low, high]; if
+                       `count` is given, the int there: how many */
+    RECORD_FIGURES, /* const double *, the same; int at `count` */
     RECORD_FLAG,    /* bool */
     RECORD_TEXT,    /* const char * */
     RECORD_TEXTS,   /* const char **, least to most of them; int at `count` */
@@ -36,7 +37,9 @@ typedef enum RecordKind {
 enum RecordFlags {
     RECORD_REQUIRED = 1,
     RECORD_ABOVE = 2, /* low itself is out of range */
-    RECORD_FILLED = 4 /* a text has something in it */
+    RECORD_FILLED = 4, /* a text has something in it */
+    RECORD_WHOLE = 8,  /* of numbers: whole ones */
+    RECORD_RADIANS = 16 /* degrees in the file */
 };
 
 typedef struct RecordFormat RecordFormat;
@@ -53,20 +56,29 @@ struct RecordRow {
     const char *const  *words;     /* a NULL ends them */
     const RecordFormat *of;
     bool (*read)(const JsonView *view, const RecordRow *row, void *item, Error *err);
-    const char *schema;            /* of RECORD_OWN, JSON; "default": JSON of an absent value */
-    const char *fallback;
+    const char *schema;            /* of RECORD_OWN, JSON */
     const char *doc;               /* one sentence; NULL: the key says it */
 };
 
 /* Of a row: where the value goes, and its range. */
 #define RECORD_AT(Type, member) .offset = offsetof(Type, member)
-#define RECORD_RANGE(least, most) .low = (least), .high = (most)
+#define RECORD_RANGE(bottom, top) .low = (bottom), .high = (top)
+
+/* Usual rows, short enough for one line. */
+#define RECORD_NUMBER_ROW(key, Type, member, bottom, top, words)                               \
+    {key, RECORD_NUMBER, RECORD_AT(Type, member), RECORD_RANGE(bottom, top), .doc = words}
+#define RECORD_PAIR_ROW(key, Type, member, bottom, top, words)                                 \
+    {key, RECORD_NUMBERS, RECORD_AT(Type, member), RECORD_RANGE(bottom, top), .least = 2,       \
+     .most = 2, .doc = words}
+#define RECORD_TEXT_ROW(key, Type, member, words)                                              \
+    {key, RECORD_TEXT, RECORD_AT(Type, member), .doc = words}
 
 struct RecordFormat {
     const char      *name;  /* in a schema's "$defs" */
     size_t           size;  /* of the struct */
     const RecordRow *rows;  /* a key that is NULL ends them */
-    void (*start)(void *item);    /* defaults of a list's item; NULL: zeros */
+    void (*start)(void *item); /* defaults of a whole file, of a list's item; NULL: zeros.
+                                  A number's default that is NaN means that it has none */
     bool (*check)(const JsonView *view, void *item, Error *err); /* NULL: rows say all */
     const char *rules; /* what `check` wants, as members of a JSON Schema; NULL: nothing */
     const char *doc;

@@ -2,8 +2,12 @@
 #include "record/record_schema.h"
 
 #include <math.h>
+#include <stdlib.h>
 
-static json_t *object_schema(const RecordFormat *format);
+#include "base/units.h"
+
+static json_t *object_schema(const RecordFormat *format, const void *item);
+static json_t *object_schema_alone(const RecordFormat *format);
 
 static void set(json_t *schema, const char *key, json_t *value)
 {
@@ -59,13 +63,16 @@ static json_t *list_schema(const RecordRow *row, json_t *items)
     return schema;
 }
 
-static json_t *value_schema(const RecordRow *row)
+/* item: holds the defaults; NULL: nobody knows them. */
+static json_t *value_schema(const RecordRow *row, const void *item)
 {
     switch (row->kind) {
-    case RECORD_NUMBER: return number_schema(row, "number");
+    case RECORD_NUMBER:
+        return number_schema(row, row->flags & RECORD_WHOLE ? "integer" : "number");
     case RECORD_INTEGER: return number_schema(row, "integer");
     case RECORD_NUMBERS:
-    case RECORD_FIGURES: return list_schema(row, number_schema(row, "number"));
+    case RECORD_FIGURES: return list_schema(row, number_schema(row, row->flags & RECORD_WHOLE ? "integer"
+                                                                          : "number"));
     case RECORD_FLAG: return kind("boolean");
     case RECORD_TEXT: return text_schema(row);
     case RECORD_TEXTS: return list_schema(row, kind("string"));
@@ -73,21 +80,64 @@ static json_t *value_schema(const RecordRow *row)
     case RECORD_CONST:
         return json_pack("{s:o}", "const",
                          row->words ? json_string(row->words[0]) : number(row->low));
-    case RECORD_OBJECT: return object_schema(row->of);
-    case RECORD_LIST: return list_schema(row, object_schema(row->of));
+    case RECORD_OBJECT:
+        return object_schema(row->of, item ? (const char *)item + row->offset : NULL);
+    case RECORD_LIST: return list_schema(row, object_schema_alone(row->of));
     default: return loaded(row->schema);
     }
 }
 
-static json_t *object_schema(const RecordFormat *format)
+/* NULL: a default that no file could state. */
+static json_t *numbers(const RecordRow *row, const double *list, int count)
+{
+    json_t *out = json_array();
+    for (int i = 0; i < count; i++) {
+        bool   is_low = list[i] < row->low && !(row->flags & RECORD_RADIANS);
+        double value = row->flags & RECORD_RADIANS ? degrees_from_radians(list[i]) : list[i];
+        if (is_low || isnan(value)) {
+            json_decref(out);
+            return NULL;
+        }
+        json_array_append_new(out, number(rint(1e9 * value) / 1e9));
+    }
+    return out;
+}
+
+/* What an absent member means; NULL: nothing that JSON could say. */
+static json_t *default_of(const RecordRow *row, const void *item)
+{
+    const void *at = (const char *)item + row->offset;
+    const void *count = (const char *)item + row->count;
+    const double *figures = row->kind == RECORD_FIGURES ? *(double *const *)at : at;
+    json_t       *list;
+    switch (row->kind) {
+    case RECORD_NUMBER:
+        list = numbers(row, at, 1);
+        json_t *first = json_incref(json_array_get(list, 0));
+        json_decref(list);
+        return first;
+    case RECORD_INTEGER: return json_integer(*(const int *)at);
+    case RECORD_NUMBERS:
+    case RECORD_FIGURES:
+        if (!figures || (row->count && !*(const int *)count)) return NULL;
+        return numbers(row, figures, row->count ? *(const int *)count : row->most);
+    case RECORD_FLAG: return json_boolean(*(const bool *)at);
+    case RECORD_CHOICE: return json_string(row->words[*(const int *)at]);
+    default: return NULL;
+    }
+}
+
+static json_t *object_schema(const RecordFormat *format, const void *item)
 {
     json_t *schema = kind("object"), *properties = json_object(), *required = json_array();
     for (const RecordRow *row = format->rows; row->key; row++) {
-        json_t *value = value_schema(row);
-        if (row->fallback) set(value, "default", loaded(row->fallback));
+        json_t *value = value_schema(row, item);
+        bool    is_required = row->flags & RECORD_REQUIRED;
+        json_t *usual = is_required || !item ? NULL : default_of(row, item);
+        if (usual) set(value, "default", usual);
         if (row->doc) set(value, "description", json_string(row->doc));
         set(properties, row->key, value);
-        if (row->flags & RECORD_REQUIRED)
+        if (is_required)
             json_array_append_new(required, json_string(row->key));
     }
     if (format->doc) set(schema, "description", json_string(format->doc));
@@ -102,11 +152,21 @@ static json_t *object_schema(const RecordFormat *format)
     return schema;
 }
 
+/* Of a list's item, or a whole file. */
+static json_t *object_schema_alone(const RecordFormat *format)
+{
+    void   *item = calloc(1, format->size);
+    if (item && format->start) format->start(item);
+    json_t *schema = object_schema(format, item);
+    free(item);
+    return schema;
+}
+
 json_t *record_schema(const RecordFormat *format, const char *title)
 {
     json_t *schema = json_pack("{s:s, s:s}", "$schema",
                                "https://json-schema.org/draft/2020-12/schema", "title", title);
-    json_t *body = object_schema(format);
+    json_t *body = object_schema_alone(format);
     json_object_update(schema, body);
     json_decref(body);
     return schema;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""schemas.py [PARHELION] -- files hold to the schemas of assets/schemas, and wrong ones do not.
+"""schemas.py PARHELION -- files hold to the schemas of assets/schemas, and wrong ones do not.
 
 Shipped scenes against those of our glTF extensions; shipped recipes and reviews, and with the
 program the manifest that it writes, against those of the formats. Program and schema refuse
@@ -240,7 +240,7 @@ def check_format(report, validator, good, wrong, try_program):
 def check_formats(report, program, folder, schema_of):
     def trying(*command):
         return lambda document: refuses(program, command, folder, document) if program else None
-    recipes, sets = schema_of("synthetic_panel"), schema_of("measurement_set")
+    recipes, sets = schema_of("recipe"), schema_of("measurement_set")
     for recipe in sorted(glob.glob(os.path.join(ROOT, "assets/panels/*.recipe.json"))):
         report.claim_none(f"{os.path.relpath(recipe, ROOT)} against its schema",
                           [error.message for error in recipes.iter_errors(load(recipe))])
@@ -320,7 +320,7 @@ def check_reviews(report, validator):
 
 def main():
     report = Report()
-    program = os.path.abspath(sys.argv[1]) if len(sys.argv) > 1 else None
+    program = os.path.abspath(sys.argv[1])
     try:
         import jsonschema
     except ImportError:
@@ -338,7 +338,12 @@ def main():
         report.claim(name in known, f"assets/schemas holds no valid schema of {name}")
     check_can_fail(report, known)
     def schema_of(name):
-        schema = with_references(load(os.path.join(ROOT, f"assets/schemas/{name}.schema.json")))
+        if name in ("profile", "recipe"): # written from the rows that the program reads by
+            schema = json.loads(subprocess.run([program, "schema", name], capture_output=True,
+                                               check=True).stdout)
+        else:
+            schema = load(os.path.join(ROOT, f"assets/schemas/{name}.schema.json"))
+        schema = with_references(schema)
         validator = jsonschema.validators.validator_for(schema)
         validator.check_schema(schema)
         return validator(schema)

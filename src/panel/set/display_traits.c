@@ -2,12 +2,11 @@
 #include "panel/set/display_traits.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/count.h"
 
 static const char *const KEYS[] = {"polarisation", "subpixels"};
-static const char *const LAYOUTS[] = {"none", "stripe", "pentile"};
+static const char *const LAYOUTS[] = {"stripe", "pentile", NULL};
 
 const char *display_traits_key(const JsonView *root)
 {
@@ -18,102 +17,82 @@ const char *display_traits_key(const JsonView *root)
 
 const char *display_traits_layout(SubpixelLayout layout)
 {
-    return LAYOUTS[layout];
+    return LAYOUTS[layout - SUBPIXELS_STRIPE];
 }
 
-static bool need_key(const JsonView *view, const char *key, Error *err)
+static const RecordRow POLARISATION[] = {
+    {"degree", RECORD_NUMBER, RECORD_REQUIRED, RECORD_AT(DisplayTraits, polarisation_degree),
+     RECORD_RANGE(0, 1), .doc = "The linearly polarised share."},
+    {"azimuth_deg", RECORD_NUMBER, RECORD_REQUIRED,
+     RECORD_AT(DisplayTraits, polarisation_azimuth_deg), RECORD_RANGE(-360, 360),
+     .doc = "Along which its electric field swings: 0 right, 90 up."},
+    {0}};
+const RecordFormat polarisation_format = {"polarisation", sizeof(DisplayTraits), POLARISATION,
+                                         .doc = NULL};
+
+static const RecordRow SUBPIXELS[] = {
+    {"layout", RECORD_CHOICE, RECORD_REQUIRED, RECORD_AT(DisplayTraits, layout),
+     .words = LAYOUTS, .doc = "stripe: red, green and blue from left to right. pentile: "
+                              "diamonds, a green and a red or blue one for each pixel."},
+    RECORD_NUMBER_ROW("fill", DisplayTraits, fill, 0.01, 1, "Share of the area that emits."),
+    {"columns", RECORD_NUMBER, RECORD_WHOLE, RECORD_AT(DisplayTraits, columns),
+     RECORD_RANGE(1, 65536), .doc = "With rows; another way to say pixels."},
+    {"rows", RECORD_NUMBER, RECORD_WHOLE, RECORD_AT(DisplayTraits, rows),
+     RECORD_RANGE(1, 65536), .doc = "With columns."},
+    {0}};
+
+static bool check_subpixels(const JsonView *view, void *item, Error *err)
 {
-    return json_object_get(view->object, key) ||
-           error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing", key);
+    const DisplayTraits *t = item;
+    return (t->columns > 0) == (t->rows > 0) ||
+           record_fails(view, t->columns > 0 ? "columns" : "rows", err, "is there without '%s'",
+                        t->columns > 0 ? "rows" : "columns");
 }
 
-static bool read_polarisation(const JsonView *root, DisplayTraits *out, Error *err)
-{
-    static const char *const keys[] = {"degree", "azimuth_deg"};
-    JsonView view;
-    if (!json_view_child(root, "polarisation", false, &view, err)) return false;
-    if (!view.object) return true;
-    return json_view_check_keys(&view, keys, COUNT_OF(keys), err) &&
-           json_view_number(&view, "degree", 0, 1, &out->polarisation_degree, err) &&
-           json_view_number(&view, "azimuth_deg", -360, 360, &out->polarisation_azimuth_deg,
-                            err) &&
-           need_key(&view, "degree", err) && need_key(&view, "azimuth_deg", err);
-}
-
-/* ---- sub-pixels -------------------------------------------------------------------------- */
-
-static bool read_layout(const JsonView *view, SubpixelLayout *out, Error *err)
-{
-    const char *word = NULL;
-    if (!json_view_text(view, "layout", &word, err) || !need_key(view, "layout", err))
-        return false;
-    for (int i = SUBPIXELS_STRIPE; i < COUNT_OF(LAYOUTS); i++) {
-        *out = (SubpixelLayout)i;
-        if (strcmp(word, LAYOUTS[i]) == 0) return true;
-    }
-    return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "layout"),
-                    "is \"%.40s\", wanted \"stripe\" or \"pentile\"", word);
-}
+const RecordFormat subpixels_format = {
+    "subpixels", sizeof(DisplayTraits), SUBPIXELS, .check = check_subpixels,
+    .rules = "{\"dependentRequired\": {\"columns\": [\"rows\"], \"rows\": [\"columns\"]}}"};
 
 /* A number of pixels stands here and under "pixels": it must be the same. */
-static bool read_count(const JsonView *root, const JsonView *view, const char *key,
-                       double *pixels, Error *err)
+static bool check_count(const JsonView *root, const char *key, double count, double *pixels,
+                        Error *err)
 {
-    double count = 0;
-    if (!json_view_number(view, key, 1, 65536, &count, err)) return false;
-    if (count != floor(count))
-        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                        "is %g, wanted a whole number", count);
     if (json_object_get(root->object, "pixels") && count != *pixels)
-        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
+        return error_at(err, ERROR_INPUT, root->file,
+                        arena_format(root->arena, "%s/subpixels/%s", root->path, key),
                         "is %g, but 'pixels' says %g", count, *pixels);
     *pixels = count;
     return true;
 }
 
-static bool read_counts(const JsonView *root, const JsonView *view, double pixels[2],
-                        Error *err)
+bool display_traits_check(const JsonView *root, double pixels[2], DisplayTraits *traits,
+                          Error *err)
 {
-    bool has_columns = json_object_get(view->object, "columns") != NULL;
-    bool has_rows = json_object_get(view->object, "rows") != NULL;
-    if (has_columns != has_rows)
-        return error_at(err, ERROR_INPUT, view->file,
-                        json_view_path(view, has_columns ? "columns" : "rows"),
-                        "is there without '%s'", has_columns ? "rows" : "columns");
-    return !has_columns || (read_count(root, view, "columns", &pixels[0], err) &&
-                            read_count(root, view, "rows", &pixels[1], err));
-}
-
-static bool check_pixels(const JsonView *root, const double pixels[2], Error *err)
-{
-    if (!json_object_get(root->object, "pixels")) return true;
-    for (int k = 0; k < 2; k++)
+    if (!traits->has_subpixels) return true;
+    for (int k = 0; k < 2 && json_object_get(root->object, "pixels"); k++)
         if (pixels[k] != floor(pixels[k]))
-            return error_at(err, ERROR_INPUT, root->file, json_view_path(root, "pixels"),
-                            "holds %g, wanted whole numbers: 'subpixels' divides them",
-                            pixels[k]);
-    return true;
-}
-
-static bool read_subpixels(const JsonView *root, double pixels[2], Subpixels *out, Error *err)
-{
-    static const char *const keys[] = {"layout", "fill", "columns", "rows"};
-    JsonView view;
-    double   fill = 1;
-    if (!json_view_child(root, "subpixels", false, &view, err)) return false;
-    if (!view.object) return true;
-    if (!json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
-        !read_layout(&view, &out->layout, err) ||
-        !json_view_number(&view, "fill", 0.01, 1, &fill, err) ||
-        !check_pixels(root, pixels, err) || !read_counts(root, &view, pixels, err))
+            return record_fails(root, "pixels", err, "holds %g, required: whole numbers: "
+                                "'subpixels' divides them", pixels[k]);
+    if (traits->columns > 0 &&
+        (!check_count(root, "columns", traits->columns, &pixels[0], err) ||
+         !check_count(root, "rows", traits->rows, &pixels[1], err)))
         return false;
-    out->fill = (float)fill;
+    traits->subpixels.layout = (SubpixelLayout)(SUBPIXELS_STRIPE + traits->layout);
+    traits->subpixels.fill = (float)traits->fill;
     return true;
 }
 
 bool display_traits_read(const JsonView *root, double pixels[2], DisplayTraits *out,
                          Error *err)
 {
-    return read_polarisation(root, out, err) &&
-           read_subpixels(root, pixels, &out->subpixels, err);
+    typedef struct Alone {
+        DisplayTraits traits;
+    } Alone;
+    static const RecordRow rows[] = {DISPLAY_TRAITS_ROWS(Alone, traits)};
+    out->fill = 1;
+    for (int i = 0; i < COUNT_OF(rows); i++)
+        if (json_object_get(root->object, rows[i].key) &&
+            !record_read_value(root, &rows[i], out, err))
+            return false;
+    return display_traits_check(root, pixels, out, err);
 }

@@ -7,18 +7,33 @@
  */
 #pragma once
 #include "panel/query/panel.h"
-#include "text/json_view.h"
+#include "record/record.h"
 
 typedef struct DisplayTraits {
     double    polarisation_degree;      /* linear, 0 to 1; 0: unpolarised */
     double    polarisation_azimuth_deg; /* -360 to 360: 0 right, 90 up */
     Subpixels subpixels;                /* SUBPIXELS_NONE: not stated. Its pixels are 0: the
                                            display's stand beside it */
+    int       layout;                   /* as read: the place among the words */
+    double    fill, columns, rows;
+    bool      has_subpixels;
 } DisplayTraits;
 
-/* "polarisation" and "subpixels" of a document; what is absent keeps its value. pixels: the
- * display's columns and rows as its key "pixels" gave them, if there is one; "subpixels" may
- * state them in its place. */
+/* "polarisation" and "subpixels" of a document whose struct has them in `member`. */
+#define DISPLAY_TRAITS_ROWS(Type, member)                                                      \
+    {"polarisation", RECORD_OBJECT, RECORD_AT(Type, member), .of = &polarisation_format,       \
+     .doc = "Of the emitted light. Absent: unpolarised."},                                     \
+    {"subpixels", RECORD_OBJECT, RECORD_AT(Type, member), .of = &subpixels_format,             \
+     .count = offsetof(Type, member.has_subpixels),                                            \
+     .doc = "How each pixel is divided. Absent: the light is even."}
+extern const RecordFormat polarisation_format, subpixels_format; /* of a DisplayTraits */
+
+/* What rows cannot say, once they are read. pixels: the display's columns and rows as its key
+ * "pixels" gave them, if there is one; "subpixels" may state them in its place. */
+bool display_traits_check(const JsonView *root, double pixels[2], DisplayTraits *traits,
+                          Error *err);
+
+/* Both rows of a document, and what they cannot say. */
 bool display_traits_read(const JsonView *root, double pixels[2], DisplayTraits *out,
                          Error *err);
 

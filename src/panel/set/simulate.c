@@ -262,7 +262,7 @@ static void add_uniformity(Text *text, const SyntheticPlaces *places)
 static void add_pixel(Instrument *instrument, Text *text, int column, int row)
 {
     const SyntheticPanel *panel = instrument->panel;
-    const int     *map = panel->places.map;
+    const int      map[2] = {(int)panel->places.map[0], (int)panel->places.map[1]};
     double         place[2] = {(column + 0.5) / map[0], (row + 0.5) / map[1]}, xyz[2][3];
     double         turn = panel->places.bend * (place[0] - 0.5);
     double         angles[2] = {fabs(turn), turn < 0 ? PI : 0};
@@ -286,9 +286,9 @@ static void add_pixel(Instrument *instrument, Text *text, int column, int row)
 
 static bool write_map(Instrument *instrument)
 {
-    const int *map = instrument->panel->places.map;
-    Arena      arena = instrument->scratch;
-    Text       text = {.arena = &arena};
+    const double *map = instrument->panel->places.map;
+    Arena         arena = instrument->scratch;
+    Text          text = {.arena = &arena};
     text_add(&text, "column,row,X,Y,Z,black_X,black_Y,black_Z\n");
     for (int row = 0; row < map[1]; row++)
         for (int column = 0; column < map[0]; column++)
@@ -342,7 +342,7 @@ static bool write_places(Instrument *instrument)
         instrument->prefix = "";
     }
     return ok && (reflects_by_place(panel) || write_all_brdf(instrument)) &&
-           (!places->map[0] || write_map(instrument)) && write_all_specular(instrument);
+           (!(places->map[0] > 0) || write_map(instrument)) && write_all_specular(instrument);
 }
 
 static int count_tables(const SyntheticPanel *panel)
@@ -394,7 +394,7 @@ static bool write_manifest(Instrument *instrument)
     add_traits(&text, &panel->traits);
     if (panel->reflection.exists && !reflects_by_place(panel))
         add_reflection(&text, panel, "");
-    if (panel->places.map[0]) add_uniformity(&text, &panel->places);
+    if (panel->places.map[0] > 0) add_uniformity(&text, &panel->places);
     text_add(&text, "\n}\n");
     return set_writer_add(&instrument->writer, "MANIFEST.json", &text);
 }

@@ -51,7 +51,7 @@
 typedef struct SyntheticPrimary {
     double luminance_cd_m2; /* of this primary alone at level 255 on the axis */
     double shift[3];        /* exponents of X, Y, Z over sin^2 theta */
-    int    peak_count;
+    int    peak_count, fwhm_count, weight_count; /* equal */
     double peak_nm[SYNTHETIC_PEAKS_MAX], fwhm_nm[SYNTHETIC_PEAKS_MAX];
     double weight[SYNTHETIC_PEAKS_MAX];
     double white_xyz[3];    /* W_p above, cd m^-2 */
@@ -87,9 +87,9 @@ typedef struct SyntheticInstrument {
 } SyntheticInstrument;
 
 typedef struct SyntheticPlaces {
-    int    spots; /* 0: one measurement, of the middle */
     double u[SYNTHETIC_SPOTS_MAX], v[SYNTHETIC_SPOTS_MAX];
-    int    map[2]; /* pixels; 0: no map */
+    int    spots, rows; /* equal; 0: one measurement, of the middle */
+    double map[2]; /* pixels, whole; 0: no map */
     double slope[2], mura, mura_cycles[2], tint, clouding, lobe_slope, haze_slope;
     double bend; /* radians; above 0: concave */
 } SyntheticPlaces;

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "cli/format_table.h"
+
+#include "base/count.h"
+#include "panel/set/synthetic_format.h"
+#include "review/profile_format.h"
+
+const NamedFormat format_table[] = {
+    {"profile", "Limits that a glare review holds its figures against", &profile_format},
+    {"recipe", "A synthetic panel, *.recipe.json", &synthetic_format},
+};
+const int format_count = COUNT_OF(format_table);

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Every key of every format that is read by rows: misspelt, missing, null, of another kind, out
+ * of range. Each fault is found where it is, and the nearest key is named. */
+#include "json_fixture.h"
+
+#include <math.h>
+
+#include "base/count.h"
+#include "base/file.h"
+#include "cli/format_table.h"
+
+/* A shipped file of each format, in the order of the table. */
+static const char *const EXAMPLES[] = {PROJECT_DIR "/assets/profiles/iso-15008.json",
+                                       PROJECT_DIR "/assets/panels/oled_centre.recipe.json"};
+
+typedef struct Faults {
+    const RecordFormat *format;
+    json_t     *document; /* the whole, good */
+    const char *path;     /* of the object that the rows are of */
+    json_t     *object;   /* in the document */
+    int         tried;
+} Faults;
+
+/* Reads what the document is now. */
+static bool reads(const Faults *f, Error *err)
+{
+    Arena    arena = *test_memory();
+    JsonView view = {.object = f->document, .file = "x.json", .path = "", .arena = &arena};
+    void    *item = arena_alloc(&arena, 1, _Alignof(max_align_t), f->format->size);
+    if (f->format->start) f->format->start(item);
+    return record_read(&view, f->format, item, err);
+}
+
+static void expect(Faults *f, const char *place, const char *word)
+{
+    Error found = {0};
+    f->tried++;
+    if (reads(f, &found)) fail_msg("%s: taken, \"%s\" expected", place, word);
+    if (strcmp(found.path, place) != 0 || !strstr(found.text, word))
+        fail_msg("%s: %s, expected %s: %s", found.path, found.text, place, word);
+}
+
+/* With a value in the place of a key's own; then it is as it was. */
+static void try_value(Faults *f, const RecordRow *row, json_t *value, const char *word)
+{
+    json_t *before = json_incref(json_object_get(f->object, row->key));
+    char    place[256];
+    snprintf(place, sizeof place, "%s/%s", f->path, row->key);
+    json_object_set_new(f->object, row->key, value);
+    expect(f, place, word);
+    if (before) json_object_set_new(f->object, row->key, before);
+    else json_object_del(f->object, row->key);
+}
+
+static void try_names(Faults *f, const RecordRow *row)
+{
+    json_t *value = json_incref(json_object_get(f->object, row->key));
+    char    wrong[128], place[512], word[160];
+    snprintf(wrong, sizeof wrong, "%sx", row->key);
+    snprintf(place, sizeof place, "%s/%s", f->path, wrong);
+    snprintf(word, sizeof word, "the nearest known one is '%s'", row->key);
+    json_object_set_new(f->object, wrong, json_null());
+    json_object_del(f->object, row->key);
+    expect(f, place, word);
+    json_object_del(f->object, wrong);
+    snprintf(word, sizeof word, "key '%s' is missing", row->key);
+    if (row->flags & RECORD_REQUIRED) expect(f, f->path, word);
+    if (value) json_object_set_new(f->object, row->key, value);
+}
+
+static json_t *of_another_kind(const RecordRow *row)
+{
+    bool is_text = row->kind == RECORD_TEXT || row->kind == RECORD_CHOICE ||
+                   row->kind == RECORD_OWN;
+    return is_text ? json_integer(7) : json_string("seven");
+}
+
+static void try_ranges(Faults *f, const RecordRow *row)
+{
+    bool is_list = row->kind == RECORD_NUMBERS || row->kind == RECORD_FIGURES;
+    if (!is_list && row->kind != RECORD_NUMBER && row->kind != RECORD_INTEGER) return;
+    const double outside[] = {row->low - 1, row->high + fmax(1, 1e-6 * row->high)};
+    for (int i = 0; i < COUNT_OF(outside); i++) {
+        json_t *value = json_real(outside[i]);
+        if (is_list) {
+            json_t *list = json_array();
+            for (int k = 0; k < row->least || !k; k++) json_array_append(list, value);
+            json_decref(value);
+            value = list;
+        }
+        if (isfinite(outside[i])) try_value(f, row, value, "a number");
+        else json_decref(value);
+    }
+    if (is_list && row->most) {
+        json_t *list = json_array();
+        for (int k = 0; k <= row->most; k++) json_array_append_new(list, json_real(row->low));
+        try_value(f, row, list, "values");
+    }
+}
+
+static void try_rows(Faults *f, const RecordFormat *format);
+
+/* What is in an object, or in a list's first item. */
+static void try_inside(Faults *f, const RecordRow *row)
+{
+    json_t *inside = json_object_get(f->object, row->key);
+    Faults  within = *f;
+    char    path[256];
+    bool    is_list = row->kind == RECORD_LIST;
+    if ((!is_list && row->kind != RECORD_OBJECT) || !inside) return;
+    snprintf(path, sizeof path, is_list ? "%s/%s/0" : "%s/%s", f->path, row->key);
+    within.object = is_list ? json_array_get(inside, 0) : inside;
+    within.path = path;
+    if (within.object) try_rows(&within, row->of);
+    f->tried = within.tried;
+}
+
+static void try_rows(Faults *f, const RecordFormat *format)
+{
+    for (const RecordRow *row = format->rows; row->key; row++) {
+        try_names(f, row);
+        try_value(f, row, json_null(), row->kind == RECORD_OWN ? "" : "is null");
+        try_value(f, row, of_another_kind(row), row->kind == RECORD_OWN ? "" : "is a");
+        try_ranges(f, row);
+        try_inside(f, row);
+    }
+}
+
+TEST(every_fault_of_every_key_is_found_where_it_is)
+{
+    assert_int_equal(format_count, COUNT_OF(EXAMPLES));
+    for (int i = 0; i < format_count; i++) {
+        json_t *document = json_load_file(EXAMPLES[i], 0, NULL);
+        Error   none = {0};
+        Faults  faults = {format_table[i].format, document, "", document, 0};
+        assert_non_null(document);
+        if (!reads(&faults, &none)) fail_msg("%s: %s", none.path, none.text);
+        try_rows(&faults, faults.format);
+        if (!reads(&faults, &none)) fail_msg("the example changed: %s", none.text);
+        print_message("%s: %d faults\n", format_table[i].name, faults.tried);
+        json_decref(document);
+    }
+}
+
+TEST_PROGRAM(make_folder, clear_folder)
