@@ -16,7 +16,7 @@ keep_steps "$@"
 # ---- what depends on what: with a folder all that it includes (tests/structure/steps.py) ----
 build='CMakeLists.txt CMakePresets.json third_party tests/steps.sh tests/structure/report.py'
 base="$build src/print src/base src/estimate src/text src/spectrum"
-panels="$base src/hemisphere src/image src/panel src/page src/library assets/panels"
+panels="$base src/record src/hemisphere src/image src/panel src/page src/library assets/panels"
 light="$panels src/import src/sky src/scene src/bvh src/light src/mirror src/guide src/camera
     src/sunlit src/path src/film src/kernel src/render shaders"
 options="$light src/denoise src/vision src/cli/ src/cli/options"

@@ -3,7 +3,7 @@
 
 #include "base/count.h"
 #include "panel/set/synthetic_format.h"
-#include "review/profile_format.h"
+#include "review/profile.h"
 
 const NamedFormat format_table[] = {
     {"profile", "Limits that a glare review holds its figures against", &profile_format},

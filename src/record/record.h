@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* record.h -- a format of JSON is a table: one row a key.
  *
- * A row says of what kind the value is, where it goes in a struct, what range it has, whether it
- * is required, and what it means. From the same rows a file is read (here) and its JSON Schema
+ * A row says of what kind the value is, where it goes in a struct, what range it has, whether
+ * it is required, and what it means. From the same rows a file is read (here) and its JSON Schema
  * is written (record_schema.h). What rows cannot say (one list is as long as another) is a
  * function of the format, called when the rows of the object have been read.
  *
  * Reading  refuses an unknown key (with the nearest known one), a required key that is missing,
  *          null, another kind, and a value out of range; each error names file, JSON path, what
- *          was found and what is required. What is absent leaves the struct as it is, so a caller
+ *          was found and what is required. What is absent leaves the struct as it is: a caller
  *          or `start` sets the defaults.
  * Units    a row's: numbers are taken as they stand in the file.
  * Memory   texts and lists lie in the view's arena. Threads: tables are constant.
@@ -68,7 +68,7 @@ struct RecordRow {
 #define RECORD_NUMBER_ROW(key, Type, member, bottom, top, words)                               \
     {key, RECORD_NUMBER, RECORD_AT(Type, member), RECORD_RANGE(bottom, top), .doc = words}
 #define RECORD_PAIR_ROW(key, Type, member, bottom, top, words)                                 \
-    {key, RECORD_NUMBERS, RECORD_AT(Type, member), RECORD_RANGE(bottom, top), .least = 2,       \
+    {key, RECORD_NUMBERS, RECORD_AT(Type, member), RECORD_RANGE(bottom, top), .least = 2,      \
      .most = 2, .doc = words}
 #define RECORD_TEXT_ROW(key, Type, member, words)                                              \
     {key, RECORD_TEXT, RECORD_AT(Type, member), .doc = words}

@@ -31,9 +31,10 @@ static json_t *number(double value)
                                                       : json_real(value);
 }
 
-static json_t *number_schema(const RecordRow *row, const char *name)
+static json_t *number_schema(const RecordRow *row)
 {
-    json_t *schema = kind(name);
+    bool    is_whole = row->kind == RECORD_INTEGER || row->flags & RECORD_WHOLE;
+    json_t *schema = kind(is_whole ? "integer" : "number");
     if (isfinite(row->low))
         set(schema, row->flags & RECORD_ABOVE ? "exclusiveMinimum" : "minimum",
             number(row->low));
@@ -51,7 +52,8 @@ static json_t *text_schema(const RecordRow *row)
 static json_t *choice_schema(const RecordRow *row)
 {
     json_t *words = json_array();
-    for (int i = 0; row->words[i]; i++) json_array_append_new(words, json_string(row->words[i]));
+    for (int i = 0; row->words[i]; i++)
+        json_array_append_new(words, json_string(row->words[i]));
     return json_pack("{s:o}", "enum", words);
 }
 
@@ -68,11 +70,9 @@ static json_t *value_schema(const RecordRow *row, const void *item)
 {
     switch (row->kind) {
     case RECORD_NUMBER:
-        return number_schema(row, row->flags & RECORD_WHOLE ? "integer" : "number");
-    case RECORD_INTEGER: return number_schema(row, "integer");
+    case RECORD_INTEGER: return number_schema(row);
     case RECORD_NUMBERS:
-    case RECORD_FIGURES: return list_schema(row, number_schema(row, row->flags & RECORD_WHOLE ? "integer"
-                                                                          : "number"));
+    case RECORD_FIGURES: return list_schema(row, number_schema(row));
     case RECORD_FLAG: return kind("boolean");
     case RECORD_TEXT: return text_schema(row);
     case RECORD_TEXTS: return list_schema(row, kind("string"));

@@ -1,12 +1,234 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/profile.h"
 
-#include <jansson.h>
+#include <math.h>
 #include <string.h>
 
+#include "base/count.h"
 #include "base/file.h"
-#include "review/profile_format.h"
 #include "review/profile_table.h"
+#include "text/nearest_word.h"
+
+#define LARGEST 1e9 /* of any number in a profile */
+#define MUST RECORD_REQUIRED
+#define SOURCE(Type, source, was_read)                                                         \
+    {"source", RECORD_TEXT, MUST | RECORD_FILLED, RECORD_AT(Type, source),                     \
+     .doc = "Where it was read."},                                                             \
+    {"read_in_the_standard", RECORD_FLAG, MUST, RECORD_AT(Type, was_read),                     \
+     .doc = "Was that the standard itself?"}
+
+/* ---- a limit ----------------------------------------------------------------------------- */
+
+static const RecordRow SLOPE[] = {
+    {"per_arcmin", RECORD_NUMBER, MUST | RECORD_ABOVE, RECORD_AT(LimitSlope, per_arcmin),
+     RECORD_RANGE(0, LARGEST)},
+    {"reference_arcmin", RECORD_NUMBER, MUST | RECORD_ABOVE,
+     RECORD_AT(LimitSlope, reference_arcmin), RECORD_RANGE(0, LARGEST)},
+    {"heights_arcmin", RECORD_NUMBERS, MUST, RECORD_AT(LimitSlope, from_arcmin),
+     RECORD_RANGE(0, LARGEST), .least = 2, .most = 2,
+     .doc = "The heights that it holds for, rising."},
+    {0}};
+_Static_assert(offsetof(LimitSlope, to_arcmin) ==
+               offsetof(LimitSlope, from_arcmin) + sizeof(double), "a pair");
+
+static bool check_slope(const JsonView *view, void *item, Error *err)
+{
+    const LimitSlope *slope = item;
+    return slope->from_arcmin < slope->to_arcmin ||
+           record_fails(view, "heights_arcmin", err,
+                        "is [%g, %g], required: [LOW, HIGH] with LOW < HIGH",
+                        slope->from_arcmin, slope->to_arcmin);
+}
+
+static const RecordFormat slope_format = {
+    "slope", sizeof(LimitSlope), SLOPE, .check = check_slope,
+    .doc = "For characters of these heights the limit is value + per_arcmin "
+           "(reference_arcmin - height), for others there is none."};
+
+static bool add_ambient(const JsonView *view, const char *word, bool *ambients, Error *err)
+{
+    const char *known[AMBIENT_COUNT + 1];
+    char        advice[256];
+    bool        is_known = false;
+    for (int i = 0; i < AMBIENT_COUNT; i++) known[i] = ambient_names[i];
+    known[AMBIENT_COUNT] = "any";
+    for (int i = 0; i < AMBIENT_COUNT; i++) {
+        bool is_it = !strcmp(word, known[i]), is_any = !strcmp(word, known[AMBIENT_COUNT]);
+        ambients[i] |= is_it || is_any;
+        is_known |= is_it || is_any;
+    }
+    return is_known ||
+           record_fails(view, "ambient", err, "is '%.60s', required: another word: %s", word,
+                        nearest_word_advice(word, known, COUNT_OF(known), advice,
+                                            sizeof advice));
+}
+
+/* One word, or several in an array. */
+static bool read_ambients(const JsonView *view, const RecordRow *row, void *item, Error *err)
+{
+    const json_t *value = json_object_get(view->object, row->key);
+    bool         *ambients = ((ProfileLimit *)item)->ambients;
+    if (json_is_string(value))
+        return add_ambient(view, json_string_value(value), ambients, err);
+    bool ok = json_array_size(value) > 0;
+    for (size_t i = 0; ok && i < json_array_size(value); i++)
+        ok = json_is_string(json_array_get(value, i));
+    if (!ok)
+        return record_fails(view, row->key, err, "is no such word; required: night, twilight, "
+                            "day, sun or any, or an array of them");
+    for (size_t i = 0; i < json_array_size(value); i++)
+        if (!add_ambient(view, json_string_value(json_array_get(value, i)), ambients, err))
+            return false;
+    return true;
+}
+
+/* Its kind was read before. */
+static bool read_unit(const JsonView *view, const RecordRow *row, void *item, Error *err)
+{
+    const LimitKindFacts *kind = &limit_kinds[((ProfileLimit *)item)->kind];
+    const char           *unit = NULL;
+    if (!json_view_text(view, row->key, &unit, err)) return false;
+    return !strcmp(unit, kind->unit) ||
+           record_fails(view, row->key, err, "is '%.60s', required: '%s' for %s", unit,
+                        kind->unit, kind->name);
+}
+
+static const char *const BOUNDS[] = {"least", "most", NULL};
+
+static bool read_bound(const JsonView *view, const RecordRow *row, void *item, Error *err)
+{
+    int       bound;
+    RecordRow choice = {row->key, RECORD_CHOICE, .words = BOUNDS};
+    if (!record_read_value(view, &choice, &bound, err)) return false;
+    ((ProfileLimit *)item)->is_upper = bound;
+    return true;
+}
+
+#define AMBIENTS "{\"enum\": [\"night\", \"twilight\", \"day\", \"sun\", \"any\"]}"
+
+static const RecordRow LIMIT[] = {
+    {"ambient", RECORD_OWN, MUST, .read = read_ambients,
+     .schema = "{\"oneOf\": [" AMBIENTS ", {\"type\": \"array\", \"minItems\": 1, \"items\": "
+               AMBIENTS "}]}"},
+    {"kind", RECORD_CHOICE, MUST, RECORD_AT(ProfileLimit, kind), .words = limit_kind_names},
+    {"value", RECORD_NUMBER, MUST | RECORD_ABOVE, RECORD_AT(ProfileLimit, value),
+     RECORD_RANGE(0, LARGEST), .doc = "In the kind's unit; of a modulation below 1."},
+    {"unit", RECORD_OWN, MUST, .read = read_unit, .schema = "{\"enum\": [\"1\", \"arcmin\"]}"},
+    SOURCE(ProfileLimit, source, read_in_the_standard),
+    {"name", RECORD_TEXT, RECORD_AT(ProfileLimit, name),
+     .doc = "For reports; made of kind and ambient unless it is given."},
+    {"bound", RECORD_OWN, .read = read_bound, .schema = "{\"enum\": [\"least\", \"most\"]}"},
+    {"advice", RECORD_FLAG, RECORD_AT(ProfileLimit, is_advice),
+     .doc = "Preferred, not required: shown, and never fails."},
+    {"slope", RECORD_OBJECT, RECORD_AT(ProfileLimit, slope), .of = &slope_format,
+     .count = offsetof(ProfileLimit, slope.has_slope)},
+    {0}};
+
+/* "contrast ratio, day, sun" or "stroke ratio at most". */
+static const char *usual_name(const ProfileLimit *limit, Arena *arena)
+{
+    char *name = arena_format(arena, "%s", limit_kinds[limit->kind].name);
+    int   count = 0;
+    for (char *c = name; *c; c++)
+        if (*c == '_') *c = ' ';
+    if (limit->is_upper) name = arena_format(arena, "%s at most", name);
+    for (int i = 0; i < AMBIENT_COUNT; i++) count += limit->ambients[i];
+    for (int i = 0; i < AMBIENT_COUNT && count < AMBIENT_COUNT; i++)
+        if (limit->ambients[i]) name = arena_format(arena, "%s, %s", name, ambient_names[i]);
+    return name;
+}
+
+/* A slope leaves the least of the largest characters. */
+static bool check_limit(const JsonView *view, void *item, Error *err)
+{
+    ProfileLimit     *limit = item;
+    const LimitSlope *s = &limit->slope;
+    double least = limit->value;
+    if (s->has_slope) least += s->per_arcmin * (s->reference_arcmin - s->to_arcmin);
+    if (!(least > 0))
+        return record_fails(view, "slope", err, "leads to a limit of %g at %g arc minutes, "
+                            "required: one above 0", least, s->to_arcmin);
+    if (limit->kind == LIMIT_MODULATION && limit->value >= 1)
+        return record_fails(view, "value", err, "is %g, required: less than 1: no modulation "
+                            "is more", limit->value);
+    if (!limit->name) limit->name = usual_name(limit, view->arena);
+    return true;
+}
+
+static const RecordFormat limit_format = {
+    "limit", sizeof(ProfileLimit), LIMIT, .check = check_limit,
+    .rules = "{\"if\": {\"properties\": {\"kind\": {\"const\": \"character_height\"}}}, "
+             "\"then\": {\"properties\": {\"unit\": {\"const\": \"arcmin\"}}}, "
+             "\"else\": {\"properties\": {\"unit\": {\"const\": \"1\"}}}}"};
+
+/* ---- facts ------------------------------------------------------------------------------- */
+
+static const RecordRow FACT[] = {
+    {"name", RECORD_TEXT, MUST | RECORD_FILLED, RECORD_AT(ProfileFact, name)},
+    {"text", RECORD_TEXT, RECORD_AT(ProfileFact, text)},
+    {"value", RECORD_NUMBER, RECORD_AT(ProfileFact, value), RECORD_RANGE(-LARGEST, LARGEST)},
+    {"unit", RECORD_TEXT, RECORD_AT(ProfileFact, unit)},
+    SOURCE(ProfileFact, source, read_in_the_standard),
+    {0}};
+
+static void start_fact(void *item)
+{
+    *(ProfileFact *)item = (ProfileFact){.text = "", .unit = "", .value = NAN};
+}
+
+static bool check_fact(const JsonView *view, void *item, Error *err)
+{
+    const ProfileFact *fact = item;
+    if (isnan(fact->value) ? !fact->unit[0] && fact->text[0] : fact->unit[0] != 0) return true;
+    return error_at(err, ERROR_INPUT, view->file, view->path,
+                    "has no text and no value with its unit; required: a value with its unit, "
+                    "a text, or all three");
+}
+
+static const RecordFormat fact_format = {
+    "fact", sizeof(ProfileFact), FACT, .start = start_fact, .check = check_fact,
+    .rules = "{\"dependentRequired\": {\"value\": [\"unit\"], \"unit\": [\"value\"]}, "
+             "\"anyOf\": [{\"required\": [\"text\"]}, {\"required\": [\"value\"]}]}"};
+
+/* ---- the whole --------------------------------------------------------------------------- */
+
+static const RecordRow AMBIENT[] = {
+    {"night_below_lx", RECORD_NUMBER, MUST | RECORD_ABOVE, RECORD_AT(Profile, night_below_lx),
+     RECORD_RANGE(0, LARGEST), .doc = "Of the display's face."},
+    {"twilight_below_lx", RECORD_NUMBER, MUST | RECORD_ABOVE,
+     RECORD_AT(Profile, twilight_below_lx), RECORD_RANGE(0, LARGEST),
+     .doc = "More than night_below_lx."},
+    SOURCE(Profile, ambient_source, ambient_read_in_the_standard),
+    {0}};
+
+static bool check_ambient(const JsonView *view, void *item, Error *err)
+{
+    const Profile *p = item;
+    return p->night_below_lx < p->twilight_below_lx ||
+           record_fails(view, "twilight_below_lx", err,
+                        "is %g, required: more than night_below_lx, %g", p->twilight_below_lx,
+                        p->night_below_lx);
+}
+
+static const RecordFormat ambient_format = {"ambient", sizeof(Profile), AMBIENT,
+                                            .check = check_ambient};
+
+static const RecordRow PROFILE[] = {
+    {"title", RECORD_TEXT, MUST | RECORD_FILLED, RECORD_AT(Profile, title),
+     .doc = "The standard's, as a report prints it."},
+    {"edition", RECORD_TEXT, MUST | RECORD_FILLED, RECORD_AT(Profile, edition)},
+    {"veil", RECORD_FLAG, RECORD_AT(Profile, uses_veil),
+     .doc = "Contrast counts with the veil that stray light in the eye lays over it."},
+    {"ambient", RECORD_OBJECT, MUST, .of = &ambient_format,
+     .doc = "Which illuminance of a display's face is night, and which is twilight."},
+    {"limits", RECORD_LIST, MUST, RECORD_AT(Profile, limits), .of = &limit_format,
+     .count = offsetof(Profile, limit_count)},
+    {"facts", RECORD_LIST, RECORD_AT(Profile, facts), .of = &fact_format,
+     .count = offsetof(Profile, fact_count), .doc = "What readers should know."},
+    {0}};
+
+const RecordFormat profile_format = {"profile", sizeof(Profile), PROFILE,
+                                     .doc = "assets/schemas/profile.md explains the keys."};
 
 /* ---- where it stands --------------------------------------------------------------------- */
 
@@ -31,8 +253,8 @@ static bool open_shipped(const char *name, Arena *arena, JsonView *out, Error *e
         *out = (JsonView){root, file, "", arena, NULL, NULL, 0};
         return true;
     }
-    return error_set(err, ERROR_INPUT, "there is no profile \"%s\"; required: %s, or a file by a "
-                     "path that holds '/' or ends in .json", name, profile_names(arena));
+    return error_set(err, ERROR_INPUT, "there is no profile \"%s\"; required: %s, or a file by "
+                     "a path that holds '/' or ends in .json", name, profile_names(arena));
 }
 
 bool profile_load(const char *name_or_path, Arena *arena, const Profile **out, Error *err)

@@ -14,6 +14,7 @@
 
 #include "base/arena.h"
 #include "base/error.h"
+#include "record/record.h"
 #include "review/quantity.h"
 
 enum { AMBIENT_COUNT = 4 };
@@ -58,6 +59,8 @@ typedef struct Profile {
     const ProfileFact *facts;
     int         fact_count;
 } Profile;
+
+extern const RecordFormat profile_format; /* of a Profile */
 
 /* A name of assets/profiles, or a path, which holds a '/' or ends in ".json". */
 bool profile_load(const char *name_or_path, Arena *arena, const Profile **out, Error *err);

@@ -6,7 +6,7 @@
 
 #include "harness.h"
 #include "import/import_request.h"
-#include "panel/set/synthetic_panel.h"
+#include "panel/set/synthetic_format.h"
 #include "panel/set/measurement.h"
 
 /* ---- tables that a manifest may name ----------------------------------------------------- */

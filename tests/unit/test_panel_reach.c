@@ -8,7 +8,7 @@
 #include "panel/fit/fit.h"
 #include "panel/fit/fit_judge.h"
 #include "panel/fit/reflection/reflection_peak.h"
-#include "panel/set/synthetic_panel.h"
+#include "panel/set/synthetic_format.h"
 #include "panel/set/set_writer.h"
 #include "panel/set/simulate.h"
 #include "spectrum/fresnel.h"

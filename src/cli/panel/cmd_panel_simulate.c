@@ -6,7 +6,7 @@
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
-#include "panel/set/synthetic_panel.h"
+#include "panel/set/synthetic_format.h"
 #include "panel/set/simulate.h"
 
 /* The closed form at one direction: the answer of a perfect fit. */

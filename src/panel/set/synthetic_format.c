@@ -2,11 +2,11 @@
 #include "panel/set/synthetic_format.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/count.h"
 #include "base/mathd.h"
 #include "base/units.h"
-#include "panel/set/synthetic_panel.h"
 #include "spectrum/spectral_table.h"
 
 #define MUST RECORD_REQUIRED
@@ -131,7 +131,8 @@ static const RecordRow REFLECTION[] = {
             830, "At which it is measured."),
     {0}};
 
-static const RecordFormat reflection_format = {"reflection", sizeof(OWNER), REFLECTION, .doc = NULL};
+static const RecordFormat reflection_format = {"reflection", sizeof(OWNER), REFLECTION,
+                                               .doc = NULL};
 #undef OWNER
 
 /* ---- instrument -------------------------------------------------------------------------- */
@@ -154,7 +155,8 @@ static const RecordRow INSTRUMENT[] = {
     NUMBER("seed", seed, 0, 4294967295.0, "Of the noise."),
     {0}};
 
-static const RecordFormat instrument_format = {"instrument", sizeof(OWNER), INSTRUMENT, .doc = NULL};
+static const RecordFormat instrument_format = {"instrument", sizeof(OWNER), INSTRUMENT,
+                                               .doc = NULL};
 #undef OWNER
 
 /* ---- places ------------------------------------------------------------------------------ */
@@ -205,8 +207,8 @@ static const RecordFormat places_format = {
     "places", sizeof(OWNER), PLACES, .check = check_places,
     .rules = "{\"dependentRequired\": {\"u\": [\"v\"], \"v\": [\"u\"]}, "
              "\"anyOf\": [{\"required\": [\"u\"]}, {\"required\": [\"map\"]}]}",
-    .doc = "What changes over the active area (x and y: from the middle, -0.5 to 0.5, right and "
-           "down), and what is measured of it."};
+    .doc = "What changes over the active area (x and y: from the middle, -0.5 to 0.5, right "
+           "and down), and what is measured of it."};
 #undef OWNER
 
 /* ---- the whole --------------------------------------------------------------------------- */
@@ -277,3 +279,16 @@ const RecordFormat synthetic_format = {
     "recipe", sizeof(OWNER), PANEL, start, check,
     .doc = "A panel known in closed form (src/panel/set/synthetic_panel.h has the formulas), "
            "and the virtual instrument of panel simulate."};
+
+bool synthetic_panel_read(const char *file, Arena *arena, SyntheticPanel *out, Error *err)
+{
+    JsonView       root;
+    SyntheticPanel panel;
+    synthetic_format.start(&panel);
+    if (!json_view_open(file, arena, &root, err)) return false;
+    bool ok = record_read(&root, &synthetic_format, &panel, err);
+    json_view_close(&root);
+    panel.file = arena_string(arena, file, strlen(file));
+    if (ok) *out = panel;
+    return ok;
+}

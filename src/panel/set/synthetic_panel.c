@@ -2,11 +2,9 @@
 #include "panel/set/synthetic_panel.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/mathd.h"
 #include "base/units.h"
-#include "panel/set/synthetic_format.h"
 #include "spectrum/fresnel.h"
 #include "spectrum/spectral_table.h"
 
@@ -18,19 +16,6 @@ double synthetic_panel_spectrum(const SyntheticPrimary *primary, double nm)
         sum += primary->weight[i] * exp_d(-4 * log_d(2) * d * d);
     }
     return sum;
-}
-
-bool synthetic_panel_read(const char *file, Arena *arena, SyntheticPanel *out, Error *err)
-{
-    JsonView       root;
-    SyntheticPanel panel;
-    synthetic_format.start(&panel);
-    if (!json_view_open(file, arena, &root, err)) return false;
-    bool ok = record_read(&root, &synthetic_format, &panel, err);
-    json_view_close(&root);
-    panel.file = arena_string(arena, file, strlen(file));
-    if (ok) *out = panel;
-    return ok;
 }
 
 /* ---- the exact values -------------------------------------------------------------------- */

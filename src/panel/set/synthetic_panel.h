@@ -106,9 +106,6 @@ typedef struct SyntheticPanel {
     DisplayTraits       traits; /* no formula above depends on them */
 } SyntheticPanel;
 
-/* Reads and checks a *.recipe.json; unknown keys are errors. Texts live in the arena. */
-bool synthetic_panel_read(const char *file, Arena *arena, SyntheticPanel *out, Error *err);
-
 /* Spectral shape of a primary, relative. */
 double synthetic_panel_spectrum(const SyntheticPrimary *primary, double nm);
 
