@@ -2,7 +2,7 @@
 /* record.h -- a format of JSON is a table: one row a key.
  *
  * A row says of what kind the value is, where it goes in a struct, what range it has, whether
- * it is required, and what it means. From the same rows a file is read (here) and its JSON Schema
+ * it is required, and what it means. A file is read from these rows (here) and its JSON Schema
  * is written (record_schema.h). What rows cannot say (one list is as long as another) is a
  * function of the format, called when the rows of the object have been read.
  *

@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 #include "panel/query/panel_open.h"
-#include "panel/set/synthetic_panel.h"
+#include "panel/set/synthetic_format.h"
 
 static inline bool bench_panel_files(const char *program, char *const paths[2], Arena *arena,
                                      SyntheticPanel *recipe, Panel **panel)

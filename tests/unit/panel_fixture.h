@@ -9,7 +9,7 @@
 #include "panel/fit/fit.h"
 #include "panel/query/panel_open.h"
 #include "panel/query/panel_reflection.h"
-#include "panel/set/synthetic_panel.h"
+#include "panel/set/synthetic_format.h"
 #include "panel/set/measurement.h"
 #include "panel/query/panel.h"
 #include "panel/set/simulate.h"
