@@ -62,7 +62,7 @@ keep_steps()
     case ${1:-} in
     '') ;;
     --list | --changed) mode=${1#--} ;;
-    *) echo "steps: $1: wanted --list or --changed [COMMIT]" >&2; exit 2 ;;
+    *) echo "steps: $1: required: --list or --changed [COMMIT]" >&2; exit 2 ;;
     esac
     find CMakeLists.txt CMakePresets.json src shaders scenes assets tests third_party \
         README.md CONTRIBUTING.md -type f ! -name '*.pyc' -print0 | LC_ALL=C sort -z |

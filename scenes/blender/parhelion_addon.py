@@ -169,7 +169,7 @@ def file_uri(path, folder, what, magic=b""):
 def picture_uri(path, folder):
     """The file itself is named: codes are no colours that Blender might convert."""
     if not path.lower().endswith(PICTURES):
-        raise Wrong(f"content {absolute(path)}: PNG or JPEG is wanted")
+        raise Wrong(f"content {absolute(path)}: PNG or JPEG is required")
     return file_uri(path, folder, "content")
 
 

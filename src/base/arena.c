@@ -16,7 +16,7 @@
 /* Threads may still be at work: their libraries' tables must not be taken down under them. */
 static void exit_when_full(size_t bytes_wanted, size_t bytes_left)
 {
-    print_to(stderr, "parhelion: out of memory: %zu bytes wanted, %zu left\n", bytes_wanted,
+    print_to(stderr, "parhelion: out of memory: %zu bytes required, %zu left\n", bytes_wanted,
              bytes_left);
     fflush(stderr);
     _exit(3);

@@ -29,7 +29,7 @@ static bool read_all(int file, const FilePieces *how, unsigned char *bytes, size
 static bool check_size(const char *path, const struct stat *info, size_t max_bytes, Error *err)
 {
     if (!S_ISREG(info->st_mode))
-        return error_at(err, ERROR_INPUT, path, "", "is %s, a file is wanted",
+        return error_at(err, ERROR_INPUT, path, "", "is %s, a file is required",
                         S_ISDIR(info->st_mode) ? "a folder" : "not a regular file");
     if ((unsigned long long)info->st_size > max_bytes)
         return error_at(err, ERROR_INPUT, path, "", "has %lld bytes, at most %zu are read",
@@ -94,7 +94,7 @@ bool file_text(const char *path, const FileBytes *bytes, const char **out, Error
 {
     const char *text = (const char *)bytes->data;
     if (memchr(text, 0, bytes->size))
-        return error_at(err, ERROR_INPUT, path, "", "has zero bytes, wanted text in UTF-8");
+        return error_at(err, ERROR_INPUT, path, "", "has zero bytes, required: text in UTF-8");
     *out = text + (strncmp(text, "\xEF\xBB\xBF", 3) ? 0 : 3);
     return true;
 }

@@ -87,11 +87,12 @@ bool reference_resolve(const char *from, const char *relative, ReferenceReach re
     if (!relative[0] || relative[0] == '/' || relative[0] == '\\')
         return error_set(err, ERROR_INPUT,
                          "\"%.200s\" is %s; a path relative to the file that names it is "
-                         "wanted",
+                         "required",
                          relative, relative[0] ? "an absolute path" : "empty");
     if (strchr(relative, '\\'))
         return error_set(err, ERROR_INPUT,
-                         "\"%.200s\" holds a backslash; / is wanted between folders", relative);
+                         "\"%.200s\" holds a backslash; / is required between "
+                         "folders", relative);
     int climb = path_climb(relative);
     if (climb > 1 && !reach.root)
         return leaves(relative, reach.own_folder ? NEAR_FOLDER : NEAR_PARENT, "", err);

@@ -146,7 +146,7 @@ static bool parse(int argc, char **argv, MergeRun *work, Error *err)
     if (is_review(work)) return true;
     if (!work->output) return error_set(err, ERROR_USAGE, "no output — add -o FRAME.exr");
     if (strcmp(path_ending(work->output), ".exr") != 0)
-        return error_set(err, ERROR_USAGE, "-o %s: wanted a name that ends in .exr",
+        return error_set(err, ERROR_USAGE, "-o %s: required: a name that ends in .exr",
                          work->output);
     if (work->by_manifest) outputs_note(&work->cli.outputs, "-o", work->output);
     return outputs_spare(&work->cli.outputs, work->files, work->count, err) &&

@@ -46,7 +46,7 @@ static bool read_index(PartRun *work, Error *err)
     long index = strtol(text, &end, 10);
     if (end == text || *end || errno || index < 0 || index >= work->job.part_count)
         return error_set(err, ERROR_USAGE,
-                         "part %.80s: wanted a number from 0 to %d, as %.400s has %d parts",
+                         "part %.80s: required: a number from 0 to %d, as %.400s has %d parts",
                          text, work->job.part_count - 1, work->cli.arguments[0],
                          work->job.part_count);
     work->index = (int)index;

@@ -478,7 +478,7 @@ static bool run_sky(int argc, char **argv, Arena *arena, Error *err)
     if (work.cli.help_shown) return true;
     OutputKind kind = output_kind(work.output);
     if (kind == OUTPUT_WRONG)
-        return error_set(err, ERROR_USAGE, "-o %s: wanted an ending .exr, .png or .svg",
+        return error_set(err, ERROR_USAGE, "-o %s: required: an ending .exr, .png or .svg",
                          work.output);
     work.is_fisheye = projection == 1;
     if (!work.size[0]) {

@@ -137,7 +137,7 @@ static bool read_options(const CompareWords *words, Arena *arena, CompareOptions
     out->wants_stat = out->wants_stat || words->has_level;
     add_ignored(&words->ignored, arena, &out->rules);
     if (out->has_range && out->range_ev[0] > out->range_ev[1])
-        return error_set(err, ERROR_USAGE, "--exposure-range %g,%g: wanted A,B with A <= B",
+        return error_set(err, ERROR_USAGE, "--exposure-range %g,%g: required: A,B with A <= B",
                          out->range_ev[0], out->range_ev[1]);
     return (!out->exposure || exposure_parse(out->exposure, &unused, err)) &&
            read_regions(&words->regions, arena, &out->selection, err) &&

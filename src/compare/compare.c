@@ -39,10 +39,10 @@ static void judge_limits(const CompareOptions *options, Comparison *out)
         double            value = out->value[t.metric];
         if (threshold_holds(t, value)) continue;
         if (isnan(value))
-            lines_add(&out->reasons, "%s is not known for these files, %s %g is wanted",
+            lines_add(&out->reasons, "%s is not known for these files, %s %g is required",
                       info->name, info->is_min ? "at least" : "at most", t.limit);
         else
-            lines_add(&out->reasons, "%s is %.5g, %s %g is wanted", info->name, value,
+            lines_add(&out->reasons, "%s is %.5g, %s %g is required", info->name, value,
                       info->is_min ? "at least" : "at most", t.limit);
     }
 }

@@ -39,7 +39,7 @@ static bool mark_region(const CompareInput *input, ExrWindow r, unsigned char *i
     if (in.x0 < e.x0 || in.y0 < e.y0 || in.x1 > e.x1 || in.y1 > e.y1 || r.x0 >= r.x1 ||
         r.y0 >= r.y1)
         return error_set(err, ERROR_USAGE,
-                         "--region %d,%d,%d,%d: wanted X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 "
+                         "--region %d,%d,%d,%d: required: X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 "
                          "inside the pixels %d,%d,%d,%d of %s",
                          r.x0, r.y0, r.x1, r.y1, e.x0 + left, e.y0 + top, e.x1 + left,
                          e.y1 + top, input->name);

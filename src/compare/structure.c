@@ -341,7 +341,8 @@ static void compare_tags(const CompareInput *reference, const CompareInput *test
         lines_add(notes, "both state the same of their codes, which is not read: they are "
                   "taken for sRGB");
     else
-        lines_add(reasons, "what the %s states of its codes is not read (%s): wanted sRGB, a "
+        lines_add(reasons, "what the %s states of its codes is not read (%s): required: sRGB, "
+                           "a "
                   "profile of a matrix and curves, gAMA and cHRM",
                   a->is_known ? "test" : "reference", a->is_known ? b->words : a->words);
 }

@@ -294,7 +294,7 @@ static bool read_texts(const FrameImage *words, FilmPart *part, uint64_t *checks
     }
     if (strcmp(texts[TEXT_LAYOUT], layout_text(&scratch)) != 0)
         return error_set(err, ERROR_INPUT,
-                         "its sums are of another version: \"%.200s\", wanted \"%s\"",
+                         "its sums are of another version: \"%.200s\", required: \"%s\"",
                          texts[TEXT_LAYOUT], layout_text(&scratch));
     if (!read_range(texts[TEXT_SAMPLES], &part->first_sample, &part->end_sample))
         return damaged(text_names[TEXT_SAMPLES], err);
@@ -356,8 +356,8 @@ bool film_part_open(const char *path, Arena *arena, FilmPartReader *out, Error *
     bool done = exr_reader_words(from.file, PART_NAME, &found, err) &&
                 (found ? describe(&from, found, arena, err)
                        : error_set(err, ERROR_INPUT,
-                                   "carries no sums, only means: it cannot be merged — wanted "
-                                   "a frame of `render --samples A:B` or `render --crop`, or "
+                                   "carries no sums, only means: it cannot be merged — "
+                                   "required: a frame of `render --samples A:B` or `render --crop`, or "
                                    "of `merge --part`"));
     if (done) *out = from;
     else exr_reader_destroy(from.file);

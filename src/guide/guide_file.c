@@ -140,7 +140,8 @@ static bool check_head(const FileBytes *file, GuideHead *head, Error *err)
         return error_set(err, ERROR_INPUT, "is not a field of a render");
     memcpy(head, file->data, sizeof *head);
     if (head->version != GUIDE_VERSION || head->bins != GUIDE_BINS)
-        return error_set(err, ERROR_INPUT, "field of version %u with %u bins, wanted %u with "
+        return error_set(err, ERROR_INPUT, "field of version %u with %u bins, required: %u "
+                                           "with "
                                            "%d", head->version, head->bins, GUIDE_VERSION,
                          GUIDE_BINS);
     if (!head->cell_count || head->cell_count > GUIDE_CELLS_MAX ||
@@ -169,7 +170,7 @@ static bool take(const FileBytes *file, const GuideHead *head, const GuideScene 
     }
     if (!check_tree(guide, err)) return false;
     if (guide_hash(guide) == head->hash) return true;
-    return error_set(err, ERROR_INPUT, "damaged field: its hash is %016llx, wanted %016llx",
+    return error_set(err, ERROR_INPUT, "damaged field: its hash is %016llx, required: %016llx",
                      (unsigned long long)guide_hash(guide), (unsigned long long)head->hash);
 }
 

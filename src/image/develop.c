@@ -132,7 +132,8 @@ static bool set_range(const DevelopOptions *options, LayerView *view, Error *err
     if (view->show != SHOW_NUMBER)
         return error_set(err, ERROR_USAGE, "--range: only false colours have a range");
     if (!(high > low) || (view->is_log && !(low > 0)))
-        return error_set(err, ERROR_USAGE, "--range %g,%g: wanted LOW,HIGH with LOW < HIGH%s",
+        return error_set(err, ERROR_USAGE, "--range %g,%g: required: LOW,HIGH with LOW < "
+                                           "HIGH%s",
                          low, high, view->is_log ? " and LOW above 0" : "");
     view->low = (float)low;
     view->high = (float)high;

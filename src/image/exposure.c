@@ -44,7 +44,7 @@ bool exposure_parse(const char *text, ExposureRequest *out, Error *err)
     }
     if (!ok)
         return error_set(err, ERROR_USAGE,
-                         "--exposure %s: wanted auto, an exposure value (-60 to 60), or "
+                         "--exposure %s: required: auto, an exposure value (-60 to 60), or "
                          "white:CD_M2 with a luminance above 0", text);
     *out = request;
     return true;

@@ -61,7 +61,7 @@ static bool read_words(const char *text, ViewWords *out, Error *err)
         }
         double *slot = length == 3 ? slot_of(out, word[2], &count) : NULL;
         if (!slot || !read_numbers(&at, count, slot))
-            return error_set(err, ERROR_INPUT, "VIEW=: '%.40s', wanted an option of a view "
+            return error_set(err, ERROR_INPUT, "VIEW=: '%.40s', required: an option of a view "
                              "with its numbers", word);
     }
     return true;
@@ -116,14 +116,15 @@ static bool parse_words(const char *words, int width, int height, FrameView *out
                       .half_height = half_of(in.type, in.v), .shift = {in.s, in.l},
                       .width = width, .height = height};
     if (!strchr("val", in.type))
-        return error_set(err, ERROR_INPUT, "VIEW=: -vt%c, wanted -vta (angular fisheye), -vtv "
+        return error_set(err, ERROR_INPUT, "VIEW=: -vt%c, required: -vta (angular fisheye), "
+                                           "-vtv "
                          "(perspective) or -vtl (parallel)", in.type);
     if (!(view.half_width > 0) || !(view.half_height > 0))
-        return error_set(err, ERROR_INPUT, "VIEW=: -vh %g -vv %g of -vt%c, wanted %s", in.h,
+        return error_set(err, ERROR_INPUT, "VIEW=: -vh %g -vv %g of -vt%c, required: %s", in.h,
                          in.v, in.type, in.type == 'a' ? "angles up to 360 degrees"
                          : in.type == 'v' ? "angles below 180 degrees" : "sizes above 0");
     if (!set_axes(&in, &view))
-        return error_set(err, ERROR_INPUT, "VIEW=: -vd %g %g %g -vu %g %g %g, wanted two "
+        return error_set(err, ERROR_INPUT, "VIEW=: -vd %g %g %g -vu %g %g %g, required: two "
                          "directions that are not along one line", in.d[0], in.d[1], in.d[2],
                          in.u[0], in.u[1], in.u[2]);
     *out = view;
@@ -169,7 +170,8 @@ static bool read_number(const FrameImage *frame, const char *name, double most, 
     const ExrAttribute *a = frame_attribute(frame, name);
     *out = a->kind == EXR_STRING ? (double)NAN : a->values[0];
     return (*out > 0 && *out < most) ||
-           error_set(err, ERROR_INPUT, "%s is %g, wanted a number between 0 and %g", name, *out,
+           error_set(err, ERROR_INPUT, "%s is %g, required: a number between 0 and "
+                                       "%g", name, *out,
                      most);
 }
 
@@ -353,7 +355,7 @@ bool frame_view_words(const FrameView *view, ExrWindow crop, Arena *arena, const
     char   type = view->fisheye ? 'a' : view->is_perspective ? 'v' : 'l';
     const double *p = view->eye, *d = view->ahead, *u = view->up;
     if (view->fisheye == FISHEYE_EQUISOLID)
-        return error_set(err, ERROR_USAGE, "Radiance has no equisolid views: wanted "
+        return error_set(err, ERROR_USAGE, "Radiance has no equisolid views: required: "
                          "--projection equidistant, or a file that ends in .exr");
     *out = arena_format(arena, "-vt%c -vp %.9g %.9g %.9g -vd %.9g %.9g %.9g -vu %.9g %.9g %.9g "
                         "-vh %.9g -vv %.9g -vo 0 -va 0 -vs %.9g -vl %.9g", type, p[0], p[1],

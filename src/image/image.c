@@ -163,7 +163,7 @@ static bool check_size(int width, int height, size_t pixel_bytes, size_t more_by
                        const Arena *arena, Error *err)
 {
     if (width < 1 || height < 1)
-        return error_set(err, ERROR_INPUT, "%d x %d pixels, at least 1 x 1 wanted", width,
+        return error_set(err, ERROR_INPUT, "%d x %d pixels, at least 1 x 1 required", width,
                          height);
     size_t pixels = (size_t)width * (size_t)height;
     if (width > MAX_SIDE || height > MAX_SIDE || pixels > MAX_PIXELS) {
@@ -335,7 +335,7 @@ static bool webp_size(const void *bytes, size_t size, int *width, int *height, E
         return error_set(err, ERROR_INPUT, "damaged webp picture: its beginning is wrong");
     if (found.has_animation)
         return error_set(err, ERROR_INPUT, "a webp picture that moves; one that stands still "
-                         "is wanted");
+                         "is required");
     *width = found.width;
     *height = found.height;
     return true;
@@ -397,7 +397,7 @@ static bool read_planes(ExrReader *reader, Arena *arena, ExrPlanes *out, Error *
         out->rgba[c] = NULL;
         if (i < 0 && c == ALPHA) continue;
         if (i < 0)
-            return error_set(err, ERROR_INPUT, "no channel %s; R, G, B or Y are wanted",
+            return error_set(err, ERROR_INPUT, "no channel %s; R, G, B or Y are required",
                              NAMES[c]);
         if (!planes[i]) planes[i] = ARENA_NEW(arena, float, count);
         out->rgba[c] = planes[i];

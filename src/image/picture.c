@@ -36,7 +36,7 @@ bool picture_check_name(const char *path, int bits, Error *err)
         return error_at(err, ERROR_USAGE, path, "",
                         "a picture's name ends in .png, .jpg, .jpeg, .tif or .tiff");
     if (bits != 8 && bits != 16)
-        return error_at(err, ERROR_USAGE, path, "", "%d bits, 8 or 16 are wanted", bits);
+        return error_at(err, ERROR_USAGE, path, "", "%d bits, 8 or 16 are required", bits);
     if (bits > ending->max_bits)
         return error_at(err, ERROR_USAGE, path, "", "%d bits; a JPEG holds 8, PNG and TIFF 16",
                         bits);

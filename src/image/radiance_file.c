@@ -38,7 +38,7 @@ static bool line_is_wrong(const RadianceHeader *in, const char *wanted)
 {
     char place[32];
     snprintf(place, sizeof place, "line %ld", in->line);
-    return error_at(in->err, ERROR_INPUT, in->name, place, "'%.60s', wanted %s", in->text,
+    return error_at(in->err, ERROR_INPUT, in->name, place, "'%.60s', required: %s", in->text,
                     wanted);
 }
 

@@ -23,7 +23,7 @@ static const char *const other_keys[] = {"roles", "skip", "format", "wavelength_
 
 static bool wrong_kind(const JsonView *view, const char *key, const char *wanted, Error *err)
 {
-    return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key), "wanted %s",
+    return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key), "required: %s",
                     wanted);
 }
 
@@ -135,7 +135,7 @@ bool import_symmetry_named(const char *name, ImportSymmetry *out, Error *err)
             return true;
         }
     return error_set(err, ERROR_USAGE,
-                     "symmetry is '%s', wanted none, left-right, up-down, both or half-turn",
+                     "symmetry is '%s', required: none, left-right, up-down, both or half-turn",
                      name);
 }
 

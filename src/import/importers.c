@@ -41,7 +41,7 @@ static bool read_head(const char *file, char *head, size_t *size, Error *err)
 {
     struct stat info; /* a pipe would be waited for */
     if (!stat(file, &info) && !S_ISREG(info.st_mode))
-        return error_at(err, ERROR_INPUT, file, "", "is %s, a file is wanted",
+        return error_at(err, ERROR_INPUT, file, "", "is %s, a file is required",
                         S_ISDIR(info.st_mode) ? "a folder" : "not a regular file");
     FILE *stream = fopen(file, "rb");
     if (!stream)

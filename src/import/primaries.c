@@ -70,16 +70,16 @@ static bool read_row(PrimariesFile *in, int at)
         double *value = &in->value[c][in->rows];
         if (!text_number(cell, in->dialect.decimal, value) || fabs(*value) > VALUE_MOST)
             return error_at(in->err, ERROR_INPUT, in->text->file, place,
-                            "holds '%.*s', wanted a number",
+                            "holds '%.*s', required: a number",
                             cell.length < 40 ? cell.length : 40, cell.text);
     }
     double nm = in->value[0][in->rows];
     if (!(nm >= 100 && nm <= 20000))
         return error_at(in->err, ERROR_INPUT, in->text->file, place,
-                        "has a wavelength of %g, wanted nanometres", nm);
+                        "has a wavelength of %g, required: nanometres", nm);
     if (in->rows && !(nm > in->value[0][in->rows - 1]))
         return error_at(in->err, ERROR_INPUT, in->text->file, place,
-                        "wavelength %g follows %g, wanted rising wavelengths", nm,
+                        "wavelength %g follows %g, required: rising wavelengths", nm,
                         in->value[0][in->rows - 1]);
     in->rows++;
     return true;
@@ -114,7 +114,8 @@ bool primaries_read(const char *file, const TextOptions *options, ImportSet *set
     for (at++; at < text.count; at++)
         if (!is_comment(text.line[at]) && !read_row(&in, at)) return false;
     if (in.rows < 2)
-        return error_at(err, ERROR_INPUT, file, "", "has %d wavelengths, wanted more", in.rows);
+        return error_at(err, ERROR_INPUT, file, "", "has %d wavelengths, required: "
+                                                    "more", in.rows);
     set->spectra = (ImportSpectra){.rows = in.rows, .nm = in.value[0]};
     for (int c = 1; c < COLUMNS; c++) set->spectra.value[c - 1] = in.value[c];
     return check_reach(set, file, err);

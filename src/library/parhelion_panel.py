@@ -132,7 +132,8 @@ def _pointer(array, kind=FLOATS):
 def _array(name, value, width):
     array = numpy.asarray(value, dtype=numpy.float32)
     if array.ndim < 1 or array.shape[-1] != width:
-        raise PanelError(f"{name} has shape {array.shape}, wanted {width} numbers on its last "
+        raise PanelError(f"{name} has shape {array.shape}, required: {width} numbers on its "
+                         f"last "
                          "axis")
     return array
 

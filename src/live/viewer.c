@@ -23,7 +23,7 @@ static bool parse_port(const char *text, ViewerAddress *out, Error *err)
     size_t length = strlen(text);
     long   port = length <= 5 && strspn(text, "0123456789") == length ? atol(text) : 0;
     if (port < 1 || port > 65535)
-        return error_set(err, ERROR_USAGE, "'%.64s' is no port, wanted 1 to 65535",
+        return error_set(err, ERROR_USAGE, "'%.64s' is no port, required: 1 to 65535",
                          text);
     memcpy(out->port, text, length + 1);
     return true;
@@ -32,7 +32,7 @@ static bool parse_port(const char *text, ViewerAddress *out, Error *err)
 static bool set_host(AddressWord word, ViewerAddress *out, Error *err)
 {
     if (word.length < 1 || word.length > HOST_LONGEST)
-        return error_set(err, ERROR_USAGE, "the host has %zu letters, wanted 1 to %d",
+        return error_set(err, ERROR_USAGE, "the host has %zu letters, required: 1 to %d",
                          word.length, HOST_LONGEST);
     memcpy(out->host, word.begin, word.length);
     out->host[word.length] = '\0';
@@ -47,7 +47,7 @@ static bool check_host(const char *host, bool is_bracketed, Error *err)
                          host);
     if (host[strspn(host, NAME_BYTES)])
         return error_set(err, ERROR_USAGE, "'%.64s' is no host's name: letters, digits, '-' "
-                                           "and '.' are wanted", host);
+                                           "and '.' are required", host);
     if (!host[strspn(host, "0123456789.")] && !viewer_socket_is_ipv4(host))
         return error_set(err, ERROR_USAGE, "'%.64s' is no IPv4 address", host);
     return true;
@@ -63,7 +63,8 @@ static bool split(const char *text, ViewerAddress *out, Error *err)
         return error_set(err, ERROR_USAGE, "an IPv6 address stands in brackets: [::1]:%s",
                          VIEWER_PORT);
     if (*port && *port != ':')
-        return error_set(err, ERROR_USAGE, "'%.64s' follows the bracket, wanted :PORT", port);
+        return error_set(err, ERROR_USAGE, "'%.64s' follows the bracket, required: "
+                                           ":PORT", port);
     const AddressWord host = {text + is_bracketed, (size_t)(end - text) - is_bracketed};
     return set_host(host, out, err) && check_host(out->host, is_bracketed, err) &&
            parse_port(*port ? port + 1 : VIEWER_PORT, out, err);

@@ -479,7 +479,7 @@ static bool check_region(const FrameImage *frame, const MeasureRequest *request,
     if (r.x0 < d.x0 || r.y0 < d.y0 || r.x1 > d.x1 || r.y1 > d.y1 || r.x0 >= r.x1 ||
         r.y0 >= r.y1)
         return error_set(err, ERROR_USAGE,
-                         "--region %d,%d,%d,%d: wanted X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 "
+                         "--region %d,%d,%d,%d: required: X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 "
                          "inside the frame's pixels %d,%d,%d,%d",
                          r.x0, r.y0, r.x1, r.y1, d.x0, d.y0, d.x1, d.y1);
     const ExrWindow w = frame->display;

@@ -185,7 +185,7 @@ static bool check_sum(Input *input, Error *err)
     if (!take(input, &wanted, sizeof wanted, err)) return false;
     return found == wanted ||
            error_at(err, ERROR_INPUT, input->path, "",
-                    "is damaged: its bytes have the checksum %016llx, wanted %016llx",
+                    "is damaged: its bytes have the checksum %016llx, required: %016llx",
                     (unsigned long long)found, (unsigned long long)wanted);
 }
 

@@ -364,7 +364,7 @@ static void build_sun(Atmosphere *out, Arena scratch)
 bool atmosphere_build(const AtmosphereInput *input, Arena *arena, Atmosphere *out, Error *err)
 {
     if (!(input->observer_m >= input->floor_m && input->observer_m <= 60000))
-        return error_set(err, ERROR_INPUT, "the observer stands at %g m, wanted between the "
+        return error_set(err, ERROR_INPUT, "the observer stands at %g m, required: between the "
                          "ground (or cloud deck) at %g m and 60000 m", input->observer_m,
                          input->floor_m);
     *out = (Atmosphere){.input = *input, .optics = air_optics(&input->air)};

@@ -225,7 +225,8 @@ static bool check_sun_up(const Daylight *out, Error *err)
     double lowest = out->input.kind == DAYLIGHT_PEREZ ? PEREZ_LOWEST_DEG : 0;
     if (!needs_sun(&out->input) || out->metrics.sun_elevation_deg > lowest) return true;
     return error_set(err, ERROR_INPUT, "the sun stands %.2f degrees below the horizon "
-                     "(azimuth %.2f): this sky model has no night, wanted a time by day or the "
+                     "(azimuth %.2f): this sky model has no night, required: a time by day or "
+                     "the "
                      "type \"sky\"", -out->metrics.sun_elevation_deg,
                      out->metrics.sun_azimuth_deg);
 }
@@ -236,7 +237,8 @@ static bool build_cie(Daylight *out, Error *err)
     static const double clear[16] = {0, 0, 0, 0, 0, 0, 0.3, 0.5, 0.3, 0.5, 0.8, 1, 1, 1, 1, 0};
     Curve irradiance;
     if (in->cie_type < 1 || in->cie_type > 16)
-        return error_set(err, ERROR_INPUT, "CIE sky %d is unknown, wanted 1 to 15, or 16 (the "
+        return error_set(err, ERROR_INPUT, "CIE sky %d is unknown, required: 1 to 15, or 16 "
+                                           "(the "
                          "traditional overcast sky)", in->cie_type);
     if (!check_sun_up(out, err)) return false;
     Spectrl2 ground = ground_spectra(out);

@@ -69,7 +69,7 @@ static bool bad_line(const EpwReader *reader, Error *err, const char *found, con
 {
     return error_at(err, ERROR_INPUT, reader->file,
                     arena_format(reader->arena, "line %d", reader->line),
-                    "found '%.40s', wanted %s", found, wanted);
+                    "found '%.40s', required: %s", found, wanted);
 }
 
 /* A field, what may stand in it, and from where on a value is none. */
@@ -247,7 +247,7 @@ bool weather_read(const char *file, Arena *arena, Weather *out, Error *err)
     EpwReader reader = {file, arena_string(arena, text, strlen(text)), 0, arena};
     Weather   weather = {.file = file, .rows_per_hour = 1};
     if (!next_line(&reader, field, &count))
-        return error_at(err, ERROR_INPUT, file, "", "is empty, wanted an EPW weather file");
+        return error_at(err, ERROR_INPUT, file, "", "is empty, required: an EPW weather file");
     if (!read_location(&reader, field, count, &weather, err)) return false;
     weather.hour = ARENA_NEW(arena, WeatherHour, HOURS_MAX);
     while (next_line(&reader, field, &count)) {
@@ -266,7 +266,7 @@ bool weather_read(const char *file, Arena *arena, Weather *out, Error *err)
     }
     if (!weather.count)
         return error_at(err, ERROR_INPUT, file, "",
-                        "has no hours, wanted rows behind a line DATA PERIODS");
+                        "has no hours, required: rows behind a line DATA PERIODS");
     *out = weather;
     return true;
 }

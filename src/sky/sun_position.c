@@ -241,7 +241,7 @@ bool sky_time_parse(const char *text, const char *place, SkyTime *out, Error *er
     if (ok && sscanf(rest, ":%lf%n", &t.second, &more) == 1) rest += more;
     if (!ok || !parse_zone(rest, &t.zone_h) || !time_in_range(&t))
         return error_at(err, ERROR_INPUT, place, "",
-                        "'%s' is no moment, wanted a date, time and zone such as "
+                        "'%s' is no moment, required: a date, time and zone such as "
                         "2026-06-21T08:30+02:00", text);
     *out = t;
     return true;

@@ -106,12 +106,12 @@ static bool check_value(const Points *points, const char *path, const char *plac
     double nm = number[0], value = number[1];
     if (!(nm > 0 && nm < 1e6 && fabs(value) <= VALUE_MAX))
         return error_at(err, ERROR_INPUT, path, place,
-                        "wavelength %g nm with value %g: wanted finite numbers, nm above 0, "
+                        "wavelength %g nm with value %g: required: finite numbers, nm above 0, "
                         "up to %g", nm, value, VALUE_MAX);
     bool is_low = points->range != CURVE_NUMBERS && value < 0;
     bool is_high = points->range == CURVE_SHARES && value > 1;
     return !is_low && !is_high ? true :
-           error_at(err, ERROR_INPUT, path, place, "holds %.9g; %s is wanted", value,
+           error_at(err, ERROR_INPUT, path, place, "holds %.9g; %s is required", value,
                     points->range == CURVE_SHARES ? "0 to 1" : "0 or more");
 }
 
@@ -123,7 +123,8 @@ static bool check_values(const Points *points, const char *path, const char *pla
     bool is_index = n >= 0 && n <= INDEX_MAX && k >= 0 && k <= INDEX_MAX && n + k > 0;
     return nm > 0 && nm < 1e6 && is_index ? true :
            error_at(err, ERROR_INPUT, path, place,
-                    "wavelength %g nm with n %g and k %g: wanted nm above 0, n and k from 0 to "
+                    "wavelength %g nm with n %g and k %g: required: nm above 0, n and k from "
+                    "0 to "
                     "%g, not both 0", nm, n, k, INDEX_MAX);
 }
 
@@ -135,7 +136,7 @@ static bool add_row(Points *points, const char *path, const char *place, const d
     if (!check_values(points, path, place, number, err)) return false;
     if (n && !(nm > points->nm[n - 1]))
         return error_at(err, ERROR_INPUT, path, place,
-                        "wavelength %g nm after %g nm: wanted rising wavelengths", nm,
+                        "wavelength %g nm after %g nm: required: rising wavelengths", nm,
                         points->nm[n - 1]);
     if (n == MAX_POINTS)
         return error_at(err, ERROR_INPUT, path, place, "more than %d rows", MAX_POINTS);
@@ -202,7 +203,8 @@ static bool read_points(const char *text, const char *path, Points *points, Erro
             if (!add_row(points, path, place, number, err)) return false;
         } else if (!may_be_header || !is_header(line)) {
             line[strcspn(line, "\r\n")] = '\0';
-            return error_at(err, ERROR_INPUT, path, place, "found \"%.60s\", wanted %s%s", line,
+            return error_at(err, ERROR_INPUT, path, place, "found \"%.60s\", required: "
+                                                           "%s%s", line,
                             names, comma_hint(line));
         }
         may_be_header = false;

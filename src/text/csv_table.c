@@ -76,7 +76,7 @@ static bool read_names(Scan *scan, CsvTable *table, Error *err)
     const char *text, *stop;
     if (!next_line(scan, &text, &stop))
         return error_at(err, ERROR_INPUT, table->file, "",
-                        "is empty, wanted a header line and rows of numbers");
+                        "is empty, required: a header line and rows of numbers");
     text = skip_mark(text, stop);
     scan->separator = find_separator(text, stop);
     table->name = ARENA_NEW(scan->arena, const char *, CSV_COLUMNS_MAX);
@@ -111,7 +111,8 @@ static bool bad_cell(const Scan *scan, const CsvTable *table, int column, const 
     int length = 0;
     while (text + length < stop && text[length] != scan->separator && length < 40) length++;
     return error_at(scan->err, ERROR_INPUT, table->file, place_of(scan),
-                    "column '%s' holds '%.*s', wanted a finite number%s", table->name[column],
+                    "column '%s' holds '%.*s', required: a finite "
+                    "number%s", table->name[column],
                     length, text, comma_hint(text, text + length));
 }
 

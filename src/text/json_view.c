@@ -42,7 +42,7 @@ bool json_view_open(const char *file, Arena *arena, JsonView *out, Error *err)
         return error_at(err, ERROR_INPUT, file, place, "not valid JSON: %s", fault.text);
     }
     if (!json_is_object(root)) {
-        bool fails = error_at(err, ERROR_INPUT, file, "", "is %s, wanted an object",
+        bool fails = error_at(err, ERROR_INPUT, file, "", "is %s, required: an object",
                               kind_of(root));
         json_decref(root);
         return fails;
@@ -80,7 +80,7 @@ bool json_view_wrong_kind(const JsonView *view, const char *key, const json_t *v
                           const char *wanted, Error *err)
 {
     return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                    "is %s, wanted %s", kind_of(value), wanted);
+                    "is %s, required: %s", kind_of(value), wanted);
 }
 
 bool json_view_child(const JsonView *view, const char *key, bool required, JsonView *out,
@@ -114,7 +114,7 @@ static bool in_range(const JsonView *view, const char *key, double value,
 {
     if (isfinite(value) && value >= limits[0] && value <= limits[1]) return true;
     return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                    "is %g, wanted a number from %g to %g", value, limits[0], limits[1]);
+                    "is %g, required: a number from %g to %g", value, limits[0], limits[1]);
 }
 
 bool json_view_number(const JsonView *view, const char *key, double low, double high,
@@ -140,7 +140,7 @@ bool json_view_numbers(const JsonView *view, const char *key, JsonRange range, d
     int length = (int)json_array_size(list);
     if (length < 1 || length > range.capacity)
         return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                        "has %d values, wanted 1 to %d", length, range.capacity);
+                        "has %d values, required: 1 to %d", length, range.capacity);
     for (int i = 0; i < length; i++) {
         json_t *value = json_array_get(list, (size_t)i);
         if (!json_is_number(value))
@@ -160,7 +160,7 @@ bool json_view_pair(const JsonView *view, const char *key, double low, double hi
     const json_t *list = json_object_get(view->object, key);
     if (json_is_array(list) && json_array_size(list) != 2)
         return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                        "has %zu values, wanted 2", json_array_size(list));
+                        "has %zu values, required: 2", json_array_size(list));
     return json_view_numbers(view, key, (JsonRange){low, high, 2}, out, &count, err);
 }
 

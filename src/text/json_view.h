@@ -66,7 +66,7 @@ bool json_view_text(const JsonView *view, const char *key, const char **out, Err
 bool json_view_file(const JsonView *view, const char *key, const char *text, const char **out,
                     Error *err);
 
-/* Refuses what stands under a key: "is a number, wanted a list of files". Always false. */
+/* Refuses what stands under a key: "is a number, required: a list of files". Always false. */
 bool json_view_wrong_kind(const JsonView *view, const char *key, const json_t *value,
                           const char *wanted, Error *err);
 

@@ -43,7 +43,7 @@ static bool percent_decode(const char *text, size_t length, char *out, size_t *s
             if (low < 0)
                 return error_set(err, ERROR_INPUT,
                                  "broken escape \"%.3s\" in a URI, %% and two hexadecimal "
-                                 "digits are wanted",
+                                 "digits are required",
                                  text + i);
             c = (char)(high * 16 + low);
             i += 2;

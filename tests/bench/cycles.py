@@ -154,7 +154,7 @@ def main():
         sys.exit("cycles.py: no blender: apt-get install blender")
     unknown = [view for view in views if view not in VIEWS]
     if unknown:
-        sys.exit(f"cycles.py: --views {unknown[0]}: wanted some of {'; '.join(VIEWS)}")
+        sys.exit(f"cycles.py: --views {unknown[0]}: required: some of {'; '.join(VIEWS)}")
     print(f"{'view':18} {'program':10} {'error %':>8} {'start s':>8} {'frame s':>8} "
           f"{'range':>13} {'to 5 % s':>9} {'ratio':>6}  light")
     for view in views:

@@ -112,7 +112,7 @@ def views_of(text):
     views = text.split(";") if text else list(VIEWS)
     unknown = [view for view in views if view not in VIEWS]
     if unknown:
-        sys.exit(f"--views: there is no {unknown[0]!r}, wanted of: {'; '.join(VIEWS)}")
+        sys.exit(f"--views: there is no {unknown[0]!r}, required: one of: {'; '.join(VIEWS)}")
     return views
 
 
@@ -122,7 +122,7 @@ def programs_of(items):
     for item in items:
         name, equals, words = item.partition("=")
         if not equals:
-            sys.exit(f"{item}: wanted NAME=PARHELION[,OPTION]")
+            sys.exit(f"{item}: required: NAME=PARHELION[,OPTION]")
         program, *options = words.split(",")
         programs[name] = [os.path.abspath(program), "render", *options]
     return programs

@@ -105,7 +105,7 @@ const char *fuzz_more(void)
 
 static void arena_is_full(size_t bytes_wanted, size_t bytes_left)
 {
-    fprintf(stderr, "%zu bytes wanted, %zu left\n", bytes_wanted, bytes_left);
+    fprintf(stderr, "%zu bytes required, %zu left\n", bytes_wanted, bytes_left);
     fuzz_claim(false, "a small input needs little memory");
 }
 

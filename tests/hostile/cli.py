@@ -556,7 +556,8 @@ def check_signal(report, program, number, status):
         running.kill()
         err = "still running"
     report.claim(running.returncode == status,
-                 f"{number.name}: status {running.returncode}, wanted {status}: {err[-300:]}")
+                 f"{number.name}: status {running.returncode}, required: {status}: "
+                 f"{err[-300:]}")
     is_partial = os.path.exists(out) and any(
         "complete" in name and value[:1] in (b"\0", b"f", b"n")
         for name, value in Frame(out).attributes.items())

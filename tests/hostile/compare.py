@@ -196,7 +196,7 @@ def check_pictures(report, program):
     wanted = 10 * math.log10(3 * PIXELS * 255 ** 2)
     report.claim(status == 1 and abs(answer["metrics"]["psnr"] - wanted) < 1e-3
                  and answer["differing_pixels"] == 1,
-                 f"one code of one channel: {answer['metrics']}, wanted {wanted} dB")
+                 f"one code of one channel: {answer['metrics']}, required: {wanted} dB")
     program.png("a16.png", bits=16)
     told(report, program.compare("a.png", "a16.png"), 0, "8 bits, the test 16")
     program.png("b16.png", 1, bits=16)

@@ -169,7 +169,7 @@ def check_permissions(bench):
 
 
 def check_places(bench):
-    """A folder where a file is wanted and the other way round; a folder that is not there."""
+    """A folder where a file is required and the other way round; a folder that is not there."""
     make_inputs(bench)
     folder = bench.file("folders")
     for name in ("f.exr", "p.png", "x.panel", "plot.svg", "MANIFEST.json", "sky.exr"):

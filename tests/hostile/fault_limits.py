@@ -51,7 +51,7 @@ def refused(bench, uri, words, kind="images", *options):
     path = picture_scene(bench, bench.file("tree", "a", "scenes", "s.gltf"), uri, kind)
     status, said = problems(bench, path, *options)
     bench.claim(status == 3 and words in said, f"{kind} {uri!r}: {status} {said!r}, "
-                f"{words!r} is wanted")
+                f"{words!r} is required")
 
 
 def elsewhere(bench, uri, words, kind="images"):
@@ -60,7 +60,7 @@ def elsewhere(bench, uri, words, kind="images"):
     path = picture_scene(bench, bench.file("tree", "a", "scenes", "s.gltf"), uri, kind)
     status, said = problems(bench, path, severity="warning")
     bench.claim(status == 0 and words in said, f"{kind} {uri!r}: {status} {said!r}, "
-                f"{words!r} is wanted")
+                f"{words!r} is required")
 
 
 def taken(bench, uri, kind="images", *options):

@@ -60,7 +60,7 @@ def refusal(bench, scene, words, what):
     scene.write(path)
     status, said = problems(bench, path)
     bench.claim(status == 3 and words in said, f"{what}: {status} {said!r}, {words!r} is "
-                "wanted")
+                "required")
     bench.fails(bench.render(path, out="no.exr"), 3, what=what, warnings=True)
     bench.claim(not os.path.exists(bench.file("no.exr")), f"{what}: a frame was written")
 
@@ -90,7 +90,7 @@ def check_numbers(bench):
     """NaN and infinity in what stands at a vertex."""
     for attribute, number in (("POSITION", math.nan), ("NORMAL", math.inf),
                               ("TEXCOORD_0", -math.nan), ("TANGENT", math.nan)):
-        refusal(bench, with_number(attribute, number), "finite numbers are wanted",
+        refusal(bench, with_number(attribute, number), "finite numbers are required",
                 f"{attribute} holds {number}")
 
 
@@ -100,7 +100,7 @@ def check_lights_and_cameras(bench):
         scene = lit_scene()
         scene.document["cameras"][0]["perspective"]["yfov"] = yfov
         if yfov > math.pi:  # glTF only recommends less
-            frame_of(bench, scene, "less than pi is wanted", what=f"yfov {yfov}")
+            frame_of(bench, scene, "less than pi is required", what=f"yfov {yfov}")
         else:
             refusal(bench, scene, "a number above 0", f"yfov {yfov}")
     scene = lit_scene()
@@ -134,7 +134,7 @@ def check_far(bench):
                 scene.document.setdefault("extensionsUsed", []).append(copies)
             else:
                 place["translation"] = [0, far, 0]
-            refusal(bench, scene, "within 1e+09 m are wanted", f"a {what} {far:g} m away")
+            refusal(bench, scene, "within 1e+09 m are required", f"a {what} {far:g} m away")
     scene = lit_scene()
     scene.light("directional", 1, [0, 2e18, 0], [0, -1, 0])
     frame_of(bench, scene, what="a light of which glTF ignores the place")

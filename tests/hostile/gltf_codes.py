@@ -114,7 +114,7 @@ def judge_fault(report, fault, outcome, found):
     outcome = {"~": "reported", "!": "refused"}.get(code[-1], outcome)
     said = [p for p in problems if words in p[1]]
     holds = bool(said) and status == (3 if outcome == "refused" else 0)
-    report.claim(holds, f"{code}: {outcome} with \"{words}\" is wanted, status {status}: "
+    report.claim(holds, f"{code}: {outcome} with \"{words}\" is required, status {status}: "
                  f"{sorted(problems)[:4]}")
 
 
@@ -238,7 +238,7 @@ def check_valid(report, trial):
     for row, (status, problems) in zip(VALID, found):
         said = any(row[1] in p[1] for p in problems) if row[1] else not problems
         report.claim(status == 0 and said, f"{row[0]}: is valid, but status {status}: "
-                     f"{sorted(problems)[:4]}, wanted \"{row[1]}\"")
+                     f"{sorted(problems)[:4]}, required: \"{row[1]}\"")
 
 
 def main():

@@ -125,7 +125,8 @@ class Canvas:
                 self.take_boxes(one)
             else:
                 wanted = create(self.image, self.size, self.channels)
-                self.report.claim(one == wanted, f"create: {one[:200]}, wanted {wanted[:200]}")
+                self.report.claim(one == wanted, f"create: {one[:200]}, required: "
+                                                 f"{wanted[:200]}")
 
     def take_update(self, one):
         """Of all channels, or of the picture's."""
@@ -282,7 +283,7 @@ def check_packets(work, frame, size, *options, of_halves=False, host="127.0.0.1"
     channels = shown_channels(data)
     first, every = channels_of(picture)
     work.report.claim(channels[:3] == first and sorted(channels) == sorted(every),
-                      f"{what}: channels {channels}, wanted {sorted(every)}")
+                      f"{what}: channels {channels}, required: {sorted(every)}")
     canvas = Canvas(work.report, "frame.exr", size, channels)
     canvas.take(data)
     claim_picture(work.report, canvas, picture, what)
@@ -294,7 +295,7 @@ def check_packets(work, frame, size, *options, of_halves=False, host="127.0.0.1"
     work.report.claim(len(canvas.boxes) == len(wanted) and
                       max(abs(a - b) for shown, box in zip(canvas.boxes, wanted)
                           for a, b in zip(shown, box)) < 1e-3,
-                      f"{what}: boxes {canvas.boxes}, wanted {wanted}")
+                      f"{what}: boxes {canvas.boxes}, required: {wanted}")
     if "variance.R" in picture.channels and picture.box == (0, 0, *size):
         claim_error(work.report, canvas, picture, of_halves, what)
     work.report.claim("--tev" not in done.stderr, f"{what}: says {done.stderr[-300:]}")
@@ -396,11 +397,11 @@ def check_hung(work, *options):
 # ---- words that are none -------------------------------------------------------------------
 
 def check_words(work):
-    port, ip4 = "is no port, wanted 1 to 65535", "is no IPv4 address"
+    port, ip4 = "is no port, required: 1 to 65535", "is no IPv4 address"
     ip6, brackets = "is no IPv6 address", "an IPv6 address stands in brackets"
-    name, length = "is no host's name", "letters, wanted 1 to 253"
+    name, length = "is no host's name", "letters, required: 1 to 253"
     for words, status, part in (
-            (["--tev", ""], 2, "wanted a text"), (["--tev", ":5"], 2, length),
+            (["--tev", ""], 2, "required: a text"), (["--tev", ":5"], 2, length),
             (["--tev", "a" * 254], 2, length), (["--tev", "[]:5"], 2, length),
             (["--tev", "a:"], 2, port), (["--tev", "a:0"], 2, port),
             (["--tev", "a:65536"], 2, port), (["--tev", "a:+5"], 2, port),
@@ -408,11 +409,11 @@ def check_words(work):
             (["--tev", "a:99999999999999999999"], 2, port), (["--tev", "[::1]:"], 2, port),
             (["--tev", "::1"], 2, brackets), (["--tev", "a:b:c"], 2, brackets),
             (["--tev", "[::1"], 2, "never closed"), (["--tev", "[zz]:5"], 2, ip6),
-            (["--tev", "[127.0.0.1]:5"], 2, ip6), (["--tev", "[::1]5"], 2, "wanted :PORT"),
+            (["--tev", "[127.0.0.1]:5"], 2, ip6), (["--tev", "[::1]5"], 2, "required: :PORT"),
             (["--tev", "999.0.0.1"], 2, ip4), (["--tev", "1.2.3:5"], 2, ip4),
             (["--tev", "a b"], 2, name), (["--tev", "a/b:5"], 2, name),
             (["--tev", "[::1]:\n"], 2, port), (["--tev", "h\u00f6st"], 2, name),
-            (["--live", "frame.png"], 2, "wanted a name that ends in .exr"),
+            (["--live", "frame.png"], 2, "required: a name that ends in .exr"),
             (["--live", "frame.exr"], 2, "the result is to stand there"),
             (["--live", "x.exr", "--png", "x.exr"], 2, "the picture is to stand there"),
             (["--live", "none/x.exr"], 4, "none/x.exr: cannot be written")):

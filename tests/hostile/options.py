@@ -52,7 +52,7 @@ def literal(value):
 
 def inside_limits(message, value):
     """Values that a message about limits allows."""
-    match = re.search(r"wanted (-?[\d.e+-]+) to (-?[\d.e+-]+)", message)
+    match = re.search(r"required: (-?[\d.e+-]+) to (-?[\d.e+-]+)", message)
     count = value.count(",") + 1
     return match and tuple(",".join([match.group(k)] * count) for k in (1, 2))
 

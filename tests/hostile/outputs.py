@@ -229,7 +229,7 @@ class Line:
         if is_output and given.endswith(ending):
             lines = done.stderr.strip().splitlines()
             self.report.claim(done.returncode == 4 and len(lines) == 1 and
-                              (WORDS in done.stderr or "is read, wanted" in done.stderr or
+                              (WORDS in done.stderr or "is read, required:" in done.stderr or
                                "would be written over" in done.stderr), what)
 
 

@@ -221,17 +221,17 @@ def check_levels(report, commands, panel):
                   "--level", "3", "--quiet")
     with open(os.path.join(out, "MANIFEST.json")) as file:
         report.claim("read down to level 3" in file.read(), "an exported set hides its level")
-    for wrong, words in (("-1", (f"wanted 0 to {finest}",)), ("1.5", ("a whole number",)),
-                         (str(finest + 1), (f"wanted 0 to {finest}",)), ("x", ("whole",))):
+    for wrong, words in (("-1", (f"required: 0 to {finest}",)), ("1.5", ("a whole number",)),
+                         (str(finest + 1), (f"required: 0 to {finest}",)), ("x", ("whole",))):
         fails(report, commands.run("eval", panel, *emission, "--theta", "0", "--level", wrong),
               2, "--level", wrong, *words)
     fails(report, commands.run("export", panel, "-o", commands.file("y.csv"), "--table",
                                "primaries", "--level", "3", "--quiet"), 2, "--level is 3",
-          "wanted none", "primaries")
+          "required: none", "primaries")
     dark = commands.file("dark.panel")
     commands.text("fit", lambertian_set(commands, "dark", 0.2), "-o", dark, "--quiet")
     fails(report, commands.run("eval", dark, *emission, "--theta", "0", "--level", "0"), 2,
-          "dark.panel", "--level is 0", "wanted none", "no emission")
+          "dark.panel", "--level is 0", "required: none", "no emission")
 
 
 def check_traits(report, commands, panel):
@@ -487,8 +487,8 @@ def check_plot_numbers(report, commands, _):
     draw = ("plot", lobe, "-o", commands.file("x.svg"))
     for option, value, words in (
             ("--contour", "0", "above 0"), ("--contour", "5;6", "no comma"),
-            ("--contour", "50%%", "no comma"), ("--contour", "", "wanted"),
-            ("--ambient", "-3", "above 0"), ("--ambient", "1,", "wanted"),
+            ("--contour", "50%%", "no comma"), ("--contour", "", "required"),
+            ("--ambient", "-3", "above 0"), ("--ambient", "1,", "required"),
             ("--ambient", ",".join("5" * 9), "more than 8")):
         fails(report, commands.run(*draw, option, value), 2, option, words)
     fails(report, commands.run(*draw, "--kind", "spectra", "--contour", "5"), 2, "--contour",

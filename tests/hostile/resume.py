@@ -147,7 +147,7 @@ def claim_stopped(work, running, number, status, what):
     err = running.communicate(timeout=PATIENCE_S)[1]
     last = err.strip().splitlines()[-1] if err.strip() else ""
     work.report.claim(running.returncode == status,
-                      f"{what}: status {running.returncode}, wanted {status}: {err[-300:]}")
+                      f"{what}: status {running.returncode}, required: {status}: {err[-300:]}")
     work.report.claim("— go on with: parhelion render --resume scene.gltf " in last,
                       f"{what}: does not say how to go on: {last}")
     work.report.claim(os.path.exists(work.path("frame.exr.checkpoint")),
@@ -224,7 +224,8 @@ def check_refusals(work, *options):
                         "--resume")
         work.report.claim(done.returncode == status and part in done.stderr and
                           done.stderr.count("\n") == 1,
-                          f"{changed}: status {done.returncode}, {done.stderr[:300]!r}, wanted "
+                          f"{changed}: status {done.returncode}, {done.stderr[:300]!r}, "
+                          f"required: "
                           f"{part!r}")
         work.report.claim(contents(path) == checkpoint, f"{changed}: changed the checkpoint")
         return done.stderr

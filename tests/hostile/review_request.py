@@ -364,7 +364,7 @@ def check_files(report, requests):
             status, said = requests.ask("files", text)
             holds = not said and status == 0 if words is None else \
                 is_refusal(status, said) and name in said and words in said
-            report.claim(holds, f"{name} {number}: status {status}, wanted {words}: {said}")
+            report.claim(holds, f"{name} {number}: status {status}, required: {words}: {said}")
 
 
 def check_pictures(report, requests):

@@ -243,7 +243,7 @@ def check_plan(work):
             file.write(text)
         answer = json.loads(work.run("--dry-run", "--json", *options).stdout)
         work.report.claim(answer["responses"] == 2 and answer["responses_reused"] == kept,
-                          f"{options}: {answer}, wanted {kept}")
+                          f"{options}: {answer}, required: {kept}")
     with open(work.path("dash.gltf"), "w", encoding="utf-8") as file:
         file.write(scene)
 

@@ -100,10 +100,10 @@ def check_same(report, what, found, wanted):
         width = math.hypot(high - low, other[1] - other[0]) / 2
         report.claim(width < 0.1 * case["contrast_ratio"], f"{what}, {key}: width {width}")
         report.claim(abs(mine["contrast_ratio"] - case["contrast_ratio"]) <= 1.5 * width,
-                     f"{what}, {key}: {mine['contrast_ratio']}, wanted "
+                     f"{what}, {key}: {mine['contrast_ratio']}, required: "
                      f"{case['contrast_ratio']} within {width}")
         report.claim(abs(mine["level"] / case["level"] - 1) < 0.04,
-                     f"{what}, {key}: level {mine['level']}, wanted {case['level']}")
+                     f"{what}, {key}: level {mine['level']}, required: {case['level']}")
 
 
 def differ(report, what, found, plain):

@@ -209,7 +209,7 @@ def check_pane(report, eye, shape, radius, degrees):
     name = f"{shape}, radius {radius} m, {degrees} degrees"
     found = spots(values, 0.2 * max(values))
     if len(found) != 2:
-        report.claim(False, f"{name}: {len(found)} images, wanted 2")
+        report.claim(False, f"{name}: {len(found)} images, required: 2")
         return
     pixel = 2 * WIDE * away / SIDE
     (first, _), (second, _) = found
@@ -217,7 +217,7 @@ def check_pane(report, eye, shape, radius, degrees):
     report.claim(math.hypot(*off) < 0.02 * away,
                  f"{name}: the ghost stands {minutes(pixel * (second[0] - first[0])):.3f}, "
                  f"{minutes(pixel * (second[1] - first[1])):.3f} minutes beside the image, "
-                 f"wanted {minutes(wanted[0]):.3f}, {minutes(wanted[1]):.3f}")
+                 f"required: {minutes(wanted[0]):.3f}, {minutes(wanted[1]):.3f}")
     check_wedge(report, eye, (sight, shape, radius, size, away), name)
 
 
@@ -236,7 +236,7 @@ def check_wedge(report, eye, pane_of, name):
     left = minutes(2 * WIDE * away / SIDE * up * (first + second) / second)
     least = 0.2 if sight.far > 0.5 else 0.05 * minutes(away)
     report.claim(abs(left) < least, f"{name}: a wedge of {1e3 * alpha:.4f} mrad leaves "
-                                    f"{left:.3f} minutes, wanted {least:.3f} at most")
+                                    f"{left:.3f} minutes, required: {least:.3f} at most")
 
 
 def main():

@@ -140,7 +140,7 @@ def check_prism(report, eye):
             found = eye.mean(prism_scene(extensions, edge), 2048, "--max-bounces",
                              "2") / LUMINANCE
             report.claim(abs(found - wanted) < 0.01 * wanted,
-                         f"{name}: {found:.5f} of the light lands beyond {nm} nm, wanted "
+                         f"{name}: {found:.5f} of the light lands beyond {nm} nm, required: "
                          f"{wanted:.5f}")
 
 
@@ -174,7 +174,8 @@ def check_metal(report, eye):
         found = eye.mean(scene, 16) / LUMINANCE
         wanted = layers.metal(math.cos(angle), complex(n, k))
         report.claim(abs(found - wanted) < 1e-3, f"a measured metal at {degrees} degrees "
-                                                 f"reflects {found:.5f}, wanted {wanted:.5f}")
+                                                 f"reflects {found:.5f}, required: "
+                                                 f"{wanted:.5f}")
 
 
 RADAR = index_file([{"temperature": 300, "n": [[3.9e-3, 2.5]], "k": [[3.9e-3, 0.1]]}])
@@ -197,7 +198,7 @@ def check_unused(report, eye):
 GOOD = {"temperature": 300, "n": [[3.8e-7, 1.5], [7.8e-7, 1.4]],
         "k": [[3.8e-7, 0], [7.8e-7, 0]]}
 FILES = [
-    (b"{", "glass_ior.gltf"), (b"[]", "OpenMaterial_ior_data is wanted"),
+    (b"{", "glass_ior.gltf"), (b"[]", "OpenMaterial_ior_data is required"),
     (b'{"extensions": {"OpenMaterial_ior_data": {}}}', '"data" is wanted'),
     (index_file([]), '"data" is wanted'),
     (index_file([{**GOOD, "temperature": "300"}]), '/data/0: "temperature" is wanted'),
@@ -270,7 +271,7 @@ def check_company(report, program, folder):
             (0, "0 warnings", {**MEASURED, **coat}, glass, 1)):
         status, text = check(program, folder, extensions, files, metallic)
         report.claim(status == wanted and said in text,
-                     f"{list(extensions)}: {status}, {text}, wanted {said}")
+                     f"{list(extensions)}: {status}, {text}, required: {said}")
 
 
 def main():

@@ -286,7 +286,7 @@ def check_equip(report, pair):
     centre[2] += 0.0005
     for name, wanted in (("new", centre), ("new eye", eye)):
         found = nodes[name]["translation"]
-        report.claim(math.dist(found, wanted) < 1e-9, f"{name}: {found}, wanted {wanted}")
+        report.claim(math.dist(found, wanted) < 1e-9, f"{name}: {found}, required: {wanted}")
 
 
 def main():

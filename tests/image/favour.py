@@ -168,7 +168,7 @@ def check_noise_answer(report, program):
                          "--eye", "0,1.2,1.9", "--look-at", "0,1.2,3")
     report.claim(set(dark.channels["samples.N"]) == {8}, "a black frame has fewer samples")
     done = program.run("no.exr", "--spp", "1", "--noise", "noise:0.1")
-    report.claim(done.returncode == 2 and "--noise noise:R: wanted display" in done.stderr,
+    report.claim(done.returncode == 2 and "--noise noise:R: required: display" in done.stderr,
                  f"--noise noise: {done.stderr}")
 
 
@@ -251,9 +251,10 @@ def check_denoised(report, program):
 
 def check_words(report, program):
     cases = [(["--for", "display:lft"], "--for display:lft: no display has this name"),
-             (["--for", "1,2,3"], "--for 1,2,3: wanted noise, display, display:NAME or whole"),
+             (["--for", "1,2,3"], "--for 1,2,3: required: noise, display, display:NAME or "
+                                  "whole"),
              (["--for", "0,0,41,3"], "inside 0,0,40,24"),
-             (["--for", ""], "--for '': wanted a text that is not empty")]
+             (["--for", ""], "--for '': required: a text that is not empty")]
     for options, wanted in cases:
         done = program.run("no.exr", "--spp", "1", *options)
         report.claim(done.returncode == 2 and wanted in done.stderr and

@@ -108,7 +108,7 @@ def check_face(report, eye):
             wanted = face(math.cos(math.radians(degrees)), film, thickness_nm, body)
             report.claim(abs(found - wanted) < 0.002 + 0.01 * wanted,
                          f"a film of {thickness_nm} nm, {film} on {body}, at {degrees} degrees "
-                         f"reflects {found:.5f}, wanted {wanted:.5f}")
+                         f"reflects {found:.5f}, required: {wanted:.5f}")
 
 
 def check_slab(report, eye):
@@ -126,7 +126,7 @@ def check_slab(report, eye):
             wanted = slab(math.cos(angle), film, thickness_nm, body)
             report.claim(abs(found - wanted) < 0.004,
                          f"through {thickness_nm} nm, {film} on {body}, at {degrees} degrees "
-                         f"comes {found:.5f}, wanted {wanted:.5f}")
+                         f"comes {found:.5f}, required: {wanted:.5f}")
 
 
 def check_textures(report, eye):
@@ -148,7 +148,7 @@ def check_textures(report, eye):
         wanted = face(math.cos(math.radians(30)), 1.9, 600 if u else 200, 1.5,
                       0.9 * (0.8 if u else 0.2))
         report.claim(abs(found - wanted) < 0.002 + 0.01 * wanted,
-                     f"textures at {u}: {found:.5f}, wanted {wanted:.5f}")
+                     f"textures at {u}: {found:.5f}, required: {wanted:.5f}")
 
 
 def check_sun(report, eye):
@@ -166,7 +166,7 @@ def check_sun(report, eye):
                                                            light=sunlit)
         report.claim(abs(found / wanted - 1) < 0.003,
                      f"the sun by way of {thickness_nm} nm, {film} on {body}: {found:.2f} "
-                     f"cd/m2, wanted {wanted:.2f}")
+                     f"cd/m2, required: {wanted:.2f}")
 
 
 def main():

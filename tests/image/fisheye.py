@@ -208,7 +208,7 @@ def check_no_frames(report, program):
                         ("develop", name, "-o", "x.png")):
             done = program.run(*command)
             report.claim(done.returncode == 3 and done.stderr == (
-                f"parhelion: {name}: {found}, wanted an OpenEXR file or a Radiance picture "
+                f"parhelion: {name}: {found}, required: an OpenEXR file or a Radiance picture "
                 "(.hdr)\n"), f"{command}: {done.stderr}")
 
 

@@ -256,7 +256,7 @@ def check_examples(report, reviewer):
         for key, allowed in (("cornea_lx", 0.003 * wanted["cornea_lx"]), ("ugr", 0.1),
                              ("dgp", 0.002)):
             report.claim(found[key] is not None and abs(found[key] - wanted[key]) <= allowed,
-                         f"case {row[0]}: {key} {found[key]}, wanted {wanted[key]}")
+                         f"case {row[0]}: {key} {found[key]}, required: {wanted[key]}")
         report.claim(found["glare"]["sources"] == len(row[2].split(";")),
                      f"case {row[0]}: {found['glare']['sources']} sources")
 

@@ -98,12 +98,12 @@ def check_shares(report, eye):
             extension = pane(laminate(through))
             found = eye.mean(slanted(angle, extension, below=LUMINANCE), 4) / LUMINANCE
             report.claim(abs(found - passed(angle, through)) < 0.001,
-                         f"{degrees} degrees, {through}: lets through {found:.5f}, wanted "
+                         f"{degrees} degrees, {through}: lets through {found:.5f}, required: "
                          f"{passed(angle, through):.5f}")
             found = eye.mean(slanted(angle, extension, above=LUMINANCE), 256) / LUMINANCE
             wanted = mirrored(angle, through)
             report.claim(abs(found / wanted - 1) < 0.01,
-                         f"{degrees} degrees, {through}: mirrors {found:.5f}, wanted "
+                         f"{degrees} degrees, {through}: mirrors {found:.5f}, required: "
                          f"{wanted:.5f}")
 
 
@@ -184,11 +184,11 @@ def check_coated(report, eye):
         scene = slanted(angle, extension, below=LUMINANCE, front=front)
         found = eye.mean(scene, 64) / LUMINANCE
         report.claim(abs(found - straight) < 0.001,
-                     f"{name}: lets through {found:.5f}, wanted {straight:.5f}")
+                     f"{name}: lets through {found:.5f}, required: {straight:.5f}")
         scene = slanted(angle, extension, above=LUMINANCE, front=front)
         found = eye.mean(scene, 256) / LUMINANCE
         report.claim(abs(found - mirror) < 0.01 * mirror + 2e-4,
-                     f"{name}: mirrors {found:.5f}, wanted {mirror:.5f}")
+                     f"{name}: mirrors {found:.5f}, required: {mirror:.5f}")
         check_coated_sun(report, eye, (angle, extension, front), straight, name)
 
 
@@ -204,7 +204,7 @@ def check_coated_sun(report, eye, coated_at, straight, name):
     found = eye.mean(scene, 16)
     wanted = lux * math.cos(angle) * straight * 0.01 / math.pi
     report.claim(abs(found / wanted - 1) < 0.003,
-                 f"{name}: sunlit floor behind {found:.3f} cd/m2, wanted {wanted:.3f}")
+                 f"{name}: sunlit floor behind {found:.3f} cd/m2, required: {wanted:.3f}")
 
 
 def check_coated_ghost(report, eye):
@@ -221,7 +221,7 @@ def check_coated_ghost(report, eye):
         lambda nm, is_p: Face(None, cosine, nm, is_p).outer)
     report.claim(abs(faint / bright / wanted - 1) < 0.01,
                  f"a dark film inside: the ghost has {faint / bright:.4f} of the image's "
-                 f"light, wanted {wanted:.4f}")
+                 f"light, required: {wanted:.4f}")
 
 
 # ---- the ghost -----------------------------------------------------------------------------
@@ -278,7 +278,7 @@ def check_ghost(report, eye):
         wanted = math.degrees(shift(angle) / distance) * 60
         report.claim(abs(abs(second - first) / wanted - 1) < 0.02,
                      f"{degrees} degrees: the ghost stands {second - first:.3f} minutes beside "
-                     f"the image, wanted {wanted:.3f}")
+                     f"the image, required: {wanted:.3f}")
         check_wedge(report, eye, angle, wanted)
         if degrees not in (45, 70):
             continue
@@ -287,7 +287,7 @@ def check_ghost(report, eye):
                  sum(faces(angle)))
         report.claim(abs(faint / bright / ratio - 1) < 0.01,
                      f"{degrees} degrees: the ghost has {faint / bright:.5f} of the image's "
-                     f"light, wanted {ratio:.5f}")
+                     f"light, required: {ratio:.5f}")
 
 
 def check_wedge(report, eye, angle, apart):
@@ -301,7 +301,7 @@ def check_wedge(report, eye, angle, apart):
     first, second = images(eye, angle, pane(laminate(1, alpha, "+u")))[:2]
     found = abs(first[0] - second[0])
     report.claim(abs(found / (2 * apart) - 1) < 0.02,
-                 f"{degrees} degrees: turned round it makes {found:.3f} minutes, wanted "
+                 f"{degrees} degrees: turned round it makes {found:.3f} minutes, required: "
                  f"{2 * apart:.3f}")
 
 
@@ -324,7 +324,7 @@ def check_haze(report, eye):
         wanted = (lux * math.cos(sun) * share * lobe *
                   min(passed(sun, 0.8), passed(abs(angle), 0.8)))
         report.claim(abs(found / wanted - 1) < 0.01,
-                     f"dirt from {degrees} degrees: {found:.2f} cd/m2, wanted {wanted:.2f}")
+                     f"dirt from {degrees} degrees: {found:.2f} cd/m2, required: {wanted:.2f}")
 
 
 def check_furnace(report, eye):
@@ -338,7 +338,7 @@ def check_furnace(report, eye):
         lost = share * w * w / (w * w + (1 - math.sin(angle)) ** 2)
         report.claim(1 - lost - 0.003 < found < 1.003,
                      f"{degrees} degrees, {share} of dirt: {found:.5f} of the sky's light, "
-                     f"wanted 1 and at most {lost:.5f} less")
+                     f"required: 1 and at most {lost:.5f} less")
 
 
 # ---- what is no pane -----------------------------------------------------------------------
@@ -352,11 +352,11 @@ FAULTS = [
     ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "transmission": True}]}, "transmission"),
     ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "transmission": "no.csv"}]}, "no.csv"),
     ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "transmission": "bad.csv"}]},
-     "line 3: holds 1.5; 0 to 1 is wanted"),
+     "line 3: holds 1.5; 0 to 1 is required"),
     ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "transmission": "under.csv"}]},
-     "line 2: holds -0.1; 0 to 1 is wanted"),
+     "line 2: holds -0.1; 0 to 1 is required"),
     ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "transmission": "wide.csv"}]},
-     "wide.csv: has zero bytes, wanted text in UTF-8"),
+     "wide.csv: has zero bytes, required: text in UTF-8"),
     ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "wedge_rad": 0.001}]}, "wedge_toward"),
     ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "wedge_rad": 0.001, "wedge_toward": "up"}]},
      "wedge_toward"),
@@ -412,7 +412,8 @@ def check_excluded(report, program, folder):
     """What cannot stand beside a pane is refused."""
     path = os.path.join(folder, "beside.gltf")
     for name, body, said in (("KHR_materials_unlit", {}, "a pane does not shine"),
-                             ("PARHELION_coating", {"stack": "mgf2"}, "one of them is wanted"),
+                             ("PARHELION_coating", {"stack": "mgf2"}, "one of them is "
+                                                                      "required"),
                              ("PARHELION_display", {"panel": "a.panel"},
                               "a pane is no display")):
         scene = Scene()

@@ -45,15 +45,15 @@ RADIANCE = (
 )
 # header, what the message says, its line
 REFUSED = (
-    ("EXPOSURE=zero\n", "'EXPOSURE=zero', wanted EXPOSURE= and a number above 0", 3),
-    ("A=1\nEXPOSURE=-1\n", "'EXPOSURE=-1', wanted", 4),
+    ("EXPOSURE=zero\n", "'EXPOSURE=zero', required: EXPOSURE= and a number above 0", 3),
+    ("A=1\nEXPOSURE=-1\n", "'EXPOSURE=-1', required:", 4),
     ("EXPOSURE=0\n", "", 3), ("EXPOSURE=1 2\n", "", 3), ("EXPOSURE=\n", "", 3),
     ("EXPOSURE=nan\n", "", 3), ("EXPOSURE=inf\n", "", 3),
-    ("COLORCORR=1 1\n", "'COLORCORR=1 1', wanted COLORCORR= and three numbers above 0", 3),
+    ("COLORCORR=1 1\n", "'COLORCORR=1 1', required: COLORCORR= and three numbers above 0", 3),
     ("COLORCORR=1 0 1\n", "", 3),
-    ("PRIMARIES=0.3 0.3\n", "'PRIMARIES=0.3 0.3', wanted x and y of red, green, blue", 3),
+    ("PRIMARIES=0.3 0.3\n", "'PRIMARIES=0.3 0.3', required: x and y of red, green, blue", 3),
     ("PRIMARIES=0.3 0.3 0.3 0.3 0.3 0.3 0.3 0.3\n", "", 3),
-    ("FORMAT=32-bit_rle_x\n", "'FORMAT=32-bit_rle_x', wanted FORMAT=32-bit_rle_rgbe", 3),
+    ("FORMAT=32-bit_rle_x\n", "'FORMAT=32-bit_rle_x', required: FORMAT=32-bit_rle_rgbe", 3),
 )
 DOUBT = {"sun": "it shows a sun", "sky": "it shows a sky by day", "unit": "for a display"}
 # real pictures, none of which has a scale
@@ -126,7 +126,7 @@ def check_radiance(report, pictures):
                      f"{header!r}: {done.returncode}, {done.stderr}")
     pictures.put("turned.hdr", radiance("", (1, 1, 1)).replace(b"-Y 32 +X 64", b"-Y 32 -Z 64"))
     done = pictures.run("sky", "--environment", "hdri:turned.hdr")
-    report.claim("turned.hdr: '-Y 32 -Z 64', wanted -Y HEIGHT +X WIDTH" in done.stderr,
+    report.claim("turned.hdr: '-Y 32 -Z 64', required: -Y HEIGHT +X WIDTH" in done.stderr,
                  f"another axis: {done.stderr}")
 
 
@@ -164,7 +164,7 @@ def check_exr(report, pictures):
               {"whiteLuminance": ("float", struct.pack("<f", -1))})
     done = pictures.run("sky", "--environment", "hdri:a.exr")
     report.claim(done.returncode == 3
-                 and "a.exr: whiteLuminance is -1, wanted the cd/m2 of white" in done.stderr,
+                 and "a.exr: whiteLuminance is -1, required: the cd/m2 of white" in done.stderr,
                  f"negative whiteLuminance: {done.stderr}")
 
 

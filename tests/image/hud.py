@@ -152,7 +152,7 @@ def check_distance(report, eye):
     distance = DISTANCE * apart / seen
     print(f"virtual image at {distance:.4f} m")
     report.claim(abs(distance / DISTANCE - 1) < 0.02,
-                 f"two eyes see the image at {distance:.3f} m, wanted {DISTANCE}")
+                 f"two eyes see the image at {distance:.3f} m, required: {DISTANCE}")
 
 
 # ---- the ghost -----------------------------------------------------------------------------
@@ -169,7 +169,7 @@ def check_ghost(report, eye, shipped):
     print(f"ghost {right - x:.2f}, {up - y:.2f} minutes beside the image")
     report.claim(off < 0.03 * math.hypot(*GHOST),
                  f"without a wedge the ghost stands {right - x:.2f}, {up - y:.2f} minutes "
-                 f"beside the image, wanted {GHOST}")
+                 f"beside the image, required: {GHOST}")
     report.claim(0.2 < ghost / image < 0.9, f"the ghost has {ghost / image:.3f} of its light")
     cured = luminances(eye.frame("wedge.gltf", *CLOSE))
     bright = max(max(cured[y * SIDE:(y + 1) * SIDE]) for y in range(beyond, SIDE))
@@ -181,7 +181,7 @@ def check_ghost(report, eye, shipped):
     print(f"with the wedge their centre stands {side - x:.2f}, {height - y:.2f} minutes off")
     report.claim(math.hypot(side - x + moved, height - y) < 0.1,
                  f"with it their centre stands {side - x:.2f}, {height - y:.2f} minutes off "
-                 f"the image alone, wanted {-moved:.2f}, 0")
+                 f"the image alone, required: {-moved:.2f}, 0")
 
 
 # ---- what it shows -------------------------------------------------------------------------
@@ -229,8 +229,8 @@ def check_light(report, eye):
     slab = [r + (1 - r) ** 2 * r * through ** 2 / (1 - (r * through) ** 2) for r in faces]
     white = 80000 * 0.92
     wanted = [white * (0.99 * slab[k] + 0.01 * slab[1 - k]) for k in (0, 1)]
-    report.claim(abs(s / wanted[0] - 1) < 0.06, f"s: {s:.0f} cd/m2, wanted {wanted[0]:.0f}")
-    report.claim(abs(p / wanted[1] - 1) < 0.2, f"p: {p:.0f} cd/m2, wanted {wanted[1]:.0f}")
+    report.claim(abs(s / wanted[0] - 1) < 0.06, f"s: {s:.0f} cd/m2, required: {wanted[0]:.0f}")
+    report.claim(abs(p / wanted[1] - 1) < 0.2, f"p: {p:.0f} cd/m2, required: {wanted[1]:.0f}")
     report.claim(abs((s + p) / 2 / plain - 1) < 0.02, f"s {s:.0f} and p {p:.0f} are on average "
                                                       f"the unpolarised {plain:.0f}")
     report.claim(dark < 0.08 * s and clear > 0.7 * p,

@@ -556,7 +556,7 @@ def check_extension_refused(report, lamps):
             ({"uri": "lamp.ies", "bufferView": 0, "mimeType": MEDIA_TYPE}, {},
              (place, "has both")),
             ({}, {}, (place, "has neither")),
-            ({"uri": 5}, {}, (place + "/uri", "a text is wanted")),
+            ({"uri": 5}, {}, (place + "/uri", "a text is required")),
             ({"bufferView": 99, "mimeType": MEDIA_TYPE}, {},
              (place + "/bufferView", "in bufferViews")),
             ({"bufferView": 0, "mimeType": MEDIA_TYPE}, {}, (place, "no line TILT=")),

@@ -176,7 +176,7 @@ def check_figures(report, program):
         value = sum(k * frame.mean(f"{light['layer']}.{c}", (3, 4, 4, 5))
                     for k, c in zip(LUMINANCE, "RGB"))
         report.claim(abs(value - light["cd_m2"]) <= 1e-4 * abs(value),
-                     f"{light['layer']}: {light['cd_m2']}, wanted {value}")
+                     f"{light['layer']}: {light['cd_m2']}, required: {value}")
     text = program.run("measure", "figures.exr", "--display", "cluster").stdout
     report.claim("by light" in text and "% of " not in text.split("by light")[0] and
                  " %) of map lamp" in text, text)

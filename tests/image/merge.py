@@ -174,7 +174,7 @@ def claim_refused(report, program, parts, *words, status=3):
     report.claim(done.returncode == status, f"{parts}: status {done.returncode}, not {status}")
     line = done.stderr.strip()
     report.claim("\n" not in line and all(word in line for word in words),
-                 f"{parts}: wanted {words}, found {line!r}")
+                 f"{parts}: required: {words}, found {line!r}")
     report.claim(set(os.listdir(program.folder)) == before, f"{parts}: something is left")
 
 
@@ -306,7 +306,7 @@ def check_line(report, program):
     a = program.part((0, 1))
     for words, status, message in (
             (["merge"], 2, "too few arguments"), (["merge", a], 2, "no output — add -o"),
-            (["merge", a, "-o", "x.png"], 2, "-o x.png: wanted a name that ends in .exr"),
+            (["merge", a, "-o", "x.png"], 2, "-o x.png: required: a name that ends in .exr"),
             (["merge", a, "-o", "none/x.exr"], 4, "none/x.exr: cannot be written: No such"),
             (["merge", a, "-o", "x.exr", "--prat"], 2, "did you mean --part?")):
         done = program.run(*words)

@@ -100,13 +100,14 @@ EXR = (
 )
 NAMES = {1: "Y", 3: "RGB", 4: "RGBA"}
 REFUSED = (
-    ("white_0", {"whiteLuminance": number("float", 0)}, "whiteLuminance is 0, wanted"),
-    ("white_less", {"whiteLuminance": number("float", -1)}, "whiteLuminance is -1, wanted"),
-    ("white_nan", {"whiteLuminance": number("float", NAN)}, "whiteLuminance is nan, wanted"),
-    ("white_inf", {"whiteLuminance": number("float", INF)}, "whiteLuminance is inf, wanted"),
+    ("white_0", {"whiteLuminance": number("float", 0)}, "whiteLuminance is 0, required:"),
+    ("white_less", {"whiteLuminance": number("float", -1)}, "whiteLuminance is -1, required:"),
+    ("white_nan", {"whiteLuminance": number("float", NAN)}, "whiteLuminance is nan, required:"),
+    ("white_inf", {"whiteLuminance": number("float", INF)}, "whiteLuminance is inf, required:"),
     ("white_text", {"whiteLuminance": text("100")}, "whiteLuminance"),
-    ("on_a_line", {"chromaticities": colours((0.3,) * 8)}, "chromaticities: wanted x and y"),
-    ("colours_nan", {"chromaticities": colours((NAN,) * 8)}, "chromaticities: wanted x and y"),
+    ("on_a_line", {"chromaticities": colours((0.3,) * 8)}, "chromaticities: required: x and y"),
+    ("colours_nan", {"chromaticities": colours((NAN,) * 8)}, "chromaticities: required: x and "
+                                                             "y"),
 )
 
 

@@ -86,7 +86,7 @@ def check(report, reviewer, name, missing, *options):
                                      *options)
     check_groups(report, name, review)
     report.claim((review["without_data"] or "") == " and ".join(missing),
-                 f"{name}: without data {review['without_data']}, wanted {missing}")
+                 f"{name}: without data {review['without_data']}, required: {missing}")
     for case in review["cases"]:
         share = case["without_data_share"]
         print(f"{name}, {case['condition']}: {share:.1%} by way of materials without data")

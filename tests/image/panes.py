@@ -122,7 +122,7 @@ MIRRORS = [("a grey metal of 0.7", lambda s: s.metal(0.7), lambda a: schlick(a, 
 def claim_xyz(report, what, found, wanted, granted):
     worst = max(abs(f / w - 1) for f, w in zip(found, wanted))
     report.claim(worst < granted, f"{what}: XYZ off by {worst:.2g} (allowed {granted:g}): "
-                 f"{found}, wanted {wanted}")
+                 f"{found}, required: {wanted}")
 
 
 def bare(scene):
@@ -199,7 +199,7 @@ def check_panes(report, eye):
                 wanted = share(angle, 1.5, tint)
                 report.claim(abs(found / wanted - 1) < 0.01,
                              f"tint {tint}, {degrees} degrees: {share.__name__} {found:.5f}, "
-                             f"wanted {wanted:.5f}")
+                             f"required: {wanted:.5f}")
                 if above and not degrees:
                     print(f"upright, tint {tint}: {100 * found:.3f} % mirrored")
     for degrees in (0, 60):
@@ -208,7 +208,7 @@ def check_panes(report, eye):
         wanted = LUMINANCE * (0.9 * mirrored(angle, 1.5, 1e-9) + 0.1 *
                               sum(faces(angle, 1.5)) / 2)
         report.claim(abs(found / wanted - 1) < 0.01, f"black and clear, {degrees} degrees: "
-                     f"{found:.4f}, wanted {wanted:.4f}")
+                     f"{found:.4f}, required: {wanted:.4f}")
 
 
 def check(report, program, folder):

@@ -100,12 +100,13 @@ def check_malus(report, eye):
             found = eye.seen(scene, "--sunglasses", str(degrees)) / bare
             wanted = malus(theta, phi, up, degrees)
             report.claim(abs(found - wanted) < 1e-4,
-                         f"theta {theta}, phi {phi}, glasses at {degrees}: {found:.5f}, wanted "
+                         f"theta {theta}, phi {phi}, glasses at {degrees}: {found:.5f}, "
+                         f"required: "
                          f"{wanted:.5f}")
     found = eye.seen(display_scene(), "--sunglasses", "-30:50") / eye.seen(display_scene())
     wanted = (1.02 - 0.98 * DEGREE) / 2  # crossed
     report.claim(abs(found - wanted) < 1e-4,
-                 f"an extinction of 50: {found:.5f}, wanted {wanted:.5f}")
+                 f"an extinction of 50: {found:.5f}, required: {wanted:.5f}")
 
 
 def check_stokes_of_display(report, eye):
@@ -114,7 +115,7 @@ def check_stokes_of_display(report, eye):
     wanted = [1, DEGREE * math.cos(turn), DEGREE * math.sin(turn), 0]
     for i in range(4):
         report.claim(abs(s[i] / s[0] - wanted[i]) < 1e-4,
-                     f"S{i} of the display: {s[i] / s[0]:.5f}, wanted {wanted[i]:.5f}")
+                     f"S{i} of the display: {s[i] / s[0]:.5f}, required: {wanted[i]:.5f}")
 
 
 # ---- panes ---------------------------------------------------------------------------------
@@ -162,18 +163,18 @@ def check_panes(report, eye):
             stokes = eye.stokes(scene, spp=64)
             report.claim(abs(stokes[1] / stokes[0] - (s - p) / (s + p)) < 1e-3 and
                          abs(stokes[2]) + abs(stokes[3]) < 1e-4 * stokes[0],
-                         f"{name} mirrors at {degrees:.4g}: {stokes}, wanted S1 "
+                         f"{name} mirrors at {degrees:.4g}: {stokes}, required: S1 "
                          f"{(s - p) / (s + p):.5f}")
             dark = eye.seen(scene, "--sunglasses", "0", spp=64) / LUMINANCE
             report.claim(abs(dark - p / 2) < 2e-3 * s,
-                         f"{name} at {degrees:.4g} through glasses: {dark:.6f}, wanted "
+                         f"{name} at {degrees:.4g} through glasses: {dark:.6f}, required: "
                          f"{p / 2:.6f}")
             scene = slanted(angle, extensions, below=LUMINANCE)
             stokes = eye.stokes(scene)
             wanted = (p - s) / (2 - s - p)
             report.claim(abs(stokes[1] / stokes[0] - wanted) < 1e-4,
                          f"{name} lets through at {degrees:.4g}: S1 "
-                         f"{stokes[1] / stokes[0]:.5f}, wanted {wanted:.5f}")
+                         f"{stokes[1] / stokes[0]:.5f}, required: {wanted:.5f}")
 
 
 def check_display_in_pane(report, eye):
@@ -189,7 +190,7 @@ def check_display_in_pane(report, eye):
         wanted = (share * s + (1 - share) * p) / ((s + p) / 2)
         report.claim(abs(found / wanted - 1) < 2e-3,
                      f"a display in a pane at {degrees}: {found:.5f} of the unpolarised one, "
-                     f"wanted {wanted:.5f}")
+                     f"required: {wanted:.5f}")
 
 
 # ---- metals and coatings --------------------------------------------------------------------
@@ -227,7 +228,7 @@ def check_metal(report, eye):
             # the eye's right may be -s and the mirrored up may be down: signs of S2, S3
             sign = 1 if i == 1 else math.copysign(1, stokes[2] * out[2])
             report.claim(abs(found - sign * wanted) < 2e-3,
-                         f"S{i} of a display in a metal at {degrees}: {found:.5f}, wanted "
+                         f"S{i} of a display in a metal at {degrees}: {found:.5f}, required: "
                          f"{sign * wanted:.5f}")
 
 
@@ -248,7 +249,7 @@ def check_coated_cover(report, eye):
         bottom += weight * (s + p)
     found = stokes[1] / stokes[0]
     report.claim(abs(found - top / bottom) < 0.01,
-                 f"a coated face at 60: S1 {found:.4f}, wanted about {top / bottom:.4f}")
+                 f"a coated face at 60: S1 {found:.4f}, required: about {top / bottom:.4f}")
 
 
 def film_waves(angle, nm):
@@ -318,7 +319,7 @@ def check_sky(report, eye):
         degree = math.hypot(s[1], s[2]) / s[0]
         wanted = c[0] ** 2 - c[1] ** 2, 2 * c[0] * c[1]
         report.claim(max(abs(s[i + 1] / s[0] - degree * wanted[i]) for i in (0, 1)) < 2e-3,
-                     f"the sky towards {towards} swings {s}, wanted {wanted}")
+                     f"the sky towards {towards} swings {s}, required: {wanted}")
         cosine = dot(forward, sun)
         rayleigh = (1 - cosine ** 2) / (1 + cosine ** 2)
         report.claim(0.4 * rayleigh < degree < rayleigh + 1e-3,

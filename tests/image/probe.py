@@ -140,7 +140,7 @@ def check_white(report, program):
         far += abs(spectrum["radiance"][i] / wanted - 1) > limit
         report.claim(abs(spectrum["radiance"][i] - wanted) <= 5 * error + 2e-3 * wanted and
                      error < 0.2 * wanted, f"{first} nm: {spectrum['radiance'][i]:.5g} +- "
-                     f"{error:.2g}, wanted {wanted:.5g}")
+                     f"{error:.2g}, required: {wanted:.5g}")
     report.claim(far == 0, f"{far} of 47 bands are far off")
     report.claim(close(told["luminance_cd_m2"], 250, 1e-3) and len(told["ways"]) == 1,
                  f"{told['luminance_cd_m2']} cd/m2")
@@ -228,7 +228,8 @@ def check_errors(report, program):
             (("--pixel", "1"), "--pixel"), (("--pixel", "1,x"), "--pixel"),
             (("--pixel", "1,2", "--spp", "127"), "--spp"),
             (("--pixel", "1,2", "--ways", "0"), "--ways"),
-            (("--pixel", "1,2", "--gltf", "ways.obj"), "ways.obj: wanted a name that ends in"),
+            (("--pixel", "1,2", "--gltf", "ways.obj"), "ways.obj: required: a name that ends "
+                                                       "in"),
             (("--pixel", "1,2", "--camera", "nobody"), "--camera nobody"),
             (("--pixel", "1,2", "--field", "f", "--no-guiding"), "--field f")):
         done = program.run("probe", "room.gltf", "--size", "48x28", *options)

@@ -147,7 +147,7 @@ def check_first(report, project):
     project.claim_workflow("nothing accepted", STEP, 3,
                            ["no commit has ci/accepted", "accept WHY"])
     done = project.script("accept")
-    report.claim(done.returncode == 3 and "wanted a word on why" in done.stderr, str(done))
+    report.claim(done.returncode == 3 and "required: a word on why" in done.stderr, str(done))
     report.claim(project.script("accept", "the first").returncode == 0, "accept fails")
     project.commit("accepted")
     project.claim_workflow("first", words=["equal in every pixel", "same: 2 of 2"])
@@ -265,7 +265,8 @@ def check_refused(report, project):
     report.claim(not os.path.exists(project.path("ci/out/today/wide.exr")),
                  "a frame of a broken scene")
     done = project.script("yesterday")
-    report.claim(done.returncode == 3 and "wanted reference" in done.stderr, f"a word: {done}")
+    report.claim(done.returncode == 3 and "required: reference" in done.stderr, f"a word: "
+                                                                                f"{done}")
     shallow = os.path.join(project.away, "shallow")
     project.run("git", "clone", "-q", "--depth", "1", "file://" + project.folder, shallow)
     project.folder = shallow

@@ -179,7 +179,7 @@ def check_people_and_limits(report, reviewer):
 def check_files(report, reviewer, found, names):
     listed = {file["path"]: file["xxh3"] for file in found["inputs"]}
     wanted = {name: hash_of(os.path.join(reviewer.folder, name)) for name in names}
-    report.claim(listed == wanted, f"files {listed}, wanted {wanted}")
+    report.claim(listed == wanted, f"files {listed}, required: {wanted}")
 
 
 def check_all_files(report, reviewer):

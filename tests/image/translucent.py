@@ -83,7 +83,7 @@ def check_lamps(report, eye):
                 wanted = lx * share / math.pi
                 report.claim(abs(found / wanted - 1) < 0.01,
                              f"{name} {'behind' if from_above else 'before'} the sheet: "
-                             f"{found:.3f} cd/m2, wanted {wanted:.3f}")
+                             f"{found:.3f} cd/m2, required: {wanted:.3f}")
 
 
 def check_sky(report, eye):
@@ -98,7 +98,7 @@ def check_sky(report, eye):
         found = eye.mean(scene, 256, "--max-bounces", "1")
         report.claim(abs(found / (900 * share) - 1) < 0.01,
                      f"sky, eye {'above' if from_above else 'below'}: {found:.3f} cd/m2, "
-                     f"wanted {900 * share:.3f}")
+                     f"required: {900 * share:.3f}")
 
 
 # ---- energy --------------------------------------------------------------------------------
@@ -139,7 +139,7 @@ def check_solid(report, eye):
     x = 1.6 * math.log(2)
     wanted = 2 * (1 - (1 + x) * math.exp(-x)) / x ** 2
     report.claim(abs(found / wanted - 1) < 0.005,
-                 f"an opal ball shows {found:.5f} of the sky, wanted {wanted:.5f}")
+                 f"an opal ball shows {found:.5f} of the sky, required: {wanted:.5f}")
 
 
 def check_lamp_inside(report, eye):
@@ -167,7 +167,7 @@ def check_lamp_inside(report, eye):
         scene.probe("eye", [0, 0, 3], [0, 0, -1], 0.3)
         found = eye.mean(scene, 256, "--max-bounces", "2")
         report.claim(abs(found * math.pi / wanted - 1) < 0.005,
-                     f"a {name} in an opal ball: {found:.3f} cd/m2, wanted "
+                     f"a {name} in an opal ball: {found:.3f} cd/m2, required: "
                      f"{wanted / math.pi:.3f}")
 
 
@@ -199,7 +199,7 @@ def check_textures(report, eye):
         wanted = [1000 / math.pi * 0.9 * (0.8 if u else 0.2) * f * linear(c)
                   for f, c in zip((1, 0.5, 1), rgb)]
         report.claim(all(abs(a - b) < 0.01 * max(wanted) for a, b in zip(found, wanted)),
-                     f"textures at {u}: {found}, wanted {wanted}")
+                     f"textures at {u}: {found}, required: {wanted}")
 
 
 def rgba_png(pixels):

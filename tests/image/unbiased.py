@@ -104,7 +104,7 @@ def main():
     parser.add_argument("--seeds", type=int, default=64, help="8 or more (64)")
     arguments = parser.parse_args()
     if arguments.seeds < 8:
-        parser.error("--seeds: wanted 8 or more, for two plain frames have a spread")
+        parser.error("--seeds: required: 8 or more, for two plain frames have a spread")
     program, report = os.path.abspath(arguments.parhelion), Report()
     folder = os.path.join(ROOT, ".build", "unbiased")
     os.makedirs(folder, exist_ok=True)

@@ -81,7 +81,7 @@ def check_refused(report, folder):
             (lambda: Panel(os.path.join(ROOT, "README.md")), "is no panel file"),
             (lambda: Panel(b"PHPANEL\n"), "is no panel file"),
             (lambda: panel.emission_xyz([0, 1], [255] * 3), "viewer has shape (2,)"),
-            (lambda: panel.emission_xyz(1, [255] * 3), "wanted 3 numbers"),
+            (lambda: panel.emission_xyz(1, [255] * 3), "required: 3 numbers"),
             (lambda: panel.pdf([0, 0, 1], [0, 0, 1], place=[1, 2, 3]), "place has shape")):
         said = refusal(call)
         report.claim(words in said and "\n" not in said, f"{words!r} is not in {said!r}")

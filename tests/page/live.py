@@ -138,7 +138,7 @@ def check_brightness(report, sweep):
                         for k in ("foreground", "background"))
         wanted = max(bright, dark) / min(bright, dark)
         found = float(sweep.said()[1]["contrast"])
-        report.claim(close(found, wanted, 2e-3), f"brightness: {found}, wanted {wanted}")
+        report.claim(close(found, wanted, 2e-3), f"brightness: {found}, required: {wanted}")
     report.claim(sweep.find(".cells image", ".getAttribute('href')") != before,
                  "the map stays as it was")
     sweep.slide("Display brightness", 0)

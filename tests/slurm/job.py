@@ -222,14 +222,15 @@ def check_failures(work):
 
 
 WRONG = [("format", "panel", "is 'panel'"), ("version", 2, "version 1"),
-         ("parts", [], "has 0 items"), ("parts", {}, "wanted a list"),
-         ("parts", [7], "wanted a list of objects"), ("words", ["a", 1], "only texts"),
-         ("words", "a", "wanted a list"), ("program", "bin/a", "wanted a path from the root"),
-         ("folder", "here", "wanted a path from the root"), ("size", [4], "wanted 2"),
+         ("parts", [], "has 0 items"), ("parts", {}, "required: a list"),
+         ("parts", [7], "required: a list of objects"), ("words", ["a", 1], "only texts"),
+         ("words", "a", "required: a list"), ("program", "bin/a", "required: a path from the "
+                                                                  "root"),
+         ("folder", "here", "required: a path from the root"), ("size", [4], "required: 2"),
          ("size", [52.5, 36], "whole"), ("keeps_sums", 1, "true or false"),
-         ("identity", 5, "wanted a text"), ("outptu", 1, "unknown key")]
-WRONG_PARTS = [("index", 1, "wanted 0"), ("samples", [3, 3], "wanted a range"),
-               ("samples", [0], "wanted 2"), ("samples", [0, 1.5], "whole"),
+         ("identity", 5, "required: a text"), ("outptu", 1, "unknown key")]
+WRONG_PARTS = [("index", 1, "required: 0"), ("samples", [3, 3], "required: a range"),
+               ("samples", [0], "required: 2"), ("samples", [0, 1.5], "whole"),
                ("crop", [0, 0, 53, 36], "inside the frame of 52x36"),
                ("crop", [0, 0, 0, 36], "inside the frame"), ("file", None, "'file' is missing")]
 
@@ -363,7 +364,7 @@ def check_lines(work):
     work.report.claim(not glob.glob(work.path("refused*")), "something is left")
     job = work.share(3, *SMALL, job="lines")
     for index in ("3", "-1", "x", "1.5", "0x1", "99999999999999999999"):
-        work.claim_line(work.run("part", job, "--", index), 2, "wanted a number from 0 to 2")
+        work.claim_line(work.run("part", job, "--", index), 2, "required: a number from 0 to 2")
     work.claim_line(work.run(*line[:2], "-o", "f.exr", "--slurm", "3", "--job", job, *SMALL,
                              "--seed", "3"), 4, "holds another job: seed: 0 there, 3 here")
     work.claim_line(work.run(*line, "--slurm", "4", "--job", job), 4, "holds another job: 3 "
@@ -444,7 +445,7 @@ def check_again(work, line):
         sent = contents(note).decode().splitlines() if os.path.exists(note) else []
         wanted = [f"--parsable {word}" for word in words]
         report.claim([one.replace(work.path("sent") + "/", "") for one in sent] == wanted,
-                     f"{queue}: {sent}, wanted {wanted}")
+                     f"{queue}: {sent}, required: {wanted}")
         return json.loads(done.stdout)
     job, merge = "--jobs=41,41,42", "42"
     answer = again("41_0 RUNNING\\n41_1 PENDING\\n42 PENDING\\n", "--array=2 array.sbatch",
@@ -501,7 +502,7 @@ def check_choice(work):
     for features, least in NODES:
         write_tool(work, "sinfo", f"printf '{features}\\n'\n")
         chosen, wanted = choose(), SETS[min(SETS.index(least), SETS.index(best))]
-        report.claim(chosen == wanted, f"nodes of {features!r}: {chosen}, wanted {wanted}")
+        report.claim(chosen == wanted, f"nodes of {features!r}: {chosen}, required: {wanted}")
     write_tool(work, "sinfo",
                'case "$*" in *--partition=old) echo sse ;; *) echo avx512 ;; esac')
     report.claim(choose(SBATCH_PARTITION="old") == "sse2", "a partition of its own")

@@ -92,5 +92,5 @@ class Work:
         line = done.stderr.strip()
         self.report.claim(done.returncode == status and "\n" not in line and
                           all(word in line for word in words),
-                          f"{done.args[1:]}: status {done.returncode}, wanted {status} and "
+                          f"{done.args[1:]}: status {done.returncode}, required: {status} and "
                           f"{words}: {line!r}")

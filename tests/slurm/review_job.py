@@ -254,7 +254,7 @@ def check_manifests(work):
     job = work.share_review(2)
     path = work.path(job, "manifest.json")
     sound = json.loads(contents(path))
-    wrong = [("kind", "film", "wanted 'frame' or 'review'"), ("kind", 1, "wanted a text"),
+    wrong = [("kind", "film", "required: 'frame' or 'review'"), ("kind", 1, "required: a text"),
              ("kind", "frame", "'size' is missing"), ("size", [4, 4], "unknown key")]
     wrong += [(key, None, f"'{key}' is missing") for key in sound
               if key not in ("format", "version")]

@@ -35,7 +35,8 @@ def main():
     for kind, name in found:
         outside = [path for path in names if not path.startswith(("shaders/", "tests/"))
                    and named(kind, name, read(path))]
-        report.claim(outside == [MAKER], f"{name} is named in {outside}, wanted {MAKER} alone")
+        report.claim(outside == [MAKER], f"{name} is named in {outside}, required: {MAKER} "
+                                         f"alone")
     listed = listed_files()
     report.claim(len(listed) <= 6 and MAKER in listed and LIST in listed,
                  f"CONTRIBUTING.md lists {listed} for a surface model")

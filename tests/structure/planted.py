@@ -37,7 +37,8 @@ def read_rows(text):
     lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
     for head, there, planted in zip(*[iter(lines)] * 3, strict=True):
         if there[:2] != "- " or planted[:2] != "+ ":
-            raise ValueError(f"{TABLE}: after {head!r} a line with - and one with + are wanted")
+            raise ValueError(f"{TABLE}: after {head!r} a line with - and one with + are "
+                             f"required")
         yield Row(*head.split(None, 2), there[2:], planted[2:])
 
 
@@ -156,7 +157,7 @@ def main():
     rooms = {room_of(row) for row in rows}
     unknown = [room for room in sys.argv[1:] if room not in rooms]
     if unknown:
-        sys.exit(f"planted: {unknown[0]}: wanted some of {', '.join(sorted(rooms))}")
+        sys.exit(f"planted: {unknown[0]}: required: some of {', '.join(sorted(rooms))}")
     rows = [row for row in rows if room_of(row) in (sys.argv[1:] or rooms)]
     copy_project()
     subprocess.run(["cmake", "--preset", "release"], cwd=COPY, stdout=subprocess.DEVNULL,

@@ -202,7 +202,7 @@ static inline void fail_told(const char *call, const Error *err)
 #define assert_fails_as(call, code_wanted, part)                                               \
     do {                                                                                       \
         Error err = {0};                                                                       \
-        if (call) fail_msg("%s is done, wanted \"%s\"", #call, part);                          \
+        if (call) fail_msg("%s is done, required: \"%s\"", #call, part);                       \
         *why() = err;                                                                          \
         assert_int_equal(err.code, code_wanted);                                               \
         assert_error_has(&err, part);                                                          \
@@ -214,7 +214,7 @@ static inline void fail_told(const char *call, const Error *err)
         const char *place_ = (place), *words_ = (words);                                       \
         if (why()->code != (wanted) || strcmp(why()->path, place_) != 0 ||                     \
             !strstr(why()->text, words_) || strchr(why()->text, '\n'))                         \
-            fail_msg("code %d, \"%s: %s\", wanted %d, \"%s: %s\"", (int)why()->code,           \
+            fail_msg("code %d, \"%s: %s\", required: %d, \"%s: %s\"", (int)why()->code,        \
                      why()->path, why()->text, (int)(wanted), place_, words_);                 \
     } while (0)
 
@@ -255,7 +255,7 @@ static inline int status_of(pid_t child)
 #define assert_fails(call, part)                                                               \
     do {                                                                                       \
         Error err = {0};                                                                       \
-        if (call) fail_msg("%s is done, wanted \"%s\"", #call, part);                          \
+        if (call) fail_msg("%s is done, required: \"%s\"", #call, part);                       \
         assert_error_has(&err, part);                                                          \
     } while (0)
 
@@ -263,7 +263,7 @@ static inline int status_of(pid_t child)
 #define assert_fails_with(call, text_wanted)                                                   \
     do {                                                                                       \
         Error err = {0};                                                                       \
-        if (call) fail_msg("%s is done, wanted \"%s\"", #call, text_wanted);                   \
+        if (call) fail_msg("%s is done, required: \"%s\"", #call, text_wanted);                \
         assert_string_equal(err.text, text_wanted);                                            \
     } while (0)
 

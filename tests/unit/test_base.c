@@ -553,7 +553,7 @@ TEST(exit_statuses_follow_the_codes)
         {ERROR_TERMINATED, 143}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         if (error_exit_status(cases[i].code) != cases[i].status)
-            fail_msg("code %d: status %d, wanted %d", (int)cases[i].code,
+            fail_msg("code %d: status %d, required: %d", (int)cases[i].code,
                      error_exit_status(cases[i].code), cases[i].status);
 }
 

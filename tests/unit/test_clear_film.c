@@ -142,7 +142,7 @@ TEST(a_clear_solid_reflects_by_the_transfer_matrix)
             Spectrum r = bsdf_mirror(&bsdf, wo);
             total += r[lane] == 1;
             if (!(fabs((double)r[lane] - wanted) < 1e-4))
-                fail_msg("body %g, film %g of %g nm, cos %g: %g, wanted %g", body, ior,
+                fail_msg("body %g, film %g of %g nm, cos %g: %g, required: %g", body, ior,
                          thickness, cosine * side, (double)r[lane], wanted);
         }
     }

@@ -159,30 +159,30 @@ MEMORY_TEST(errors_name_the_option_the_value_and_what_is_wanted)
         {{"x", "-q"}, "unknown option -q — `parhelion try --help` lists what there is"},
         {{"x", "--number"}, "--number needs a value: X, a number"},
         {{"x", "--flag=1"}, "--flag takes no value, found 1"},
-        {{"x", "--number", "3"}, "--number: 3 is out of range, wanted -1 to 2"},
-        {{"x", "--number", "1x"}, "--number 1x: wanted a number (X)"},
-        {{"x", "--number", "nan"}, "--number nan: wanted a number (X)"},
-        {{"x", "--number", " 1"}, "--number  1: wanted a number (X)"},
-        {{"x", "--integer", "1.5"}, "--integer 1.5: wanted a whole number (N)"},
+        {{"x", "--number", "3"}, "--number: 3 is out of range, required: -1 to 2"},
+        {{"x", "--number", "1x"}, "--number 1x: required: a number (X)"},
+        {{"x", "--number", "nan"}, "--number nan: required: a number (X)"},
+        {{"x", "--number", " 1"}, "--number  1: required: a number (X)"},
+        {{"x", "--integer", "1.5"}, "--integer 1.5: required: a whole number (N)"},
         {{"x", "--integer", "4294967296"},
-         "--integer: 4294967296 is out of range, wanted 0 to 4294967295"},
+         "--integer: 4294967296 is out of range, required: 0 to 4294967295"},
         {{"x", "--integer", "99999999999999999999"},
-         "--integer 99999999999999999999: wanted a whole number (N)"},
+         "--integer 99999999999999999999: required: a whole number (N)"},
         {{"x", "--numbers", "1,2"},
-         "--numbers 1,2: wanted 3 numbers with commas between (X,Y,Z)"},
+         "--numbers 1,2: required: 3 numbers with commas between (X,Y,Z)"},
         {{"x", "--numbers", "1,2,3,4"},
-         "--numbers 1,2,3,4: wanted 3 numbers with commas between (X,Y,Z)"},
+         "--numbers 1,2,3,4: required: 3 numbers with commas between (X,Y,Z)"},
         {{"x", "--size", "640"},
-         "--size 640: wanted a size in pixels such as 1280x720, each 1 to 65536 (WxH)"},
+         "--size 640: required: a size in pixels such as 1280x720, each 1 to 65536 (WxH)"},
         {{"x", "--size", "0x4"},
-         "--size 0x4: wanted a size in pixels such as 1280x720, each 1 to 65536 (WxH)"},
+         "--size 0x4: required: a size in pixels such as 1280x720, each 1 to 65536 (WxH)"},
         {{"x", "--size", "4x70000"},
-         "--size 4x70000: wanted a size in pixels such as 1280x720, each 1 to 65536 (WxH)"},
-        {{"x", "--choice", "re"}, "--choice re: wanted one of these (red|green|blue)"},
-        {{"x", "--text", ""}, "--text '': wanted a text that is not empty (TEXT)"},
+         "--size 4x70000: required: a size in pixels such as 1280x720, each 1 to 65536 (WxH)"},
+        {{"x", "--choice", "re"}, "--choice re: required: one of these (red|green|blue)"},
+        {{"x", "--text", ""}, "--text '': required: a text that is not empty (TEXT)"},
         {{NULL}, "too few arguments — usage: parhelion try ARGUMENT [MORE]"},
         {{"x", "y", "z"}, "too many arguments — usage: parhelion try ARGUMENT [MORE]"},
-        {{"x", "--threads", "0"}, "--threads: 0 is out of range, wanted 1 to 1024"},
+        {{"x", "--threads", "0"}, "--threads: 0 is out of range, required: 1 to 1024"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Values v;
@@ -206,7 +206,7 @@ MEMORY_TEST(pairs_are_cut_at_the_first_equals_sign)
     assert_string_equal(name, "map");
     assert_string_equal(value, "a=b.png");
     assert_fails_with(cli_name_value("--content", "map", arena, &name, &value, &err),
-                      "--content map: wanted NAME=VALUE, both not empty");
+                      "--content map: required: NAME=VALUE, both not empty");
     assert_fails(cli_name_value("--content", "=x", arena, &name, &value, &err), "");
     assert_fails(cli_name_value("--content", "x=", arena, &name, &value, &err), "");
 }

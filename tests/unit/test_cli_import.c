@@ -116,7 +116,7 @@ LAB_TEST(mistakes_have_their_status)
         {"--azimuth-zero=north", ERROR_USAGE, "azimuth_zero is 'north'"},
         {"--symmetry=all", ERROR_USAGE, "symmetry is 'all'"},
         {"--format=bsdf", ERROR_USAGE, "--format 'bsdf' is unknown"},
-        {"--section=40", ERROR_USAGE, "section is '40', wanted PATTERN=DEG"},
+        {"--section=40", ERROR_USAGE, "section is '40', required: PATTERN=DEG"},
         {"--mask=-999", ERROR_OUTPUT, "cannot be"},
         {"--layout=/absent.json", ERROR_INPUT, ""}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

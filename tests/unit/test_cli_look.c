@@ -31,7 +31,7 @@ static Outcome run_as(int wanted, const char *words)
 {
     Outcome outcome = run(words);
     if (outcome.status != wanted)
-        fail_msg("%s: status %d, wanted %d", words, outcome.status, wanted);
+        fail_msg("%s: status %d, required: %d", words, outcome.status, wanted);
     return outcome;
 }
 
@@ -170,7 +170,7 @@ ARENA_TEST(an_eye_needs_a_view)
     frame_set_number(&frame, "parhelion:yfov_deg", 190, &arena);
     assert_done(frame_write(in_folder("n.exr"), &frame, &err));
     o = run_as(3, "develop n.exr -o n.png --eye 30 2>&1");
-    assert_non_null(strstr(o.out, "yfov_deg is 190, wanted degrees between 0 and 180"));
+    assert_non_null(strstr(o.out, "yfov_deg is 190, required: degrees between 0 and 180"));
     frame_set_number(&frame, "parhelion:ymag_m", 1, &arena);
     assert_done(frame_write(in_folder("n.exr"), &frame, &err));
     o = run_as(3, "develop n.exr -o n.png --eye 30 2>&1");

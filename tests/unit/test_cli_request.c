@@ -12,28 +12,28 @@ MEMORY_TEST(values_of_render_are_checked_before_anything_is_read)
         const char *option, *value, *text;
     } cases[] = {
         {"--samples", "5:5",
-         "--samples 5:5: wanted A:B, whole numbers with 0 <= A < B <= "
+         "--samples 5:5: required: A:B, whole numbers with 0 <= A < B <= "
          "2147483647"},
-        {"--samples", "-1:5", "--samples -1:5: wanted A:B"},
-        {"--samples", "5", "--samples 5: wanted A:B"},
-        {"--noise", "0", "--noise 0: wanted a relative error above 0 and below 1"},
-        {"--noise", "displays:0.1", "--noise displays:R: wanted display, display:NAME or"},
-        {"--noise", "display:", "--noise display:: wanted a relative error above 0"},
-        {"--noise", "0,0,9:0.1", "--noise 0,0,9:R: wanted display, display:NAME or"},
-        {"--noise", "0,0,65,9:0.1", "--noise 0,0,65,9:R: wanted display, display:NAME or"},
-        {"--noise", "4,4,4,9:0.1", "--noise 4,4,4,9:R: wanted display, display:NAME or"},
-        {"--noise", "0,0,1.5,9:0.1", "--noise 0,0,1.5,9:R: wanted display, display:NAME"},
-        {"--noise", "0,0,8,8:1.5", "--noise 0,0,8,8:1.5: wanted a relative error above 0"},
+        {"--samples", "-1:5", "--samples -1:5: required: A:B"},
+        {"--samples", "5", "--samples 5: required: A:B"},
+        {"--noise", "0", "--noise 0: required: a relative error above 0 and below 1"},
+        {"--noise", "displays:0.1", "--noise displays:R: required: display, display:NAME or"},
+        {"--noise", "display:", "--noise display:: required: a relative error above 0"},
+        {"--noise", "0,0,9:0.1", "--noise 0,0,9:R: required: display, display:NAME or"},
+        {"--noise", "0,0,65,9:0.1", "--noise 0,0,65,9:R: required: display, display:NAME or"},
+        {"--noise", "4,4,4,9:0.1", "--noise 4,4,4,9:R: required: display, display:NAME or"},
+        {"--noise", "0,0,1.5,9:0.1", "--noise 0,0,1.5,9:R: required: display, display:NAME"},
+        {"--noise", "0,0,8,8:1.5", "--noise 0,0,8,8:1.5: required: a relative error above 0"},
         {"--layers", "depth,norml",
          "--layers: no layer is named 'norml' — did you mean normal?"},
-        {"--layers", "", "--layers '': wanted a text that is not empty"},
+        {"--layers", "", "--layers '': required: a text that is not empty"},
         {"--crop", "0,0,65,4",
-         "--crop 0,0,65,4: wanted X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 "
+         "--crop 0,0,65,4: required: X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 "
          "inside the frame of 64x36 pixels"},
-        {"--crop", "4,0,4,4", "--crop 4,0,4,4: wanted X0,Y0,X1,Y1"},
+        {"--crop", "4,0,4,4", "--crop 4,0,4,4: required: X0,Y0,X1,Y1"},
         {"--crop", "0.5,0,4,4", "--crop: 0.5 is no whole number of pixels"},
-        {"--replay", "64,0,1", "--replay 64,0,1: wanted X,Y,SAMPLE"},
-        {"--content", "cluster", "--content cluster: wanted NAME=VALUE, both not empty"},
+        {"--replay", "64,0,1", "--replay 64,0,1: required: X,Y,SAMPLE"},
+        {"--content", "cluster", "--content cluster: required: NAME=VALUE, both not empty"},
         {"--view", "raw", "a look is asked for, but no picture — add --png FILE"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -57,18 +57,18 @@ MEMORY_TEST(values_of_the_surroundings_are_checked)
          "--environment sky:clear: where does the sun stand? — add --when and --where, or "
          "--sun AZ,EL"},
         {{.environment = "constant:-1"},
-         "--environment constant:-1: wanted a luminance in cd/m2, "
+         "--environment constant:-1: required: a luminance in cd/m2, "
          "0 to 1e+12"},
         {{.environment = "constant:1e40"},
-         "--environment constant:1e40: wanted a luminance in cd/m2, "
+         "--environment constant:1e40: required: a luminance in cd/m2, "
          "0 to 1e+12"},
         {{.environment = "cie:5:1e30"},
-         "--environment cie:5:1e30: wanted cie:N or cie:N:LUX with N 1 to 15 (16: the "
+         "--environment cie:5:1e30: required: cie:N or cie:N:LUX with N 1 to 15 (16: the "
          "traditional overcast sky) and LUX up to 1e+09"},
         {{.environment = "perez:800,1e50"},
-         "--environment perez:800,1e50: wanted perez:DIRECT,DIFFUSE, normal and horizontal "
+         "--environment perez:800,1e50: required: perez:DIRECT,DIFFUSE, normal and horizontal "
          "irradiance in W/m2, up to 1e+07"},
-        {{.environment = "black"}, "--environment black: wanted sky:clear, cie:N[:LUX], "
+        {{.environment = "black"}, "--environment black: required: sky:clear, cie:N[:LUX], "
          "perez:DIRECT,DIFFUSE, hdri:FILE or constant:CD_M2"},
         {{.has_hdri_lux = true, .hdri_lux = 9},
          "--hdri-lux: there is no HDRI — add --environment "
@@ -77,13 +77,13 @@ MEMORY_TEST(values_of_the_surroundings_are_checked)
          "--sun 100,20: the scene's sun has no illuminance to keep — write "
          "AZ,EL,LUX"},
         {{.sun = "1,95,1000"},
-         "--sun 1,95,1000: wanted auto, off, or AZ,EL,LUX with AZ -360 to 360 and "
+         "--sun 1,95,1000: required: auto, off, or AZ,EL,LUX with AZ -360 to 360 and "
          "EL -90 to 90 degrees and LUX 0 to 1e+09"},
         {{.sun = "200,45,8e94"},
-         "--sun 200,45,8e94: wanted auto, off, or AZ,EL,LUX with AZ -360 to 360 and "
+         "--sun 200,45,8e94: required: auto, off, or AZ,EL,LUX with AZ -360 to 360 and "
          "EL -90 to 90 degrees and LUX 0 to 1e+09"},
         {{.has_forward = true, .forward = {0, 1, 0}},
-         "--forward 0,1,0: wanted a vector that is "
+         "--forward 0,1,0: required: a vector that is "
          "not vertical"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -169,8 +169,9 @@ MEMORY_TEST(what_makes_no_sky_is_refused_by_name)
         {{.environment = "constant:5", .has_turbidity = true, .turbidity = 3}, "no air"},
         {{.environment = "constant:5", .sun = "auto"}, "--when and --where"},
         {{.environment = "constant:5", .ground = "sea"}, "only a clear sky"},
-        {{.environment = "sky:clear", .sun = "0,9", .ground = "lava"}, "wanted land, sea"},
-        {{.environment = "sky:clear", .sun = "0,9", .ground = "cloud:x"}, "wanted land, sea"},
+        {{.environment = "sky:clear", .sun = "0,9", .ground = "lava"}, "required: land, sea"},
+        {{.environment = "sky:clear", .sun = "0,9", .ground = "cloud:x"}, "required: land, "
+                                                                          "sea"},
         {{.weather = "none.epw"}, "add --when"},
         {{.environment = "sky:clear", .sun = "0,9", .has_weather_offset = true},
          "add --weather"},
@@ -189,9 +190,9 @@ TEST(an_eye_needs_a_point_to_look_at)
         CameraChoice choice;
         const char *part;
     } cases[] = {
-        {{.has_eye = true}, "--eye: wanted --eye X,Y,Z and --look-at"},
-        {{.has_look_at = true}, "--look-at: wanted --eye"},
-        {{.has_fov = true, .fov_deg = 30}, "--fov: wanted --eye"},
+        {{.has_eye = true}, "--eye: required: --eye X,Y,Z and --look-at"},
+        {{.has_look_at = true}, "--look-at: required: --eye"},
+        {{.has_fov = true, .fov_deg = 30}, "--fov: required: --eye"},
         {{.has_eye = true, .has_look_at = true, .name = "left"}, "exclude each other"},
         {{.has_eye = true, .has_look_at = true}, "is where --eye is"},
     };

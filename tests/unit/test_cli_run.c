@@ -84,7 +84,7 @@ static void run(const char *const *words, Outcome *outcome)
     do {                                                                                       \
         RUN(outcome, __VA_ARGS__);                                                             \
         if ((outcome)->status != (wanted))                                                     \
-            fail_msg("status %d, wanted %d: %s", (outcome)->status, wanted, (outcome)->err);   \
+            fail_msg("status %d, required: %d: %s", (outcome)->status, wanted, (outcome)->err);\
     } while (0)
 
 static FrameImage read_frame(const char *name, Arena *arena)
@@ -128,7 +128,7 @@ TEST(a_wrong_line_is_status_2)
     RUN_AS(2, &o, "render", "scene.gltf", "-o", "a.exr", "--sppp", "3");
     assert_non_null(strstr(o.err, "did you mean --spp?"));
     RUN(&o, "render", "scene.gltf", "-o", "a.png");
-    assert_string_equal(o.err, "parhelion: -o a.png: wanted a name that ends in .exr, or in "
+    assert_string_equal(o.err, "parhelion: -o a.png: required: a name that ends in .exr, or in "
                         ".hdr for a Radiance picture\n");
     RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--spp", "4", "--samples", "0:4");
     assert_string_equal(o.err, "parhelion: --spp and --samples exclude each other — --samples "

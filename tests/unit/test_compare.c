@@ -302,7 +302,7 @@ ARENA_TEST(only_what_is_asked_for_is_computed)
     const Threshold unknown = {METRIC_CONTRAST_CHANGE, 0.5};
     c = compared(&a, &a, (CompareOptions){.thresholds = &unknown, .threshold_count = 1},
                  &arena);
-    assert_reason(&c, "contrast_change is not known for these files, at most 0.5 is wanted");
+    assert_reason(&c, "contrast_change is not known for these files, at most 0.5 is required");
 }
 
 TEST(exposures_are_the_ones_of_develop)

@@ -129,7 +129,7 @@ TEST(wrong_options_say_what_is_wanted)
 {
     refused("--max", "flop=1", "there is no figure flop — did you mean flip?");
     refused("--max", "qqqqqqqq=1", "there are flip, flip_median,");
-    refused("--max", "flip", "wanted NAME=VALUE");
+    refused("--max", "flip", "required: NAME=VALUE");
     refused("--max", "flip=x", "x is no number");
     refused("--max", "flip=nan", "nan is no number");
     refused("--max", "psnr=30", "psnr is the better the greater it is — say --min psnr=30");
@@ -139,9 +139,9 @@ TEST(wrong_options_say_what_is_wanted)
     refused("--region", "0,0,1.5,9", "1.5 is no whole number");
     refused("--region", "0,0,9", "required X0,Y0,X1,Y1");
     refused("--region", "0,0,99999,9", "99999 is no whole number of pixels from -65536");
-    refused("--exposure-range", "9,3", "--exposure-range 9,3: wanted A,B with A <= B");
+    refused("--exposure-range", "9,3", "--exposure-range 9,3: required: A,B with A <= B");
     refused("--exposure", "bright", "--exposure bright");
-    refused("--report", "x.txt", "wanted a name that ends in .html");
+    refused("--report", "x.txt", "required: a name that ends in .html");
     refused("--level", "0", "--level");
 }
 

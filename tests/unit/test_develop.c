@@ -207,7 +207,7 @@ TEST(bad_exposures_are_told)
     for (size_t i = 0; i < sizeof BAD / sizeof *BAD; i++) {
         ExposureRequest request;
         assert_fails_as(exposure_parse(BAD[i], &request, &err), ERROR_USAGE,
-                        "wanted auto, an exposure value");
+                        "required: auto, an exposure value");
     }
 }
 
@@ -284,7 +284,7 @@ ARENA_TEST(a_range_makes_frames_comparable)
     assert_string_equal(report.scale, "0.9 to 900 cd/m^2, logarithmic");
     options.range[0] = 0;
     assert_fails(develop_picture(&frame, &options, &arena, &p, NULL, &err),
-                 "--range 0,900: wanted LOW,HIGH with LOW < HIGH and LOW above 0");
+                 "--range 0,900: required: LOW,HIGH with LOW < HIGH and LOW above 0");
     options.false_colour = false;
     assert_fails(develop_picture(&frame, &options, &arena, &p, NULL, &err),
                  "only false colours have a range");

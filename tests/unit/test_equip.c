@@ -200,10 +200,11 @@ ARENA_TEST(what_is_applied_is_found_again)
     assert_text_has(review, "\"any sun\"");
     assert_text_has(review, "\"headings_deg\": [90]");
     assert_false(apply(model, in_folder("new.gltf"), false, &arena, &result, &err));
-    assert_error_has(&err, "is there already, wanted the name of a new file, or --overwrite");
+    assert_error_has(&err, "is there already, required: the name of a new file, or "
+                           "--overwrite");
     assert_true(apply(model, in_folder("new.gltf"), true, &arena, &result, &err));
     assert_false(apply(model, model, true, &arena, &result, &err));
-    assert_error_has(&err, "is read, wanted the name of a new file");
+    assert_error_has(&err, "is read, required: the name of a new file");
 }
 
 ARENA_TEST(files_of_the_model_come_along)
@@ -416,7 +417,7 @@ ARENA_TEST(forward_is_proposed_from_the_first_eye)
 static const struct {
     const char *from, *to, *path, *text;
 } wrong[] = {
-    {"\"equip\": 1", "\"equip\": 2", "/equip", "is 2, wanted a number from 1 to 1"},
+    {"\"equip\": 1", "\"equip\": 2", "/equip", "is 2, required: a number from 1 to 1"},
     {"\"model\"", "\"modle\"", "/modle", "the nearest known one is 'model'"},
     {"\"width_m\": 0.3", "\"width_mm\": 300", "/displays/0/width_mm", "'width_m'"},
     {"\"width_m\": 0.3", "\"width_m\": 0", "/displays/0/width_m", "from 0.001 to 100"},
@@ -438,7 +439,7 @@ static const struct {
      "did you mean driver?"},
     {"\"profile\"", "\"occupant\": {\"eye\": \"down\", \"shirt\": \"red\"}, \"profile\"",
      "/occupant/shirt", "white"},
-    {"[0.36, 0.8, 0.48]", "[1, 1, 0]", "/displays/0/up", "degrees to \"right\", wanted 90"},
+    {"[0.36, 0.8, 0.48]", "[1, 1, 0]", "/displays/0/up", "degrees to \"right\", required: 90"},
     {"[0.36, 0.8, 0.48]", "[0, 0, 0]", "/displays/0/up", "is the zero vector"},
     {"ips_cluster", "ips_clustr", "/displays/0/panel", "did you mean ips_cluster?"},
     {"ips_cluster", "../../../x.panel", "/displays/0/panel", "leaves the folder"},
@@ -458,9 +459,9 @@ static const struct {
     {"\"name\": \"paint\"", "\"name\": \"print\"", "/materials/0", "made for another model?"},
     {"\"index\": 1", "\"index\": 2", "/materials/1", "is for material 2, the model has 1"},
     {"\"index\": 1", "\"index\": 0", "/materials/1/index", "is 0 once more"},
-    {"iso-15008", "iso-15009", "/profile", "wanted one of"},
+    {"iso-15008", "iso-15009", "/profile", "required: one of"},
     {"\"forward\": [1, 0, 0]", "\"forward\": [0, 1, 0]", "/forward", "is vertical"},
-    {"[35.5, -120, 20]", "[95, 0, 20]", "/place/where", "wanted a latitude of -90 to 90"},
+    {"[35.5, -120, 20]", "[95, 0, 20]", "/place/where", "required: a latitude of -90 to 90"},
     {"\"year\": 2027", "\"year\": 1900", "/place/year", "from 1950 to 2100"},
 };
 

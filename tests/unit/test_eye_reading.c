@@ -41,7 +41,7 @@ static void assert_veil(EyeReading found, double degrees, double lux)
 {
     double wanted = lux * eye_spread_at(degrees, whose);
     if (!(fabs(found.veil / wanted - 1) < 0.01))
-        fail_msg("%g degrees: veil %g, wanted %g", degrees, found.veil, wanted);
+        fail_msg("%g degrees: veil %g, required: %g", degrees, found.veil, wanted);
 }
 
 /* A black world, but for what a test adds. */
@@ -221,7 +221,7 @@ TEST(a_uniform_sky_veils_by_the_integral)
     }
     EyeReading found = read_eye(&world);
     if (!(fabs(found.veil / (100 * sum) - 1) < 0.01))
-        fail_msg("veil %g, wanted %g", found.veil, 100 * sum);
+        fail_msg("veil %g, required: %g", found.veil, 100 * sum);
     assert_near(found.glare.figures.dgp,
                 discomfort_dgp(100 * PI, NULL, 0) * discomfort_dgp_low_light(100 * PI), 2e-4);
     assert_int_equal(found.glare.figures.none, GLARE_NO_SOURCE);

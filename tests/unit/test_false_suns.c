@@ -71,7 +71,7 @@ static void assert_whole_about_zenith(const FalseSuns *suns)
         for (int aside = 0; aside < 360; aside += 45) {
             double share = false_suns_at(suns, sun_at(90 - away, aside)).share;
             if (!(fabs(share - 1) < 0.03))
-                fail_msg("%g away, %d aside: share %g, wanted 1", away, aside, share);
+                fail_msg("%g away, %d aside: share %g, required: 1", away, aside, share);
         }
 }
 
@@ -85,12 +85,13 @@ TEST(a_wide_mirror_shows_the_whole_sun)
     assert_whole_about_zenith(&found.suns);
     for (int i = -2; i <= 2; i++) {
         FalseSunSight sight = false_suns_at(&found.suns, sun_at(35 + i, i));
-        if (!(fabs(sight.share - 1) < 0.03)) fail_msg("%d: share %g, wanted 1", i, sight.share);
+        if (!(fabs(sight.share - 1) < 0.03)) fail_msg("%d: share %g, required: "
+                                                      "1", i, sight.share);
         assert_int_equal(sight.part_id, 0);
         /* The higher the sun, the higher its image stands. */
         double wanted = -sin(radians_from_degrees(20 - i));
         if (!(fabs((double)sight.seen.y - wanted) < 0.002))
-            fail_msg("%d: seen at %g, wanted %g", i, (double)sight.seen.y, wanted);
+            fail_msg("%d: seen at %g, required: %g", i, (double)sight.seen.y, wanted);
     }
     assert_true(false_suns_at(&found.suns, sun_at(35 + 5, 0)).share == 0);
     assert_true(false_suns_at(&found.suns, sun_at(-35, 0)).share == 0);
@@ -155,7 +156,7 @@ TEST(a_small_facet_is_found_where_it_stands)
     search(&found);
     FalseSunSight sight = false_suns_at(&found.suns, sun_at(30, 0));
     if (!(fabs(sight.share / covered - 1) < 0.15)) /* of sixteen rays */
-        fail_msg("share %g, wanted %g", sight.share, covered);
+        fail_msg("share %g, required: %g", sight.share, covered);
     double reach = radius + side * sqrt(0.5) + 0.05;
     for (double away = -2; away <= 2; away += 0.05) {
         double share = false_suns_at(&found.suns, sun_at(30 + away, 0)).share;
@@ -196,7 +197,7 @@ TEST(a_pane_throws_what_its_faces_reflect)
     builder_quad(found.world.scene, vec3(0, 0, -1), vec3(0.1f, 0, 0), vec3(0, 0.1f, 0));
     search(&found);
     FalseSunSight sight = false_suns_at(&found.suns, sun_at(0.5, 0));
-    if (!(fabs(sight.share / both - 1) < 0.1)) fail_msg("%g, wanted %g", sight.share, both);
+    if (!(fabs(sight.share / both - 1) < 0.1)) fail_msg("%g, required: %g", sight.share, both);
     world_end(&found.world);
 }
 

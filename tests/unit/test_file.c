@@ -39,7 +39,7 @@ ARENA_TEST(the_start_is_read_of_a_file_of_any_length)
     assert_fails(file_read_start(path, 4, &arena, &bytes, &err),
                  "cannot be opened: No such file");
     assert_fails(file_read_start(test_folder(), 4, &arena, &bytes, &err),
-                 "is a folder, a file is wanted");
+                 "is a folder, a file is required");
 }
 
 ARENA_TEST(a_file_that_cannot_be_written_leaves_nothing)
@@ -169,7 +169,7 @@ ARENA_TEST(reading_names_what_is_wrong)
     assert_string_equal(err.file, path);
     assert_string_equal(err.text, "cannot be opened: No such file or directory");
     assert_false(file_read(test_folder(), 100, &arena, &bytes, &err));
-    assert_string_equal(err.text, "is a folder, a file is wanted");
+    assert_string_equal(err.text, "is a folder, a file is required");
     assert_true(file_write(path, "12345", 5, &err));
     assert_false(file_read(path, 4, &arena, &bytes, &err));
     assert_string_equal(err.text, "has 5 bytes, at most 4 are read");

@@ -140,11 +140,11 @@ MEMORY_TEST(a_fisheye_of_others_may_be_wider_than_its_circle)
 MEMORY_TEST(a_wrong_view_is_told)
 {
     static const char *const CASES[][2] = {
-        {"-vth -vh 180 -vv 180", "-vth, wanted -vta"},
-        {"-vtv -vh 200 -vv 20", "wanted angles below 180"},
+        {"-vth -vh 180 -vv 180", "-vth, required: -vta"},
+        {"-vtv -vh 200 -vv 20", "required: angles below 180"},
         {"-vta -vh nan", "'-vh nan'"},
         {"-vta -vd 0 0 1 -vu 0 0 2", "not along one line"},
-        {"-vtv -vq 4", "'-vq 4', wanted an option of a view"},
+        {"-vtv -vq 4", "'-vq 4', required: an option of a view"},
     };
     for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
         FrameImage frame = uniform_frame(4, 4, 1, arena);

@@ -86,7 +86,7 @@ static void assert_mirrored(const GazeReading *found, double wanted)
 {
     double off = fabs(found->mirrored.mean - wanted);
     if (!(off < fmax(0.01 * wanted, 3 * found->mirrored.sigma) && off < 0.02 * wanted))
-        fail_msg("mirrored %g +- %g, wanted %g", found->mirrored.mean, found->mirrored.sigma,
+        fail_msg("mirrored %g +- %g, required: %g", found->mirrored.mean, found->mirrored.sigma,
                  wanted);
 }
 

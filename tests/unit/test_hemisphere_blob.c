@@ -102,13 +102,13 @@ HEMISPHERE_TEST(a_bad_header_is_named)
     assert_tree_refused(f, (const char *)blob + 4, size, "multiple of 8");
     assert_tree_refused(f, blob, 20, "number of bytes is 20");
     assert_fails(tree_open(blob, size, geodesic_create(2, &f->arena), &tree, &err),
-                 "level of the geodesic is 2, wanted 3");
+                 "level of the geodesic is 2, required: 3");
     memcpy(copy, blob, size);
     copy[0] ^= 1;
     assert_tree_refused(f, copy, size, "magic number");
     memcpy(copy, blob, size);
     ((TreeHeader *)(void *)copy)->version = 7;
-    assert_tree_refused(f, copy, size, "version is 7, wanted 1");
+    assert_tree_refused(f, copy, size, "version is 7, required: 1");
 }
 
 TEST_PROGRAM(NULL, NULL)

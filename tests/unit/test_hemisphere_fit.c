@@ -89,14 +89,14 @@ HEMISPHERE_TEST(fits_refuse_what_is_no_number)
     float         value[2] = {1, 2}, weight[2] = {0, 0};
     VertexSamples samples = {2, 1, d, value, weight};
     assert_fails(vertex_fit(l, &samples, 1e-6, &f->arena, values, &err),
-                 "2 samples have no weight, wanted some");
+                 "2 samples have no weight, required: some");
     weight[1] = -1;
     assert_fails(vertex_fit(l, &samples, 1e-6, &f->arena, values, &err),
-                 "sample 1 has the weight -1, wanted 0 or more");
+                 "sample 1 has the weight -1, required: 0 or more");
     weight[1] = 1;
     value[0] = NAN;
     assert_fails(vertex_fit(l, &samples, 1e-6, &f->arena, values, &err),
-                 "sample 0 is nan, wanted a finite number");
+                 "sample 0 is nan, required: a finite number");
 }
 
 TEST_PROGRAM(NULL, NULL)

@@ -193,7 +193,7 @@ HEMISPHERE_TEST(cells_are_spent_until_the_variance_is_reached)
             }
             double variance = squares / (sum * sum) - 1;
             if (!(variance < 1.15 * (double)wanted[k] + 0.001))
-                fail_msg("wanted %g: %u cells, function %d varies %g", (double)wanted[k],
+                fail_msg("required: %g: %u cells, function %d varies %g", (double)wanted[k],
                          tree.cell_count, function, variance);
         }
     }
@@ -272,7 +272,7 @@ static void assert_refused(const Fixture *f, const void *blob, size_t size, cons
     SamplingTree tree;
     Error        err = {0};
     assert_false(sampling_tree_open(blob, size, f->geodesic, &scratch, &tree, &err));
-    if (!strstr(err.text, text)) fail_msg("%s, wanted %s", err.text, text);
+    if (!strstr(err.text, text)) fail_msg("%s, required: %s", err.text, text);
 }
 
 HEMISPHERE_TEST(what_does_not_fit_the_header_is_named)
@@ -282,9 +282,9 @@ HEMISPHERE_TEST(what_does_not_fit_the_header_is_named)
     SamplingHeader *copy = arena_alloc(&f->arena, 1, 16, size);
     memcpy(copy, blob, size);
     copy->level = 2;
-    assert_refused(f, copy, size, "depth is 3, wanted 2");
+    assert_refused(f, copy, size, "depth is 3, required: 2");
     f->geodesic = geodesic_create(1, &f->arena);
-    assert_refused(f, copy, size, "level of the geodesic is 1, wanted 2");
+    assert_refused(f, copy, size, "level of the geodesic is 1, required: 2");
     f->geodesic = geodesic_create(3, &f->arena);
     memcpy(copy, blob, size);
     copy->splits++;

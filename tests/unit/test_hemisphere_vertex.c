@@ -408,13 +408,13 @@ HEMISPHERE_TEST(what_cannot_be_stored_is_refused)
     Bound             bound = {values, 2, 0.01f};
     VertexTreeOptions good = options_of(l, &bound), o = good;
     o.lattice.level = GEODESIC_MAX_LEVEL;
-    assert_refused(&o, values, "level 10, wanted 0 to 9", &f->arena);
+    assert_refused(&o, values, "level 10, required: 0 to 9", &f->arena);
     o = good;
     o.lattice.octants = 3;
-    assert_refused(&o, values, "3 octants, wanted 2 or 4", &f->arena);
+    assert_refused(&o, values, "3 octants, required: 2 or 4", &f->arena);
     o = good;
     o.components = 0;
-    assert_refused(&o, values, "0 components, wanted 1 to 256", &f->arena);
+    assert_refused(&o, values, "0 components, required: 1 to 256", &f->arena);
     o = good;
     o.accepts = accepts_nothing;
     o.context = &l;
@@ -500,12 +500,12 @@ HEMISPHERE_TEST(a_bad_header_is_named)
     char       *copy = exact_copy(blob, size);
     Tree        tree;
     ((VertexHeader *)(void *)copy)->version = 7;
-    assert_tree_refused(f, copy, size, "version is 7, wanted 1");
+    assert_tree_refused(f, copy, size, "version is 7, required: 1");
     memcpy(copy, blob, size);
     ((VertexHeader *)(void *)copy)->octants = 3;
-    assert_tree_refused(f, copy, size, "octant count is 3, wanted 4");
+    assert_tree_refused(f, copy, size, "octant count is 3, required: 4");
     assert_fails(tree_open(blob, size, geodesic_create(3, &f->arena), &tree, &err),
-                 "level of the geodesic is 3, wanted 4");
+                 "level of the geodesic is 3, required: 4");
     memcpy(copy, blob, size);
     ((float *)(void *)(copy + sizeof(VertexHeader)))[2] = NAN;
     assert_tree_refused(f, copy, size, "scale 2 is nan");

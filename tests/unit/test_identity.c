@@ -142,7 +142,7 @@ MEMORY_TEST(what_decides_a_sample_is_in_it_and_nothing_else)
         const char *here = identity_of(&other, arena);
         const char *found = identity_difference(there, here, arena);
         if (!wanted != !found || (wanted && strncmp(found, wanted, strlen(wanted)) != 0))
-            fail_msg("change %zu: \"%s\", wanted \"%s\"", i, found ? found : "none",
+            fail_msg("change %zu: \"%s\", required: \"%s\"", i, found ? found : "none",
                      wanted ? wanted : "none");
     }
 }

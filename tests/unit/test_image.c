@@ -167,7 +167,7 @@ ARENA_TEST(a_frame_without_colours_is_no_picture)
     frame_add_channel(&frame, "depth.Z", false, &arena);
     assert_done(frame_write(path, &frame, &err));
     assert_fails(image_read(path, &arena, &image, &err),
-                 "no channel R; R, G, B or Y are wanted");
+                 "no channel R; R, G, B or Y are required");
     unlink(path);
 }
 

@@ -51,9 +51,10 @@ FIXTURE_TEST(astm_errors_name_the_line)
     assert_refused(f, "VARS theta_i,theta_s,brdf\n30,30\n40,40,4\n", i,
                    "line 3: the row before has fewer than 3 numbers");
     assert_refused(f, "VARS theta_i,theta_s,brdf\n30,30,five\n", i,
-                   "line 2: a number of the row is 'five', wanted a number");
+                   "line 2: a number of the row is 'five', required: a number");
     assert_refused(f, "VARS theta_i,theta_s,nice,nasty\n30,30,5,6\n", i, "line 2: VARS names "
-                   "'nice', wanted a wavelength like 550nm, or R,G,B or X,Y,Z, or one column");
+                   "'nice', required: a wavelength like 550nm, or R,G,B or X,Y,Z, or one "
+                   "column");
     assert_refused(f, "VARS theta_i,phi_s,brdf\n30,30,5\n", i, "line 2: VARS names no theta_s");
     f->options.wavelength_nm = 0;
     assert_refused(f, "VARS theta_i,theta_s,brdf\n30,30,5\n", i,
@@ -153,7 +154,7 @@ FIXTURE_TEST(ssdd_errors_name_the_line)
 {
     const Importer *i = &importer_ssdd;
     assert_refused(f, "DATA_TYPE brdf\n", i,
-                   "line 1: the file begins with 'DATA_TYPE', wanted VERSION");
+                   "line 1: the file begins with 'DATA_TYPE', required: VERSION");
     assert_refused(f, SSDD_HEAD "PARAM_TYPE spherical_coordinate_system\nPARAM0_LIST 20\n"
                       "PARAM2_LIST 0\nPARAM3_LIST 0\nDATA ascii\n1\n", i,
                    "line 11: the block announces 2 numbers, more than the rest of the file can "
@@ -220,12 +221,12 @@ FIXTURE_TEST(speos_errors_name_the_line)
 {
     const Importer *i = &importer_speos;
     assert_refused(f, "OPTIS - Anisotropic BSDF surface file v7.0\n0\n", i,
-                   "line 2: the version is 'v7.0', wanted v8.0 or later");
+                   "line 2: the version is 'v7.0', required: v8.0 or later");
     assert_refused(f, "OPTIS - Anisotropic BSDF surface file v8.0\n0\nC\n0\n\n0 1 0\n0 1\n"
                       "1\n", i, "line 8: there is transmission only: a display panel is "
                    "opaque");
     assert_refused(f, "OPTIS - BRDF surface file v8.0\n0\nC\n0\n\n1 0\n1\n1 1\n30\n450\n40\n"
-                      "2 1\n0\n0 1\n95 1\n", i, "theta is 95, wanted 0 to 90 degrees");
+                      "2 1\n0\n0 1\n95 1\n", i, "theta is 95, required: 0 to 90 degrees");
     assert_refused(f, "OPTIS - Simple scattering surface file v2.0\nC\nReflection\n"
                       "10 50 0 5\n", i, "line 4: the shares are 10, 50 and 0%; only a "
                    "Lambertian surface (0, above 0, 0) is known here");
@@ -339,11 +340,11 @@ FIXTURE_TEST(speos_binary_refusals)
         {40, '8', "is binary and not of version 9.0"},
         {52, 1, "a field of the header is 1, and only 0 is known here"},
         {89, 0, "there is no reflection"},
-        {89, 7, "a flag is 7, wanted 0 or 1"},
+        {89, 7, "a flag is 7, required: 0 or 1"},
         {90, 1, "the file has transmission, whose binary layout is not known here"},
         {98, 0x40, "a field of the header is 65536, and only 1 is known here"},
-        {109, 0, "the number of anisotropy angles is 0, wanted 1 to 4096"},
-        {113, 17, "a block has 17 bytes, wanted 16"},
+        {109, 0, "the number of anisotropy angles is 0, required: 1 to 4096"},
+        {113, 17, "a block has 17 bytes, required: 16"},
         {129, 0x20, "a packed block is not sound"},
         {77, 0xFF, ""},
     };
@@ -353,12 +354,12 @@ FIXTURE_TEST(speos_binary_refusals)
         bytes[row[i].at] = (unsigned char)row[i].value;
         bool ok = fixture_import(f, bytes, size, &importer_speos);
         if (*row[i].words && (ok || !strstr(f->err.text, row[i].words)))
-            fail_msg("byte %d: %s, wanted %s", row[i].at, ok ? "taken" : f->err.text,
+            fail_msg("byte %d: %s, required: %s", row[i].at, ok ? "taken" : f->err.text,
                      row[i].words);
     }
     size_t size = speos_binary(bytes);
     assert_bytes_refused(f, bytes, size + 1, &importer_speos,
-                         "138 bytes follow the tables, wanted 137");
+                         "138 bytes follow the tables, required: 137");
 }
 
 /* Worked out from the file by an independent reading: the table at 5 degrees has 0.172308 at

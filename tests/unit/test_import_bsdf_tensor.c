@@ -194,20 +194,22 @@ FIXTURE_TEST(rgl_refusals)
         Field       field;
         const char *words;
     } row[] = {
-        {{"theta_i", 10, SHAPE(2), LIST(0, 2)}, "has 2, wanted 0 to pi / 2"},
-        {{"theta_i", 10, SHAPE(1, 2), LIST(0, 1)}, "has 2 dimensions, wanted 1"},
-        {{"theta_i", 2, SHAPE(2), LIST(0, 1)}, "has numbers of type 2, wanted floats"},
+        {{"theta_i", 10, SHAPE(2), LIST(0, 2)}, "has 2, required: 0 to pi / 2"},
+        {{"theta_i", 10, SHAPE(1, 2), LIST(0, 1)}, "has 2 dimensions, required: 1"},
+        {{"theta_i", 2, SHAPE(2), LIST(0, 1)}, "has numbers of type 2, required: floats"},
         {{"theta_i", 10, SHAPE(2), LIST(0, INFINITY)}, "number 2 is not finite"},
-        {{"phi_i", 10, SHAPE(3), LIST(0, 1, 2)}, "has the wrong shape, wanted phi_i x theta_i"},
-        {{"ndf", 10, SHAPE(1, 4), LIST(1, 1, 1, 1)}, "wrong shape, wanted at least 2 x 2"},
-        {{"sigma", 10, SHAPE(2, 2), LIST(0, 0, 0, 0)}, "is 0 at theta_i 0, wanted above 0"},
+        {{"phi_i", 10, SHAPE(3), LIST(0, 1, 2)}, "has the wrong shape, required: phi_i x "
+                                                 "theta_i"},
+        {{"ndf", 10, SHAPE(1, 4), LIST(1, 1, 1, 1)}, "wrong shape, required: at least 2 x 2"},
+        {{"sigma", 10, SHAPE(2, 2), LIST(0, 0, 0, 0)}, "is 0 at theta_i 0, required: above 0"},
         {{"vndf", 10, SHAPE(1, 2, 2, 2), LIST(1, 1, 1, -1, 1, 1, 1, 1)},
          "has a density below 0"},
         {{"vndf", 10, SHAPE(1, 2, 2, 2), LIST(0, 0, 0, 0, 1, 1, 1, 1)},
          "has a density of 0 everywhere"},
-        {{"jacobian", 1, SHAPE(2), LIST(1, 1)}, "has the wrong shape, wanted one number"},
-        {{"wavelengths", 10, SHAPE(2), LIST(500, 600)}, "has the wrong shape, wanted phi_i x"},
-        {{"wavelengths", 10, SHAPE(1), LIST(-5)}, "has -5 nm, wanted rising wavelengths"},
+        {{"jacobian", 1, SHAPE(2), LIST(1, 1)}, "has the wrong shape, required: one number"},
+        {{"wavelengths", 10, SHAPE(2), LIST(500, 600)}, "has the wrong shape, required: phi_i "
+                                                        "x"},
+        {{"wavelengths", 10, SHAPE(1), LIST(-5)}, "has -5 nm, required: rising wavelengths"},
         {{"spectra", 10, SHAPE(1, 2, 1, 1, 2), LIST(1, 1, 1, 1)}, "has the wrong shape"},
         {{"", 0, NULL, NULL}, NULL},
     };
@@ -216,7 +218,7 @@ FIXTURE_TEST(rgl_refusals)
         build_but(b, row[i].field);
         assert_false(fixture_read(f, b->bytes, b->data, "rgl"));
         if (!strstr(f->err.text, row[i].words))
-            fail_msg("%s: %s, wanted %s", row[i].field.name, f->err.text, row[i].words);
+            fail_msg("%s: %s, required: %s", row[i].field.name, f->err.text, row[i].words);
     }
     build_but(b, row[13].field);
     assert_true(fixture_read(f, b->bytes, b->data, "rgl"));
@@ -253,10 +255,10 @@ FIXTURE_TEST(tensor_files_that_are_not_sound_are_refused)
         const char *words;
     } row[] = {
         {0, 'T', "is no tensor file: it does not begin with 'tensor_file'"},
-        {12, 2, "the version is 2.0, wanted 1.0"},
-        {14, 200, "there are 200 fields, wanted at most 64"},
-        {27, 9, "field 'theta_i' has 9 dimensions, wanted at most 8"},
-        {29, 12, "field 'theta_i' has a type of number 12, wanted 1 to 11"},
+        {12, 2, "the version is 2.0, required: 1.0"},
+        {14, 200, "there are 200 fields, required: at most 64"},
+        {27, 9, "field 'theta_i' has 9 dimensions, required: at most 8"},
+        {29, 12, "field 'theta_i' has a type of number 12, required: 1 to 11"},
         {36, 1, "field 'theta_i' begins behind the file's end"},
     };
     Builder *b = ARENA_NEW(&f->arena, Builder, 1);
@@ -405,14 +407,14 @@ FIXTURE_TEST(merl_errors_name_the_byte)
     unsigned char bytes[12 + 24] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     const double  infinite = INFINITY, unmeasured = -1;
     assert_bytes_refused(f, bytes, 20, &importer_merl,
-                         "8 bytes follow, wanted 24 for 1 x 1 x 1 cells of three colours");
+                         "8 bytes follow, required: 24 for 1 x 1 x 1 cells of three colours");
     memcpy(bytes + 12, &infinite, 8);
     assert_bytes_refused(f, bytes, 36, &importer_merl, "number 1 is not finite");
     memcpy(bytes + 12, &unmeasured, 8);
     assert_bytes_refused(f, bytes, 36, &importer_merl, "has no value of reflection");
     bytes[1] = 255;
     assert_bytes_refused(f, bytes, 36, &importer_merl,
-                         "a side is 65281 cells, wanted 1 to 4096 (MERL: 90, 90, 180)");
+                         "a side is 65281 cells, required: 1 to 4096 (MERL: 90, 90, 180)");
 }
 
 /* ---- workbooks --------------------------------------------------------------------------- */

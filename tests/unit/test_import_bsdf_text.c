@@ -142,10 +142,10 @@ FIXTURE_TEST(zemax_errors_name_the_line)
 {
     const Importer *z = &importer_zemax;
     assert_refused(f, ZEMAX_HEAD "TIS 0.5\n9 1 2\n9 x 4\n", z,
-                   "line 19: a value of the block is 'x', wanted a number");
+                   "line 19: a value of the block is 'x', required: a number");
     assert_refused(f, ZEMAX_HEAD "TIS 0.5\n9 1 2\n9 3 4\n9 5 6\nDataEnd\n", z,
-                   "line 22: the file ends after 1 blocks, wanted 2");
-    assert_refused(f, "Symmetry Round\n", z, "line 1: Symmetry is 'Round', wanted "
+                   "line 22: the file ends after 1 blocks, required: 2");
+    assert_refused(f, "Symmetry Round\n", z, "line 1: Symmetry is 'Round', required: "
                    "PlaneSymmetrical, Asymmetrical or ASymmetrical4D");
     assert_refused(f, "ScatterType BTDF\n", z,
                    "line 1: ScatterType is BTDF: transmission, and a display panel is opaque");
@@ -212,11 +212,11 @@ FIXTURE_TEST(fred_errors_name_the_line)
     assert_refused(f, "type bsdf_data\n10 20 30\n", i, "line 2: a row of three numbers stands "
                    "before the two angles of the light");
     assert_refused(f, "type bsdf_data\n30 0\n30 0 4\n95 0\n", i,
-                   "line 4: the angle of incidence is 95, wanted 0 to below 90 degrees");
+                   "line 4: the angle of incidence is 95, required: 0 to below 90 degrees");
     assert_refused(f, "type bsdf_data\n30 0\n30 zero 4\n", i, "line 3: '30 zero 4' is no row, "
-                   "wanted theta, phi and value, or the two angles of the light");
+                   "required: theta, phi and value, or the two angles of the light");
     assert_refused(f, "type bsdf_data\nformat angles=sine\n", i, "line 2: 'angles=sine' is no "
-                   "format that is known here, wanted angles=deg, bsdf=value, scale=NUMBER");
+                   "format that is known here, required: angles=deg, bsdf=value, scale=NUMBER");
     assert_refused(f, "type bsdf_data\n30 0\n30 0 4", i,
                    "line 1: the last line has no line end: the file may be cut");
     assert_refused(f, "type bsdf_data\n30 0\n40 0\n", i,
@@ -299,10 +299,11 @@ FIXTURE_TEST(mountain_errors_name_the_line)
                    "line 3: every direction is behind the sample: transmission, and a display "
                    "panel is opaque");
     assert_refused(f, "#format: theta phi BSDF\n#incident_angle 120 0\n10 2 3\n", i,
-                   "line 3: the light comes from behind (intheta 120), wanted the front: below "
+                   "line 3: the light comes from behind (intheta 120), required: the front: "
+                   "below "
                    "90 degrees");
     assert_refused(f, "#format: theta phi BSDF\n#incident_angle 20 0\n10 2\n", i,
-                   "line 4: the file ends, wanted the value");
+                   "line 4: the file ends, required: the value");
 }
 
 /* ---- LightTools -------------------------------------------------------------------------- */
@@ -337,7 +338,7 @@ FIXTURE_TEST(lighttools_errors_name_the_line)
     assert_refused(f, "SpectralContent Monochrome\nScatterAzimuth 1\n0\nScatterRadial 1\n0\n"
                       "DataBegin\nAOI 30\nTIS 0\n1\nDataBreak\n", i,
                    "line 9: DataBreak stands where an entry of a block (AOI, POI, Side, "
-                   "Wavelength, ScatterType, TIS) or DataEnd is wanted");
+                   "Wavelength, ScatterType, TIS) or DataEnd is required");
     assert_refused(f, "SpectralContent Monochrome\nScatterAzimuth 1\n0\nScatterRadial 1\n0\n"
                       "DataBegin\nAOI 30\nScatterType BTDF\nTIS 0\n1\nDataEnd\n", i,
                    "line 11: there is no block of reflection at the front: a display panel is "

@@ -220,14 +220,14 @@ FIXTURE_TEST(files_without_reflection_are_refused)
     const char *file = shared_bsdf(f, "window-xml/simple_klems_spot_trans.xml");
     assert_false(fixture_read_file(f, file, "window"));
     assert_string_equal(f->err.text,
-                        "there is transmission only, wanted a WavelengthDataBlock of "
+                        "there is transmission only, required: a WavelengthDataBlock of "
                         "Reflection Front at the wavelength Visible: a display panel is "
                         "opaque");
     assert_false(fixture_read_file(f, shared_bsdf(f, "window-xml/simple_tensor_spot_trans.xml"),
                                    "window"));
     assert_false(fixture_read_file(f, shared_bsdf(f, "window-xml/minimalBSDFt.xml"), "window"));
     assert_string_equal(f->err.text,
-                        "there is no scattering data, wanted a WavelengthDataBlock of "
+                        "there is no scattering data, required: a WavelengthDataBlock of "
                         "Reflection Front at the wavelength Visible: a display panel is "
                         "opaque");
 }
@@ -239,18 +239,19 @@ FIXTURE_TEST(xml_errors_name_the_line)
                    "has a document type (<!DOCTYPE), which is not taken");
     assert_refused(f, document(&f->arena, "TensorTree3", "Reflection Front", tree_basis,
                                "{ 1 2 3 }"), i,
-                   "line 10: a grid of the tensor tree has 3 numbers, wanted a power of 8");
+                   "line 10: a grid of the tensor tree has 3 numbers, required: a power of 8");
     assert_refused(f, document(&f->arena, "TensorTree4", "Reflection Front", tree_basis,
                                "{{1}{2}"), i,
-                   "line 10: ' ' stands where '{' of the tensor tree is wanted");
+                   "line 10: ' ' stands where '{' of the tensor tree is required");
     assert_refused(f, document(&f->arena, "Columns", "Reflection Front", quarter_bases,
                                "1 2"), i,
                    "line 10: the matrix is 41 x 41, more numbers than there are");
     assert_refused(f, document(&f->arena, "Diagonal", "Reflection Front", tree_basis, "1"), i,
-                   "line 6: IncidentDataStructure is 'Diagonal', wanted Columns, Rows, "
+                   "line 6: IncidentDataStructure is 'Diagonal', required: Columns, Rows, "
                    "TensorTree3 or TensorTree4");
     assert_refused(f, document(&f->arena, "Rows", "Reflection Front", tree_basis, "1"), i,
-                   "line 8: ColumnAngleBasis is '', which is not defined, wanted the name of "
+                   "line 8: ColumnAngleBasis is '', which is not defined, required: the name "
+                   "of "
                    "an angle basis");
     fixture_write(f, "<WindowElement><Optical>", 24);
     f->set = import_set(&f->arena);

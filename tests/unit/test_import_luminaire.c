@@ -104,15 +104,16 @@ LAB_TEST(eulumdat_is_refused_with_its_line)
     odd.symmetry = 3;
     odd.planes = 6;
     lab_write(lab, "lamp.ldt", ldt_text(lab, &odd));
-    lab_refused(lab, "lamp.ldt: line 4: has 6 C-planes, wanted a multiple of 4 for symmetry 3");
+    lab_refused(lab, "lamp.ldt: line 4: has 6 C-planes, required: a multiple of 4 for "
+                     "symmetry 3");
     dark.flux = 0;
     lab_write(lab, "lamp.ldt", ldt_text(lab, &dark));
-    lab_refused(lab, "lamp.ldt: line 32: the lamps' flux is 0 lm, wanted the flux that the "
+    lab_refused(lab, "lamp.ldt: line 32: the lamps' flux is 0 lm, required: the flux that the "
                      "intensities belong to");
     char *text = ldt_text(lab, &plain);
     memcpy(strstr(text, "\n2\n1\n") + 3, "9", 1);
     lab_write(lab, "lamp.ldt", text);
-    lab_refused(lab, "lamp.ldt: line 3: the symmetry is '9', wanted a number from 0 to 4");
+    lab_refused(lab, "lamp.ldt: line 3: the symmetry is '9', required: a number from 0 to 4");
     text = ldt_text(lab, &plain);
     strstr(text, "\n5\n10\n")[1] = 0;
     lab_write(lab, "lamp.ldt", text);
@@ -400,31 +401,37 @@ LAB_TEST(ies_is_refused_with_its_line)
     } cases[] = {{"IESNA91\n1 1 1\n", "lamp.ies: has no line TILT="},
                  {IES_HEAD "1 -1 1 4 1 2 2 1 1 0\n1 1 9\n" GAMMAS "0\n" PLANE_1,
                   "lamp.ies: line 8: photometry of types A and B has one horizontal angle, "
-                  "wanted 0 to 90 or -90 to 90 degrees"},
+                  "required: 0 to 90 or -90 to 90 degrees"},
                  {IES_HEAD "1 -1 1 4 2 3 2 1 1 0\n1 1 9\n" GAMMAS "0 90\n" PLANE_1 PLANE_1,
                   "lamp.ies: line 8: vertical angles of types A and B go from 0 to 90: nothing "
-                  "says whether the half below is dark or the same, wanted -90 to 90 degrees"},
+                  "says whether the half below is dark or the same, required: -90 to 90 "
+                  "degrees"},
                  {IES_HEAD "1 -1 1 3 2 3 2 1 1 0\n1 1 9\n-90 0 90\n30 90\n1 1 1 1 1 1\n",
                   "lamp.ies: line 8: horizontal angles of types A and B go from 30 to 90, "
-                  "wanted 0 to 90 or -90 to 90 degrees"},
+                  "required: 0 to 90 or -90 to 90 degrees"},
                  {IES_HEAD "1 -1 1 4 1 1 2 0 0 0\n1 1 9\n" GAMMAS "0\n" PLANE_1,
                   "lamp.ies: states no luminous area, which luminance needs — give it with "
                   "--area-mm W,H"},
                  {IES_HEAD "1 -1 1 4 2 1 2 1 1 0\n1 1 9\n" GAMMAS "0 45\n" PLANE_1 PLANE_1,
-                  "lamp.ies: line 8: horizontal angles go from 0 to 45, wanted 0, 0 to 90, 0 "
+                  "lamp.ies: line 8: horizontal angles go from 0 to 45, required: 0, 0 to 90, "
+                  "0 "
                   "to 180, 90 to 270 or 0 to 360 degrees"},
                  {IES_HEAD "1 -1 1 4 1 1 2 1 1 0\n1 1 9\n0 30 20 90\n0\n" PLANE_1,
-                  "lamp.ies: line 7: the vertical angle 20 follows 30, wanted rising angles"},
+                  "lamp.ies: line 7: the vertical angle 20 follows 30, required: rising "
+                  "angles"},
                  {IES_HEAD "1 -1 1 99999 1 1 2 1 1 0\n", "lamp.ies: line 5: the number of "
-                                                         "vertical angles is '99999', wanted a "
+                                                         "vertical angles is '99999', "
+                                                         "required: a "
                                                          "number from 2 to 4096"},
                  {IES_HEAD "1 -1 1 4.5 1 1 2 1 1 0\n", "lamp.ies: line 5: the number of "
-                                                       "vertical angles is 4.5, wanted a whole "
+                                                       "vertical angles is 4.5, required: a "
+                                                       "whole "
                                                        "number"},
                  {IES_HEAD "1 -1 1 4 1 1 2 1 1 0\n1 1 9\n" GAMMAS "0\n1 2 x\n",
-                  "lamp.ies: line 9: an intensity is 'x', wanted a number from 0 to 1e+09"},
+                  "lamp.ies: line 9: an intensity is 'x', required: a number from 0 to 1e+09"},
                  {IES_HEAD "1 -1 1 2 1 1 2 1 1 0\n1 1 9\n90 180\n0\n0 5\n",
-                  "lamp.ies: shines nothing within 90 degrees of gamma 0, wanted a luminaire "
+                  "lamp.ies: shines nothing within 90 degrees of gamma 0, required: a "
+                  "luminaire "
                   "that lights in front of its face"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         lab_write(lab, "lamp.ies", cases[i].text);

@@ -20,18 +20,19 @@ LAB_TEST(cells_and_rows_that_do_not_fit)
 {
     static const Refusal rows[] = {
         {"theta,phi,X,Y,Z\n0,0,1,2,3\n10,0,1,abc,3\n",
-         "white.csv: line 3: column 'Y' holds 'abc', wanted a number or a mark of what was "
+         "white.csv: line 3: column 'Y' holds 'abc', required: a number or a mark of what was "
          "not measured (---, NaN, or one given as --mask)"},
         {"theta,phi,X,Y,Z\n0,0,1,2,3\n10,0,1,2\n",
-         "white.csv: line 3: has 4 cells, wanted 5 as the columns are"},
+         "white.csv: line 3: has 4 cells, required: 5 as the columns are"},
         {"theta,phi,X,Y,Z\n0,0,1,2,3\n10,0,1,2,3,4\n",
-         "white.csv: line 3: has 6 cells, wanted 5 as the columns are"},
+         "white.csv: line 3: has 6 cells, required: 5 as the columns are"},
         {"theta,phi,X,Y,Z\n0,0,1,2,3\n10,---,1,2,3\n20,0,1,2,3\n",
-         "white.csv: line 3: has no angle, wanted two numbers"},
+         "white.csv: line 3: has no angle, required: two numbers"},
         {"theta,phi,X,Y,Z\n0,0,1,2,3\nend\n10,0,1,2,3\n",
          "white.csv: line 4: holds numbers again behind the end of the table"},
         {"theta,phi,X,Y,Z\n0,0,1e999,2,3\n",
-         "white.csv: line 2: column 'X' holds '1e999', wanted a number or a mark of what was "
+         "white.csv: line 2: column 'X' holds '1e999', required: a number or a mark of what "
+         "was "
          "not measured (---, NaN, or one given as --mask)"},
         {"0,0,1,2,3\n10,0,1,2,3\n",
          "white.csv: line 1: begins numbers that no header names — name them with --columns "
@@ -40,12 +41,12 @@ LAB_TEST(cells_and_rows_that_do_not_fit)
          "white.csv: has no row of numbers — say how they are written with --delimiter and "
          "--decimal, or name the file's --format"},
         {"theta,phi,X,Y,Z\n0,0,1,2,3\n190,0,1,2,3\n20,0,1,2,3\n",
-         "white.csv: line 3: theta is 190, wanted -90 to 90 degrees"},
+         "white.csv: line 3: theta is 190, required: -90 to 90 degrees"},
         {"theta,phi,Y,x,y\n0,0,1,0.3,0.3\n10,0,1,0.7,0.5\n20,0,1,.3,.3\n",
-         "white.csv: line 3: chromaticity is 0.7, 0.5, wanted a point of the CIE diagram"},
+         "white.csv: line 3: chromaticity is 0.7, 0.5, required: a point of the CIE diagram"},
         {"", "white.csv: is empty"},
         {"theta,phi,L\n0,0,1\n10,0,1\n",
-         "white.csv: line 2: begins a table of 2 measured directions, wanted an angular "
+         "white.csv: line 2: begins a table of 2 measured directions, required: an angular "
          "table of at least 3 — leave the file out (--role FILE=skip) if it is none"},
     };
     REFUSE_ALL(lab, rows);
@@ -67,7 +68,7 @@ LAB_TEST(headers_that_do_not_say_enough)
          "white.csv: line 1: columns 'phi' and 'phi_out' name the same quantity — say which "
          "is which with --columns (- skips one)"},
         {"theta,phi,L,550nm\n0,0,0,1\n10,0,0,1\n",
-         "white.csv: header line: has columns of luminance and of reflection, wanted one "
+         "white.csv: header line: has columns of luminance and of reflection, required: one "
          "kind — skip some with --columns"},
         {"theta_H,theta_V,L\n0,0,1\n10,0,1\n20,0,1\n",
          "white.csv: header line: has a horizontal and a vertical angle — say which with "
@@ -76,9 +77,9 @@ LAB_TEST(headers_that_do_not_say_enough)
          "white.csv: has angles up to 1.5: radians, or a cone of so many degrees — say "
          "--angle-unit rad or deg"},
         {"theta,phi,X (nit),Y (fL),Z (fL)\n0,0,1,1,1\n10,0,1,1,1\n20,0,1,1,1\n",
-         "white.csv: header line: has columns in cd/m2 and in fL, wanted one unit"},
+         "white.csv: header line: has columns in cd/m2 and in fL, required: one unit"},
         {"R,G,B,theta,phi,L\n10,20,0,0,0,1\n10,20,0,10,0,1\n10,20,0,20,0,1\n",
-         "white.csv: line 2: the codes 10, 20, 0 are a mixture, wanted one primary at a "
+         "white.csv: line 2: the codes 10, 20, 0 are a mixture, required: one primary at a "
          "time, black or white — leave the file out (--role FILE=skip) if it is no table of "
          "one pattern"},
     };
@@ -103,11 +104,11 @@ LAB_TEST(matrices_that_do_not_say_enough)
          "each, as [X], [Y], [Z] or [550 nm]"},
         {"[X]\ntheta\\phi,0,120\n0,1,2\n30,1,2\n\n[Y]\ntheta\\phi,0,120\n0,1,2\n20,1,2\n",
          "white.csv: line 7: begins a matrix over other angles than the one of line 2, "
-         "wanted one grid in a file"},
+         "required: one grid in a file"},
         {"[L]\ntheta\\phi,0,120\n0,1,2\n30,1\n",
-         "white.csv: line 4: has 2 cells, wanted 3 as the head of the matrix"},
+         "white.csv: line 4: has 2 cells, required: 3 as the head of the matrix"},
         {"[L]\ntheta\\phi,0,120\n0,1,2\n30,1,x\n",
-         "white.csv: line 4: column 'matrix' holds 'x', wanted a number or a mark of what "
+         "white.csv: line 4: column 'matrix' holds 'x', required: a number or a mark of what "
          "was not measured (---, NaN, or one given as --mask)"},
     };
     REFUSE_ALL(lab, rows);
@@ -151,7 +152,7 @@ LAB_TEST(declarations_that_are_wrong)
     assert_non_null(strstr(lab->err.text, "'azimuth_zreo' is no key of a declaration — did you "
                                           "mean azimuth_zero? There are table, columns, "));
     assert_false(text_options_set(text, "azimuth_zero", "north", &lab->err));
-    assert_string_equal(lab->err.text, "azimuth_zero is 'north', wanted "
+    assert_string_equal(lab->err.text, "azimuth_zero is 'north', required: "
                                        "right|top|left|bottom|DEG");
     static const char *const wrong[][2] = {{"delimiter", "|"}, {"unit", "lux"}, {"table", ""},
         {"skip_lines", "-1"}, {"skip_lines", "1.5"}, {"level_max", "0"}, {"quantity", "theta"},
@@ -163,10 +164,11 @@ LAB_TEST(declarations_that_are_wrong)
     lab->request->text = (TextOptions){.layout = LAYOUT_AUTO};
     lab_declare(lab, "columns", "theta,phi,X,Y,Q");
     refuse(lab, "0,0,1,2,3\n",
-           "--columns: 'Q' is no name of a column, wanted theta, phi, X, Y, Z, L, x, y, u', "
+           "--columns: 'Q' is no name of a column, required: theta, phi, X, Y, Z, L, x, y, u', "
            "v', a wavelength, incidence, ... or -");
     lab_declare(lab, "columns", "X,Y,Z");
-    refuse(lab, "0,0,1,2,3\n", "--columns 'X,Y,Z' has no two angles, wanted theta and phi, or "
+    refuse(lab, "0,0,1,2,3\n", "--columns 'X,Y,Z' has no two angles, required: theta and phi, "
+                               "or "
                                "horizontal and vertical");
 }
 
@@ -262,7 +264,8 @@ LAB_TEST(light_that_only_grazes)
     lab->request->options.wavelength_nm = 550;
     lab_write(lab, "sheet.txt", "type bsdf_data\nformat angles=deg bsdf=value scale=1\n89.5 0\n"
                                 "0 0 0.1\n20 90 0.1\n20 180 0.1\n20 270 0.1\n");
-    lab_refused(lab, "sheet.txt: has light from 89.5 degrees and no file from less, wanted one "
+    lab_refused(lab, "sheet.txt: has light from 89.5 degrees and no file from less, required: "
+                     "one "
                      "of 0 to 89 degrees");
 }
 

@@ -89,7 +89,7 @@ TEST(a_role_is_written_with_colons)
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         if (role_parse(wrong[i], 255, &role, &err)) fail_msg("'%s' is taken", wrong[i]);
         assert_int_equal(err.code, ERROR_USAGE);
-        assert_non_null(strstr(err.text, "wanted red, green or blue with :LEVEL"));
+        assert_non_null(strstr(err.text, "required: red, green or blue with :LEVEL"));
     }
 }
 

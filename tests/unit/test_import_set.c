@@ -140,7 +140,8 @@ LAB_TEST(what_a_set_needs_is_said)
                      "--role, or leave it out");
     lab->count = 0;
     lab_write(lab, "black.csv", TABLE);
-    lab_refused(lab, "black.csv: is a black pattern alone, wanted also red, green and blue, or "
+    lab_refused(lab, "black.csv: is a black pattern alone, required: also red, green and "
+                     "blue, or "
                      "white");
     lab->count = 0;
     lab_write(lab, "white_x.csv", "theta,phi,X\n0,0,1\n9,0,1\n8,0,1\n");
@@ -149,13 +150,14 @@ LAB_TEST(what_a_set_needs_is_said)
     lab->count = 0;
     lab_write(lab, "i10.csv", BRDF);
     lab_write(lab, "i20.csv", "theta,phi,450nm\n0,0,1\n30,0,3\n30,90,5\n");
-    lab_refused(lab, "i20.csv: has other wavelengths than i10.csv, wanted the same in every "
+    lab_refused(lab, "i20.csv: has other wavelengths than i10.csv, required: the same in every "
                      "table");
     lab->count = 0;
     lab_write(lab, "i10_a0.csv", BRDF);
     lab_write(lab, "i20_a90.csv", BRDF);
     lab_refused(lab, "no file has light from incidence 10, azimuth 90 degrees; a material that "
-                     "depends on the azimuth is wanted at every incidence (2) and azimuth (2) "
+                     "depends on the azimuth is required at every incidence (2) and azimuth "
+                     "(2) "
                      "of the light — or say --isotropic when the azimuth makes no difference");
     lab->count = 0;
     lab_declare(lab, "unit", "signal");
@@ -174,13 +176,13 @@ LAB_TEST(what_cannot_be_noise_below_zero_is_refused)
     lab_write(lab, "white.csv", "theta,phi,L\n0,0,100\n30,90,-0.4\n40,0,90\n");
     lab_import(lab);
     lab_write(lab, "white.csv", "theta,phi,L\n0,0,100\n30,90,-2\n40,0,90\n");
-    lab_refused(lab, "white.csv: is -2.17766 at theta 30, phi 90, wanted at least -0.544415 "
+    lab_refused(lab, "white.csv: is -2.17766 at theta 30, phi 90, required: at least -0.544415 "
                      "cd/m2 (noise below zero)");
     lab->count = 0;
     lab_write(lab, "i10.csv", "theta,phi,550nm\n0,0,1\n30,0,-0.0009\n40,0,1\n");
     lab_import(lab);
     lab_write(lab, "i10.csv", "theta,phi,550nm\n0,0,1\n30,0,-0.0011\n40,0,1\n");
-    lab_refused(lab, "i10.csv: is -0.0011 at theta 30, phi 0, wanted at least -0.001 sr^-1 "
+    lab_refused(lab, "i10.csv: is -0.0011 at theta 30, phi 0, required: at least -0.001 sr^-1 "
                      "(noise below zero)");
 }
 
@@ -193,7 +195,8 @@ LAB_TEST(wavelengths_that_nobody_sees_are_left_out)
     assert_near(lab_value(lab_table(lab, IMPORT_REFLECTION, 10), 30, 0, 0), 2, 0);
     assert_true(lab_noted(lab, "2 of 3 wavelengths lie outside 360 to 830 nm"));
     lab_write(lab, "i10.csv", "theta,phi,1064nm\n0,0,3\n30,0,3\n9,9,3\n");
-    lab_refused(lab, "i10.csv: has wavelengths from 1064 to 1064 nm, wanted some of 360 to 830 "
+    lab_refused(lab, "i10.csv: has wavelengths from 1064 to 1064 nm, required: some of 360 to "
+                     "830 "
                      "nm");
 }
 
@@ -285,7 +288,7 @@ LAB_TEST(a_source_is_not_written_over)
     assert_non_null(strstr(lab->err.text, "would be written over"));
     assert_false(file_exists(manifest_of(lab)));
     lab->file[0] = inside;
-    lab_refused(lab, "out/emission: is a folder, a file is wanted");
+    lab_refused(lab, "out/emission: is a folder, a file is required");
 }
 
 #define WHITE "theta,phi,X,Y,Z\n0,0,95,100,108\n40,90,47,50,54\n60,90,23,25,27\n"
@@ -392,15 +395,15 @@ LAB_TEST(a_declaration_files_mistakes_are_named)
 {
     static const char *const wrong[][2] = {
         {"{\"azimut_zero\": \"top\"}", "azimuth_zero"},
-        {"{\"azimuth_zero\": \"north\"}", "wanted right|top|left|bottom|DEG"},
+        {"{\"azimuth_zero\": \"north\"}", "required: right|top|left|bottom|DEG"},
         {"{\"roles\": {\"a\": \"rot\"}}", "the role 'rot' is unknown"},
-        {"{\"roles\": {\"a\": []}}", "wanted a role"},
-        {"{\"skip\": \"a\"}", "wanted a list of patterns"},
-        {"{\"isotropic\": 1}", "wanted true or false"},
-        {"{\"mask\": [{}]}", "wanted texts or numbers"},
-        {"{\"delimiter\": null}", "wanted a text or a number"},
+        {"{\"roles\": {\"a\": []}}", "required: a role"},
+        {"{\"skip\": \"a\"}", "required: a list of patterns"},
+        {"{\"isotropic\": 1}", "required: true or false"},
+        {"{\"mask\": [{}]}", "required: texts or numbers"},
+        {"{\"delimiter\": null}", "required: a text or a number"},
         {"{\"area_mm\": [0, 1]}", "area_mm"},
-        {"{\"area_mm\": [10]}", "has 1 values, wanted 2"},
+        {"{\"area_mm\": [10]}", "has 1 values, required: 2"},
         {"{", ""}, {"[]", ""}, {"", ""}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         char line[2048];
@@ -431,14 +434,14 @@ LAB_TEST(spectra_go_into_the_set)
         {"nm,red,green\n400,1,2\n500,1,2\n", "s.csv: header line: has no columns of "
                                              "wavelength, red, green and blue"},
         {"nm,red,green,blue\n400,1,2,3\n390,1,2,3\n", "s.csv: line 3: wavelength 390 follows "
-                                                      "400, wanted rising wavelengths"},
+                                                      "400, required: rising wavelengths"},
         {"nm,red,green,blue\n400,1,2,3\n500,1,2\n", "s.csv: line 3: has not the 4 cells of the "
                                                     "header"},
-        {"nm,red,green,blue\n400,1,2,3\n500,1,2,x\n", "s.csv: line 3: holds 'x', wanted a "
+        {"nm,red,green,blue\n400,1,2,3\n500,1,2,x\n", "s.csv: line 3: holds 'x', required: a "
                                                       "number"},
         {"nm,red,green,blue\n.4,1,2,3\n.5,1,2,3\n", "s.csv: line 2: has a wavelength of 0.4, "
-                                                    "wanted nanometres"},
-        {"nm,red,green,blue\n400,1,2,3\n", "s.csv: has 1 wavelengths, wanted more"}};
+                                                    "required: nanometres"},
+        {"nm,red,green,blue\n400,1,2,3\n", "s.csv: has 1 wavelengths, required: more"}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         lab_write(lab, "s.csv", wrong[i][0]);
         lab->count = count;

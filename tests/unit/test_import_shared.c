@@ -201,7 +201,7 @@ LAB_TEST(single_directions_are_no_table)
 {
     add_files(lab, SHARED_DATA_DIR "/bsdf/loft-blacklab/20250210_S7_sample_final.txt");
     assert_false(lab_run(lab));
-    assert_non_null(strstr(lab->err.text, "wanted an angular table of at least 3"));
+    assert_non_null(strstr(lab->err.text, "required: an angular table of at least 3"));
 }
 
 TEST_PROGRAM(NULL, NULL)

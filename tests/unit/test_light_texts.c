@@ -327,7 +327,7 @@ ARENA_TEST(every_number_of_a_weather_row_is_read_or_named)
     }
     const char *shorter = "2001,6,21,12,60,x,20,10,50,1,0,0,300,812,855,92";
     assert_false(read_epw(place, shorter, &arena, &w));
-    assert_error_has(why(), "found '16 fields', wanted the 20 of the rows before it");
+    assert_error_has(why(), "found '16 fields', required: the 20 of the rows before it");
     assert_true(read_epw("LOCATION,\"Here, West\",-,X,X,1,48,11,1,100", plain, &arena, &w));
     assert_string_equal(w.city, "Here, West");
     assert_near(w.place.longitude_deg, 11, 0);

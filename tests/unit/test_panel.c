@@ -198,7 +198,7 @@ TEST(spectra_integrate_to_the_measured_colour)
             double size = fmax((double)xyz[0], fmax((double)xyz[1], (double)xyz[2]));
             for (int j = 0; j < 3; j++)
                 if (!(fabs(found[j] - (double)xyz[j]) <= 1e-4 * size))
-                    fail_msg("pixel %d, direction %d, component %d: %g, wanted %g", i, a, j,
+                    fail_msg("pixel %d, direction %d, component %d: %g, required: %g", i, a, j,
                              found[j], (double)xyz[j]);
             assert_true(least >= 0);
         }
@@ -234,7 +234,8 @@ TEST(the_peak_stands_at_the_mirror_direction_and_has_no_ghosts)
         }
         if (turns != 1 || !(fabs(best_at - truth_at) <= 0.8) ||
             !(fabs((double)best / truth_best - 1) < 0.03))
-            fail_msg("incidence %d: %d peaks, the highest %g at %g, wanted %g at %g", incidence,
+            fail_msg("incidence %d: %d peaks, the highest %g at %g, required: %g at "
+                     "%g", incidence,
                      turns, (double)best, best_at, truth_best, truth_at);
     }
 }

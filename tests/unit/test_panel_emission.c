@@ -52,7 +52,7 @@ static void expect_misses(const char *what, const Fixture *f, double theta, doub
         most.colour = fmax(most.colour, chromaticity_distance(truth, xyz));
     }
     if (!(most.luminance < allowed.luminance) || !(most.colour < allowed.colour))
-        fail_msg("%s: luminance %g, u'v' %g, wanted less than %g, %g", what,
+        fail_msg("%s: luminance %g, u'v' %g, required: less than %g, %g", what,
                  most.luminance, most.colour, allowed.luminance, allowed.colour);
 }
 

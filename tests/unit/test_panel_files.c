@@ -529,9 +529,9 @@ static void expect_no_panel(const char *path, const char *part, const char *othe
 TEST(other_files_are_no_panels)
 {
     expect_no_panel("/no/such.panel", "/no/such.panel", "cannot be opened");
-    expect_no_panel(folder.folder, "is a folder, a file is wanted", "");
+    expect_no_panel(folder.folder, "is a folder, a file is required", "");
     expect_no_panel(fixture_file(&folder, "x.panel", ""), "x.panel",
-                    "is no panel file, wanted one that `panel fit` wrote");
+                    "is no panel file, required: one that `panel fit` wrote");
     expect_no_panel(fixture_file(&folder, "x.panel", "PHPANEL\nxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx"
                                  "xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx"),
                     "x.panel: header: has version", "fit the panel again");

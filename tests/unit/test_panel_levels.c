@@ -208,10 +208,11 @@ ARENA_TEST(bad_tables_are_refused_by_line_and_words)
 {
     static const struct { const char *text, *place, *words; } bad[] = {
         {"level,L\n0,1\n128,30\n200,29.5\n255,100\n", "line 4", "29.5 cd/m2 at level 200 is"
-         " less than the 30 of level 128 (line 3), wanted luminance that does not fall"},
-        {"level,L\n0,1\n128,-30\n255,100\n", "line 3", "-30 cd/m2, wanted no luminance below"},
+         " less than the 30 of level 128 (line 3), required: luminance that does not fall"},
+        {"level,L\n0,1\n128,-30\n255,100\n", "line 3", "-30 cd/m2, required: no luminance "
+                                                       "below"},
         {"level,L\n-1,1\n128,30\n255,100\n", "line 2", "level -1 is below zero"},
-        {"level,L\n255,100\n", "", "has 1 row, wanted 2 or more"},
+        {"level,L\n255,100\n", "", "has 1 row, required: 2 or more"},
         {"level,L\n", "", "no rows"},
         {"", "", "is empty"},
         {"level,L\n0,1\n# here\n224,70\n", "line 4", "highest level is 224, so the full level"
@@ -227,7 +228,7 @@ ARENA_TEST(bad_tables_are_refused_by_line_and_words)
         {"level,L\n0,1\n128,nan\n255,70\n", "line 3", "column 'L' holds 'nan'"},
         {"level,L,L\n0,1,2\n255,70,9\n", "line 1", "has the column 'L' twice"},
         {"level,L\n0,1\n128\n255,70\n", "line 3", "fewer cells than the header's 2 columns"},
-        {"0,1\n128,20\n255,70\n", "header line", "no column of levels, wanted one named"},
+        {"0,1\n128,20\n255,70\n", "header line", "no column of levels, required: one named"},
         {"level,x,y\n0,1,1\n255,70,1\n", "header line", "no column of luminance"},
         {"level,red,green\n0,1,1\n255,70,1\n", "header line", "not all of 'red', 'green' and"},
         {"level,R,red,G,B\n0,1,1,1,1\n255,7,7,7,7\n", "header line", "'R' and 'red' hold the"},
@@ -343,7 +344,7 @@ TEST(a_table_of_another_white_or_set_is_refused)
                     ERROR_INPUT, "full level has 297.1");
     assert_string_equal(why()->file, levels);
     assert_string_equal(why()->path, "line 19");
-    assert_error_has(why(), "6 % apart, wanted within 5 %");
+    assert_error_has(why(), "6 % apart, required: within 5 %");
     assert_int_equal(known.set->primary[0].level_count, 1); /* as it was */
     assert_false(known.set->has_black);
     const char *both = fixture_file(&known, "M.json", "{\"emission\": {\"black\": \"b\", "

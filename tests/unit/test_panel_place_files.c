@@ -92,12 +92,12 @@ TEST(what_is_wrong_with_places_is_named)
     static const struct { const char *text, *parts[3]; } cases[] = {
         {"{\"spots\": 3}", {"/spots", "is a number", "a list"}},
         {"{\"spots\": []}", {"/spots", "0 spots", "1 to 49"}},
-        {"{\"spots\": [5]}", {"/spots/0", "wanted an object", ""}},
+        {"{\"spots\": [5]}", {"/spots/0", "required: an object", ""}},
         {"{\"spots\": [{" WHITE("a.csv") "}]}", {"/spots/0", "'position' is missing", ""}},
         {"{\"spots\": [{\"position\": [0.5, 0.5]}]}",
          {"/spots/0", "neither 'emission' nor 'reflection'", ""}},
         {"{\"spots\": [{\"position\": [0.5]," WHITE("a.csv") "}]}",
-         {"/spots/0/position", "1 values", "wanted 2"}},
+         {"/spots/0/position", "1 values", "required: 2"}},
         {"{\"spots\": [{\"position\": 0.5," WHITE("a.csv") "}]}",
          {"/spots/0/position", "is a number", ""}},
         {"{\"spots\": [" SPOT("0.5, 1.2", "a.csv") "]}",
@@ -160,7 +160,7 @@ TEST(what_is_wrong_with_places_is_named)
          {"/polarisation", "no 'emission'", ""}},
         {"{\"polarisation\": {\"degree\": 1, \"azimuth_deg\": 0}, \"spots\": {}}",
          {"/spots", "is an object", "a list"}},
-        {"{\"size_mm\": [100], " WHITE("a.csv") "}", {"/size_mm", "1 values", "wanted 2"}},
+        {"{\"size_mm\": [100], " WHITE("a.csv") "}", {"/size_mm", "1 values", "required: 2"}},
     };
     write_tables();
     write_exr("rgb.exr", (const char *const[4]){"R", "G", "B", "A"});

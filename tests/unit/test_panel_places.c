@@ -155,7 +155,8 @@ static void expect_truth(const Fixture *f, const float place[2], double bound)
         panel_place_emission_xyz(f->panel, place, direction_deg(theta, phi), codes[i % 5], xyz);
         for (int j = 0; j < 3; j++)
             if (!(fabs((double)xyz[j] / wanted[j] - 1) < bound))
-                fail_msg("at %g, %g, theta %g, phi %g, codes %d: %g, wanted %g", at[0], at[1],
+                fail_msg("at %g, %g, theta %g, phi %g, codes %d: %g, required: "
+                         "%g", at[0], at[1],
                          theta, phi, i % 5, (double)xyz[j], wanted[j]);
     }
 }

@@ -284,7 +284,7 @@ TEST(displays_draw_mirror_and_haze_as_they_say)
         double share = (double)mirror * drawn, z = compare_bins(bins, counts, drawn - mirrored);
         assert_true(drawn >= CHI_DRAWS / 2 - 20);
         if (!(z < 4.5) || !(fabs(mirrored - share) <= 4.5 * sqrt(share) + 0.5))
-            fail_msg("%g degrees, %g nm: haze %.1f sigma off; mirror %d times, wanted %.1f",
+            fail_msg("%g degrees, %g nm: haze %.1f sigma off; mirror %d times, required: %.1f",
                      degrees_from_radians(theta), (double)w.nm[0], z, mirrored, share);
     }
 }

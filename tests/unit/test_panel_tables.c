@@ -102,7 +102,7 @@ TEST(manifests_name_the_key)
         {"{\"emission\": {\"white\": 3}}", {"/emission/white", "a table's path", ""}},
         {"{\"emission\": {\"white\": \"t.csv\", \"red\": {}}}",
          {"both 'white' and 'red'", "", ""}},
-        {"{\"emission\": 3}", {"/emission", "is a number", "wanted an object"}},
+        {"{\"emission\": 3}", {"/emission", "is a number", "required: an object"}},
         {"{\"emission\": {\"white\": \"good.csv\"}, \"reflection\": {"
          "\"wavelengths_nm\": [500, 400], \"incidence_deg\": [10],"
          "\"files\": \"i{incidence}.csv\"}}",
@@ -116,20 +116,20 @@ TEST(manifests_name_the_key)
          {"/emission/red/256", "no grey level", "up to 255"}},
         {"{\"emission\": {\"black\": \"good.csv\", \"red\": {\"128\": \"good.csv\", \"128.0\": "
          "\"good.csv\"}}}", {"same grey level", "", ""}},
-        {POLARISED("3"), {"/polarisation", "is a number", "wanted an object"}},
+        {POLARISED("3"), {"/polarisation", "is a number", "required: an object"}},
         {POLARISED("{\"degree\": 1}"), {"/polarisation", "'azimuth_deg' is missing", ""}},
         {POLARISED("{\"azimuth_deg\": 1}"), {"/polarisation", "'degree' is missing", ""}},
         {POLARISED("{\"degree\": 1.01, \"azimuth_deg\": 0}"),
          {"/polarisation/degree", "1.01", "0 to 1"}},
         {POLARISED("{\"degree\": \"1\", \"azimuth_deg\": 0}"),
-         {"/polarisation/degree", "is a text", "wanted a number"}},
+         {"/polarisation/degree", "is a text", "required: a number"}},
         {POLARISED("{\"degree\": 1, \"azimuth_deg\": 361}"),
          {"/polarisation/azimuth_deg", "361", "-360 to 360"}},
         {POLARISED("{\"degree\": 1, \"azimuth\": 45}"),
          {"/polarisation/azimuth", "unknown key", "'azimuth_deg'"}},
         {"{\"polarisation\": {\"degree\": 1, \"azimuth_deg\": 45}, \"reflection\": {}}",
          {"/polarisation", "no 'emission'", ""}},
-        {DIVIDED("\"stripe\""), {"/subpixels", "is a text", "wanted an object"}},
+        {DIVIDED("\"stripe\""), {"/subpixels", "is a text", "required: an object"}},
         {DIVIDED("{}"), {"/subpixels", "'layout' is missing", ""}},
         {DIVIDED("{\"layout\": 3}"), {"/subpixels/layout", "is a number", "a text"}},
         {DIVIDED("{\"layout\": \"delta\"}"),
@@ -153,11 +153,11 @@ TEST(manifests_name_the_key)
         {DIVIDED_OF("[9.5, 5]", "{\"layout\": \"stripe\"}"),
          {"/pixels", "holds 9.5", "whole numbers"}},
         {DIVIDED_OF("[9]", "{\"layout\": \"stripe\"}"),
-         {"/pixels", "has 1 values", "wanted 2"}},
+         {"/pixels", "has 1 values", "required: 2"}},
         {"{\"subpixels\": {\"layout\": \"stripe\"}, \"reflection\": {}}",
          {"/subpixels", "no 'emission'", ""}},
         {"{\"a\": 1,\n \"a\": 2}", {"MANIFEST.json: line 2", "not valid JSON", "duplicate"}},
-        {"[1]", {"MANIFEST.json", "is an array", "wanted an object"}},
+        {"[1]", {"MANIFEST.json", "is an array", "required: an object"}},
     };
     fixture_file(&folder, "good.csv", "theta,phi,X,Y,Z\n0,0,1,1,1\n10,0,1,1,1\n");
     fixture_file(&folder, "p.csv", "nm,red,gren,blue\n500,1,1,1\n");
@@ -299,7 +299,7 @@ TEST(recipes_name_the_key)
 {
     static const struct { const char *text, *parts[2]; } cases[] = {
         {"{\"emission\": {\"red\": {\"peaks_nm\": [600], \"fwhm_nm\": [1], \"weights\": [1]}}}",
-         {"/emission/red/fwhm_nm", "wanted a number from 2 to 400"}},
+         {"/emission/red/fwhm_nm", "required: a number from 2 to 400"}},
         {"{\"emission\": {\"red\": {\"peak_nm\": [600]}}}",
          {"/emission/red/peak_nm", "nearest known one is 'peaks_nm'"}},
         {"{\"emission\": {\"red\": {\"peaks_nm\": [600, 610], \"fwhm_nm\": [10],"
@@ -314,15 +314,15 @@ TEST(recipes_name_the_key)
         {"{\"emission\": " PRIMARIES ", \"reflection\": {\"haze_share\": 0.8}, "
          "\"places\": {\"map\": [4, 4], \"haze_slope\": -0.6}}",
          {"/places/haze_slope", "haze_share 0.8 would be 1.04, required: at most 1"}},
-        {RECIPE("45"), {"/polarisation", "wanted an object"}},
+        {RECIPE("45"), {"/polarisation", "required: an object"}},
         {RECIPE("{\"degree\": 1}"), {"/polarisation", "'azimuth_deg' is missing"}},
         {RECIPE("{\"azimuth_deg\": 1}"), {"/polarisation", "'degree' is missing"}},
         {RECIPE("{\"degree\": 1.5, \"azimuth_deg\": 1}"),
-         {"/polarisation/degree", "wanted a number from 0 to 1"}},
+         {"/polarisation/degree", "required: a number from 0 to 1"}},
         {RECIPE("{\"degree\": 1, \"azimuth_deg\": 361}"),
-         {"/polarisation/azimuth_deg", "wanted a number from -360 to 360"}},
+         {"/polarisation/azimuth_deg", "required: a number from -360 to 360"}},
         {RECIPE("{\"degree\": 1, \"angle\": 3}"), {"/polarisation/angle", "unknown key"}},
-        {DIVIDED_RECIPE("\"subpixels\": 3"), {"/subpixels", "wanted an object"}},
+        {DIVIDED_RECIPE("\"subpixels\": 3"), {"/subpixels", "required: an object"}},
         {DIVIDED_RECIPE("\"subpixels\": {\"layout\": \"bayer\"}"),
          {"/subpixels/layout", "is 'bayer', required: another word: there are stripe, "
           "pentile"}},

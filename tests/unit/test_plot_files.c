@@ -266,8 +266,8 @@ TEST(a_wrong_command_line_says_what_is_wanted)
     RUN_FAILS(ERROR_USAGE, "contrast", panel, "-o", svg, "--kind", "luminanz");
     RUN_FAILS(ERROR_USAGE, "wants -o X.svg", panel);
     RUN_FAILS(ERROR_USAGE, ".svg or .png", panel, "-o", fixture_path(&ips, "e.pdf"));
-    RUN_FAILS(ERROR_USAGE, "--size is 20x20, wanted 160 to 20000", panel, "-o", svg, "--size",
-              "20x20");
+    RUN_FAILS(ERROR_USAGE, "--size is 20x20, required: 160 to 20000", panel, "-o", svg,
+              "--size", "20x20");
     RUN_FAILS(ERROR_USAGE, "--measured MANIFEST.json", panel, "-o", svg, "--kind", "fit");
     assert_false(file_exists(svg));
 }
@@ -276,7 +276,8 @@ TEST(what_a_panel_lacks_is_said)
 {
     const char *panel = reflects_nothing.panel_path;
     const char *svg = fixture_path(&reflects_nothing, "e.svg");
-    RUN_FAILS(ERROR_INPUT, "has no reflection data, wanted for --kind brdf-map", panel, "-o",
+    RUN_FAILS(ERROR_INPUT, "has no reflection data, which is required for --kind brdf-map",
+              panel, "-o",
               svg, "--kind", "brdf-map");
     assert_string_equal(why()->file, panel);
     RUN_FAILS(ERROR_INPUT, "its black emits nothing", panel, "-o", svg, "--kind", "contrast");
@@ -299,7 +300,8 @@ TEST(a_panel_that_only_reflects_is_drawn)
     assert_done(fixture_try(&ips, manifest, &options, panel, NULL, NULL, &err));
     RUN_OK(panel, "-o", svg, "--measured", manifest);
     REPORT_OK(panel, "-o", fixture_path(&ips, "paper.html"), "--measured", manifest);
-    RUN_FAILS(ERROR_INPUT, "has no emission data, wanted for --kind sections", panel, "-o", svg,
+    RUN_FAILS(ERROR_INPUT, "has no emission data, which is required for --kind sections", panel,
+              "-o", svg,
               "--kind", "sections");
 }
 

@@ -52,7 +52,7 @@ TEST(total_reflection_puts_the_waves_out_of_step)
         /* Where nothing is out of step the fields mirror: s and p have opposite signs. */
         double found = acos(-fmin(fmax((double)w.along, -1), 1));
         if (fabs(found - wanted) > 1e-3 && fabs(found - (PI - wanted)) > 1e-3)
-            fail_msg("%d degrees: out of step by %.5f, wanted %.5f", degrees, found, wanted);
+            fail_msg("%d degrees: out of step by %.5f, required: %.5f", degrees, found, wanted);
         assert_true(fabs((double)(w.along * w.along + w.turned * w.turned) - 1) < 1e-5);
     }
 }

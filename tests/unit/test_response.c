@@ -269,7 +269,7 @@ TEST(a_sun_in_a_display_is_as_bright_as_its_mirror_says)
             mirror_sum(world.panel, (float)c) * distance * distance / (c * 0.4 * 0.2);
         squares += (sum / wanted - 1) * (sum / wanted - 1);
         if (!(fabs(sum / wanted - 1) < 0.025))
-            fail_msg("sun %d: %g, wanted %g", i, sum, wanted);
+            fail_msg("sun %d: %g, required: %g", i, sum, wanted);
     }
     double rms = sqrt(squares / SUNS);
     if (!(rms < 0.01)) fail_msg("rms %g", rms);

@@ -91,9 +91,10 @@ TEST(displays_that_are_none_are_told)
         {"clustr", "there is no display 'clustr': did you mean cluster?"},
         {"node:dail", "there is no display 'node:dail': did you mean node:dial?"},
         {"node:seat", "there is no display 'node:seat'"},
-        {"plain", "'plain' has no panel, wanted a display: "},
-        {"bare", "'bare' has no panel, wanted a measured display"},
-        {"screen", "'screen' is worn by several nodes, wanted one of them: 'node:screen left', "
+        {"plain", "'plain' has no panel, required: a display: "},
+        {"bare", "'bare' has no panel, required: a measured display"},
+        {"screen", "'screen' is worn by several nodes, required: one of them: 'node:screen "
+                   "left', "
                    "'node:screen right'"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
@@ -105,7 +106,7 @@ TEST(displays_that_are_none_are_told)
     Arena         arena = test_arena(state);
     ReviewDisplay found;
     assert_fails_as(review_display_find(&(Scene){0}, "x", &arena, &found, &err), ERROR_INPUT,
-                    "the scene has no display, wanted a material with a panel");
+                    "the scene has no display, required: a material with a panel");
 }
 
 ARENA_TEST(cameras_are_found_by_name_and_index)
@@ -120,9 +121,9 @@ ARENA_TEST(cameras_are_found_by_name_and_index)
     assert_fails_as(review_camera_find(scene, &named, arena, &id, &err), ERROR_INPUT,
                     "there is no camera 'eey': did you mean eye?");
     assert_fails_as(review_camera_find(scene, &counted, arena, &id, &err), ERROR_INPUT,
-                    "there is no camera 3, wanted one of the scene's 3, counted from 0");
+                    "there is no camera 3, required: one of the scene's 3, counted from 0");
     assert_fails_as(review_camera_find(&(Scene){0}, &named, arena, &id, &err), ERROR_INPUT,
-                    "the scene has no camera, wanted 'position_m'");
+                    "the scene has no camera, required: 'position_m'");
 }
 
 /* ---- a whole request --------------------------------------------------------------------- */
@@ -153,7 +154,7 @@ TEST(what_does_not_fit_is_told_with_its_place)
         {"'camera':'eye'", "'camera':'ear'", "/eyes/driver/camera", "there is no camera 'ear'"},
         {"'camera':1", "'camera':7", "/eyes/second/camera", "there is no camera 7"},
         {"'camera':1", "'camera':2", "/eyes/second/camera",
-         "is an orthographic camera, wanted a perspective one"},
+         "is an orthographic camera, required: a perspective one"},
         {"'display':'cluster'", "'display':'clutter'", "/symbols/speed/display",
          "there is no display 'clutter': did you mean cluster?"},
         {"'cluster':0.1", "'bare':0.1", "/levels/night/bare", "'bare' has no panel"},
@@ -184,7 +185,7 @@ ARENA_TEST(a_symbol_wants_content)
     assert_int_equal(problems.error_count, 2); /* speed has a content of its own */
     assert_string_equal(problems.list[0].path, "/symbols/text/display");
     assert_text_has(problems.list[0].message,
-                    "shows no content in the scene, wanted 'content'");
+                    "shows no content in the scene, required: 'content'");
 }
 
 /* ---- a file to start from ---------------------------------------------------------------- */
@@ -234,7 +235,7 @@ ARENA_TEST(a_file_to_start_from_is_read_back)
     }
     assert_false(begin(scene, output, &arena, why())); /* nothing is overwritten */
     assert_int_equal(why()->code, ERROR_OUTPUT);
-    assert_error_has(why(), "is there already, wanted the name of a new file");
+    assert_error_has(why(), "is there already, required: the name of a new file");
     unlink(output);
 }
 
@@ -249,7 +250,7 @@ ARENA_TEST(a_folder_beside_the_scenes_will_do)
     assert_done(begin(make_scene(&arena), near, &arena, &err));
     assert_done(review_request_read(near, NULL, &arena, &problems, &r, &err));
     assert_fails_as(begin(make_scene(&arena), far, &arena, &err), ERROR_INPUT,
-                    "lies outside the parent of the new file's folder, wanted");
+                    "lies outside the parent of the new file's folder, required:");
     assert_false(file_exists(far));
     assert_false(begin_with_root(make_scene(&arena), far, in_folder("one"), &arena, why()));
     assert_false(file_exists(far));
@@ -268,10 +269,10 @@ ARENA_TEST(a_scene_without_eyes_or_displays_has_no_start)
     const char *output = in_folder("none.review.json");
     scene->display_count = 0;
     assert_fails_as(begin(scene, output, &arena, &err), ERROR_INPUT,
-                    "has no display that shows content, wanted one to review");
+                    "has no display that shows content, required: one to review");
     scene->camera_count = 0;
     assert_fails_as(begin(scene, output, &arena, &err), ERROR_INPUT,
-                    "has no perspective camera, wanted one where an eye is");
+                    "has no perspective camera, required: one where an eye is");
     assert_false(file_exists(output));
 }
 

@@ -267,22 +267,22 @@ static void assert_refused(const char *from, const char *to, const char *path, c
 
 TEST(a_foreign_json_is_refused_in_one_line)
 {
-    assert_refused("\"pass\": false", "\"pass\": 1", "/pass", "wanted true or false");
+    assert_refused("\"pass\": false", "\"pass\": 1", "/pass", "required: true or false");
     assert_refused("\"strict\": false,", "", "", "key 'strict' is missing");
     assert_refused("\"ambient\": \"night\"", "\"ambient\": \"nigth\"", "/cases/0/ambient",
                    "did you mean night?");
     assert_refused("\"contrast_interval\": [", "\"contrast_interval\": [7, ",
-                   "/cases/0/contrast_interval", "wanted [low, high]");
+                   "/cases/0/contrast_interval", "required: [low, high]");
     assert_refused("\"limit\": {", "\"limit\": {\"x\": 1, ", "/cases/0/limit",
                    "one of 'limits'");
     assert_refused("\"foreground\": ", "\"foreground\": \"\", \"x\": ",
-                   "/cases/0/luminance_cd_m2/foreground", "is a text, wanted a number");
+                   "/cases/0/luminance_cd_m2/foreground", "is a text, required: a number");
     assert_refused("\"chain\": [", "\"chain\": [4, ", "/cases/0/causes/0/chain", "only texts");
     assert_refused("\"hidden_by\": []", "\"hidden_by\": [{\"what\": 3}]",
-                   "/cases/0/hidden_by/0/what", "wanted a text");
+                   "/cases/0/hidden_by/0/what", "required: a text");
     assert_refused("\"basis\": \"given\"", "\"basis\": \"giver\"", "/rests_on/3/basis",
                    "did you mean given?");
-    assert_refused("\"cases\": [", "\"cases\": [null, ", "/cases/0", "wanted an object");
+    assert_refused("\"cases\": [", "\"cases\": [null, ", "/cases/0", "required: an object");
     assert_refused("\"pass\"", "pass", "line 2", "not valid JSON");
 }
 

@@ -19,7 +19,7 @@ TEST(pictures_go_into_the_page_as_they_stand)
     assert_string_equal(why()->file, file);
     shown.file = "frame.exr";
     assert_fails_as(review_page_write(&page, path, &err), ERROR_INPUT,
-                    "wanted a picture ending in .png or .jpg");
+                    "required: a picture ending in .png or .jpg");
     remove(path);
 }
 

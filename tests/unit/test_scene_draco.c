@@ -205,9 +205,9 @@ TEST_WITH(members_that_do_not_fit_are_told, maker_reset, NULL)
     s.ids = "'POSITION':7";
     assert_told(&s, "the packed mesh has no attribute 7");
     s = WHOLE, s.ids = "'POSITION':2";
-    assert_told(&s, "attribute 2 of the packed mesh has 2 components, 3 are wanted");
+    assert_told(&s, "attribute 2 of the packed mesh has 2 components, 3 are required");
     s = WHOLE, s.ids = "'POSITION':0,'COLOR_0':-1";
-    assert_told(&s, "the id of an attribute is wanted");
+    assert_told(&s, "the id of an attribute is required");
     s = WHOLE, s.ids = "'POSITION':0,'TANGENT':1";
     assert_told(&s, "the primitive has no TANGENT");
     s = WHOLE, s.ids = "'NORMAL':1";
@@ -225,7 +225,7 @@ TEST_WITH(headers_are_refused_before_anything_is_unpacked, maker_reset, NULL)
         int at, value;
         const char *text;
     } CHANGES[] = {{0, 'd', "are no Draco mesh"},
-                   {6, 1, "bitstream is 2.1, 2.2 is wanted"},
+                   {6, 1, "bitstream is 2.1, 2.2 is required"},
                    {7, 0, "are no mesh, but points"}};
     for (size_t i = 0; i < sizeof CHANGES / sizeof *CHANGES; i++) {
         unsigned char changed[sizeof SEQUENTIAL];

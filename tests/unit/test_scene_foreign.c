@@ -150,7 +150,7 @@ TEST_WITH(component_types_are_named, maker_reset, NULL)
     static const FaultCase CASES[] = {
         {ONE_VIEW "'accessors':[" OF(5124, 2, "SCALAR") "]", "/accessors/0/componentType",
          "is INT (5124), one of BYTE (5120)|UNSIGNED_BYTE (5121)|SHORT (5122)|UNSIGNED_SHORT "
-         "(5123)|UNSIGNED_INT (5125)|FLOAT (5126) is wanted"},
+         "(5123)|UNSIGNED_INT (5125)|FLOAT (5126) is required"},
         {ONE_VIEW "'accessors':[{'bufferView':0,'componentType':5121,'count':2,'type':'SCALAR',"
          "'max':[300]}]", "/accessors/0/max/0", "which component type UNSIGNED_BYTE (5121)"},
         {ONE_VIEW "'accessors':[" FLOATS(0, 3, "VEC3") "," OF(5122, 3, "SCALAR") "],"

@@ -236,7 +236,7 @@ TEST_WITH(a_solid_that_is_half_clear_is_told, maker_reset, NULL)
     assert_int_equal(found.problems.count, 1);
     assert_true(maker_find(&found, "/materials/0/extensions/KHR_materials_transmission"
                                    "/transmissionFactor",
-                           "transmissionFactor 1 is wanted"));
+                           "transmissionFactor 1 is required"));
 }
 
 /* A triangle, and whether it has texture coordinates. */

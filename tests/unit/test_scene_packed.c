@@ -258,13 +258,13 @@ static const Wrong WRONGS[] = {
     {{.offset = 40000}, 0, "of a buffer of"},
     {{.size = 1}, 0, "1 packed bytes are too few for 400 elements of 12 bytes"},
     {{.size = 90}, 0, "the packed bytes are no 400 elements of the mode ATTRIBUTES"},
-    {{.mode = "TRIANGLES"}, 0, "is 12, with TRIANGLES 2 or 4 is wanted"},
+    {{.mode = "TRIANGLES"}, 0, "is 12, with TRIANGLES 2 or 4 is required"},
     {{.mode = "LINES"}, 0, "one of ATTRIBUTES|TRIANGLES|INDICES"},
-    {{.filter = "OCTAHEDRAL"}, 0, "is 12, with OCTAHEDRAL 4 or 8 is wanted"},
-    {{.filter = "QUATERNION"}, 0, "is 12, with QUATERNION 8 is wanted"},
+    {{.filter = "OCTAHEDRAL"}, 0, "is 12, with OCTAHEDRAL 4 or 8 is required"},
+    {{.filter = "QUATERNION"}, 0, "is 12, with QUATERNION 8 is required"},
     {{.filter = "COLOR"}, 0, "one of NONE|OCTAHEDRAL|QUATERNION|EXPONENTIAL"},
-    {{.filter = "EXPONENTIAL"}, 1, "with TRIANGLES only NONE is wanted"},
-    {{.count = 2165}, 1, "is 2165, with TRIANGLES a multiple of 3 is wanted"},
+    {{.filter = "EXPONENTIAL"}, 1, "with TRIANGLES only NONE is required"},
+    {{.count = 2165}, 1, "is 2165, with TRIANGLES a multiple of 3 is required"},
 };
 
 /* The packed view as it was, but for what is changed. */

@@ -271,22 +271,22 @@ static const Fault FAULTS[] = {
       ",'matrix':[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]"},
      "/animations/0/channels/0/target", "moves a node that has a matrix"},
     {{"LINEAR", "VEC3", 3, 4, MOVES("translation"), ""},
-     "/animations/0/channels/0", "4 values for 3 key frames, 3 are wanted"},
+     "/animations/0/channels/0", "4 values for 3 key frames, 3 are required"},
     {{"CUBICSPLINE", "VEC3", 3, 3, MOVES("translation"), ""},
-     "/animations/0/channels/0", "3 values for 3 key frames, 9 are wanted"},
+     "/animations/0/channels/0", "3 values for 3 key frames, 9 are required"},
     {{"LINEAR", "VEC4", 3, 3, MOVES("scale"), ""},
      "/animations/0/channels/0", "the values of a scale are VEC4"},
     {{"LINEAR", "VEC4", 3, 3, MOVES("rotation"), ""},
      "/animations/0/channels/0", "is not of length 1"},
     {{"LINEAR", "VEC3", 4, 4, MOVES("translation"), ""},
-     "/animations/0/samplers/0", "time 3 is 0 after 4; times that rise are wanted"},
+     "/animations/0/samplers/0", "time 3 is 0 after 4; times that rise are required"},
     {{"linear", "VEC3", 3, 3, MOVES("translation"), ""},
      "/animations/0/samplers/0/interpolation", "one of LINEAR|STEP|CUBICSPLINE"},
     {{"LINEAR", "VEC3", 3, 3, "'node':5,'path':'translation'", ""},
      "/animations/0/channels/0/target/node", "is 5, but there are 2 in nodes"},
     {{"LINEAR", "SCALAR", 3, 3, POINTS("/nodes/0/extensions/KHR_node_visibility/visible"),
       ",'extensions':{'KHR_node_visibility':{}}"},
-     "/animations/0/channels/0", "the interpolation of visible is LINEAR, STEP is wanted"},
+     "/animations/0/channels/0", "the interpolation of visible is LINEAR, STEP is required"},
 };
 
 TEST_WITH(faults_of_animations_fail_when_they_are_played, maker_reset, NULL)
@@ -460,7 +460,7 @@ TEST_WITH(turns_of_instances_that_are_none_are_named, maker_reset, NULL)
     Found wrong = maker_survey_file(write_instances(&data, sizeof data, "'ROTATION':2"));
     assert_int_equal(wrong.problems.error_count, 1);
     assert_non_null(maker_find(&wrong, place, "the turn of instance 1 is (0, 0, 0.7, 0.7); a "
-                                              "quaternion of length 1 is wanted"));
+                                              "quaternion of length 1 is required"));
     data.turns[6] = 0.7072f; /* rounded: as far as signed bytes are */
     data.turns[7] = 0.7125f;
     Found rounded = maker_survey_file(write_instances(&data, sizeof data, "'ROTATION':2"));

@@ -13,13 +13,13 @@
 
 static const FaultCase FAULTS[] = {
     {DIVIDED("{}"), PLACE "/subpixels", "\"layout\" is missing"},
-    {DIVIDED("'stripe'"), PLACE "/subpixels", "is \"stripe\", an object is wanted"},
+    {DIVIDED("'stripe'"), PLACE "/subpixels", "is \"stripe\", an object is required"},
     {DIVIDED("{'layout':'delta'}"), PLACE "/subpixels/layout",
-     "is \"delta\", one of stripe|pentile|none is wanted"},
+     "is \"delta\", one of stripe|pentile|none is required"},
     {DIVIDED("{'layout':3}"), PLACE "/subpixels/layout",
-     "is 3, one of stripe|pentile|none is wanted"},
+     "is 3, one of stripe|pentile|none is required"},
     {DIVIDED("{'layout':'stripe','fill':0}"), PLACE "/subpixels/fill",
-     "is 0, a number from 0.01 to 1 is wanted"},
+     "is 0, a number from 0.01 to 1 is required"},
     {DIVIDED("{'layout':'stripe','fill':1.5}"), PLACE "/subpixels/fill",
      "is 1.5, a number from 0.01 to 1"},
     {DIVIDED("{'layout':'stripe','fill':'full'}"), PLACE "/subpixels/fill", "is \"full\", a n"},

@@ -138,7 +138,8 @@ static void check_cell(const World *world, const Place *place, int sheets, int c
     for (size_t e = 0; e < sizeof eyes / sizeof *eyes; e++) {
         double seen = look(world, eyes[e], spot, 2).mean;
         if (fabs(seen - (double)wanted) > 0.03 * (double)wanted)
-            fail_msg("%d sheets, cell %d, eye %zu: %g cd/m2, wanted %g", sheets, cell, e, seen,
+            fail_msg("%d sheets, cell %d, eye %zu: %g cd/m2, required: "
+                     "%g", sheets, cell, e, seen,
                      (double)wanted);
     }
     Vec3 image = at(place, x, y, 12);

@@ -310,16 +310,18 @@ TEST(a_bad_curve_file_is_refused_with_its_line)
     } cases[] = {
         {"", "no rows of nm,value"},
         {"nm,value\n", "no rows of nm,value"},
-        {"nm,value\n400,1\n400,2\n", "line 3: wavelength 400 nm after 400 nm: wanted rising"},
-        {"nm,value\nfour,1\n", "line 2: found \"four,1\", wanted two numbers: nm,value"},
-        {"400,1\n500\n", "line 2: found \"500\", wanted two numbers"},
-        {"400,1,\n500,1\n", "line 1: found \"400,1,\", wanted two numbers"},
-        {" 400\n500,1\n", "line 1: found \" 400\", wanted two numbers"},
+        {"nm,value\n400,1\n400,2\n", "line 3: wavelength 400 nm after 400 nm: required: "
+                                     "rising"},
+        {"nm,value\nfour,1\n", "line 2: found \"four,1\", required: two numbers: nm,value"},
+        {"400,1\n500\n", "line 2: found \"500\", required: two numbers"},
+        {"400,1,\n500,1\n", "line 1: found \"400,1,\", required: two numbers"},
+        {" 400\n500,1\n", "line 1: found \" 400\", required: two numbers"},
         {"0.4,1\n0.7,2\n", "wavelengths from 0.4 to 0.7 nm, required from 400 to 700"},
         {"900,1\n1e3,2\n", "wavelengths from 900 to 1000 nm, required from 400 to 700"},
-        {"400,nan\n", "line 1: wavelength 400 nm with value nan: wanted finite numbers"},
-        {"-5,1\n", "line 1: wavelength -5 nm with value 1: wanted finite numbers, nm above 0"},
-        {"400,1e31\n", "value 1e+31: wanted finite numbers, nm above 0, up to 1e+12"},
+        {"400,nan\n", "line 1: wavelength 400 nm with value nan: required: finite numbers"},
+        {"-5,1\n", "line 1: wavelength -5 nm with value 1: required: finite numbers, nm above "
+                   "0"},
+        {"400,1e31\n", "value 1e+31: required: finite numbers, nm above 0, up to 1e+12"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         static Curve curve;
@@ -343,8 +345,8 @@ TEST(a_value_out_of_range_is_refused_with_its_line)
     char         line[2048];
     const char  *text = "nm,value\n400,0.5\n500,1.25\n600,-0.1\n700,0\n";
     static const char *const MESSAGES[] = {
-        [CURVE_AMOUNTS] = "x.csv: line 4: holds -0.1; 0 or more is wanted",
-        [CURVE_SHARES] = "x.csv: line 3: holds 1.25; 0 to 1 is wanted"};
+        [CURVE_AMOUNTS] = "x.csv: line 4: holds -0.1; 0 or more is required",
+        [CURVE_SHARES] = "x.csv: line 3: holds 1.25; 0 to 1 is required"};
     assert_done(curve_parse(text, "x.csv", CURVE_NUMBERS, &curve, NULL, &err));
     for (int range = CURVE_AMOUNTS; range <= CURVE_SHARES; range++) {
         assert_false(curve_parse(text, "x.csv", (CurveRange)range, &curve, NULL, why()));
@@ -367,9 +369,9 @@ TEST(a_file_of_indices_has_three_columns_and_is_refused_with_its_line)
         const char *text, *message;
     } cases[] = {
         {"nm,n,k\n", "no rows of nm,n,k"},
-        {"nm,n,k\n400,1\n", "line 2: found \"400,1\", wanted three numbers: nm,n,k"},
-        {"400,1,0,2\n500,1,0,2\n", "line 1: found \"400,1,0,2\", wanted three numbers"},
-        {"400,-1,2\n", "line 1: wavelength 400 nm with n -1 and k 2: wanted nm above 0, n"},
+        {"nm,n,k\n400,1\n", "line 2: found \"400,1\", required: three numbers: nm,n,k"},
+        {"400,1,0,2\n500,1,0,2\n", "line 1: found \"400,1,0,2\", required: three numbers"},
+        {"400,-1,2\n", "line 1: wavelength 400 nm with n -1 and k 2: required: nm above 0, n"},
         {"400,1,-2\n", "with n 1 and k -2"},
         {"400,0,0\n", "not both 0"},
         {"400,101,0\n", "from 0 to 100"},

@@ -268,7 +268,7 @@ ARENA_TEST(frames_that_do_not_tell_their_noise_are_refused)
     b = make_frame(&maker, &arena);
     b.data = (ExrWindow){1, 0, WIDTH + 1, HEIGHT};
     assert_refused(&a, &b, "b.exr",
-                   "holds pixels 1,0,49,32, the reference 0,0,48,32: wanted the same");
+                   "holds pixels 1,0,49,32, the reference 0,0,48,32: required: the same");
 }
 
 TEST_PROGRAM(make_arena, drop_arena)

@@ -320,7 +320,7 @@ TEST(what_is_no_eye_is_refused)
         assert_true(eye.age_years == 1 && eye.pigment == 2);
         assert_int_equal(why()->code, ERROR_USAGE);
         assert_true(strstr(why()->text, WRONG[i]) == why()->text);
-        assert_non_null(strstr(why()->text, "wanted AGE or AGE,PIGMENT: 10 to 100 years"));
+        assert_non_null(strstr(why()->text, "required: AGE or AGE,PIGMENT: 10 to 100 years"));
     }
 }
 

@@ -31,7 +31,7 @@ bool read_counts(draco::DecoderBuffer *in, Counts *out, Error *err)
               in->Decode(&method) && in->Decode(&flags);
     if (!ok) return error_set(err, ERROR_INPUT, "the packed bytes are no Draco mesh");
     if (major != 2 || minor != 2)
-        return error_set(err, ERROR_INPUT, "Draco's bitstream is %d.%d, 2.2 is wanted", major,
+        return error_set(err, ERROR_INPUT, "Draco's bitstream is %d.%d, 2.2 is required", major,
                          minor);
     if (type != draco::TRIANGULAR_MESH)
         return error_set(err, ERROR_INPUT, "Draco's bytes are no mesh, but points");
@@ -93,7 +93,7 @@ extern "C" bool draco_mesh_decode(const void *bytes, size_t size, size_t most_tr
         if (counts.triangles > most_triangles || counts.vertices > most_vertices)
             return error_set(err, ERROR_INPUT,
                              "%u triangles and %u vertices are packed, at most %zu and %zu are "
-                             "wanted", counts.triangles, counts.vertices, most_triangles,
+                             "required", counts.triangles, counts.vertices, most_triangles,
                              most_vertices);
         draco::Decoder decoder;
         auto found = decoder.DecodeMeshFromBuffer(&all);
@@ -139,7 +139,8 @@ extern "C" bool draco_mesh_values(const DracoMesh *mesh, uint32_t id, int compon
             return error_set(err, ERROR_INPUT, "the packed mesh has no attribute %u", id);
         if (attribute->num_components() != components)
             return error_set(err, ERROR_INPUT,
-                             "attribute %u of the packed mesh has %d components, %d are wanted",
+                             "attribute %u of the packed mesh has %d components, %d are "
+                             "required",
                              id, attribute->num_components(), components);
         return convert_to(component_type, *mesh->mesh, *attribute, components, out) ||
                error_set(err, ERROR_INPUT,

@@ -169,7 +169,7 @@ static bool connect(ViewTransform *t, const ViewRequest *request, Error *err)
             return error_at(err, ERROR_INPUT, request->config_path, "",
                             "has no role aces_interchange and no scene-referred "
                             "cie_xyz_d65_interchange, so that the meaning of its colours "
-                            "cannot be told; one of them is wanted");
+                            "cannot be told; one of them is required");
         }
         auto own = OCIO::Config::CreateFromStream(text);
         t->to_config = own->getProcessor("Linear Rec.709", own_name)->getDefaultCPUProcessor();

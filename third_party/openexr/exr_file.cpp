@@ -138,13 +138,13 @@ static bool describe(ExrReader *reader, Error *err)
 {
     const Imf::Header &header = reader->file->header(0);
     if (header.hasType() && header.type().rfind("deep", 0) == 0)
-        return error_set(err, ERROR_INPUT, "a deep picture, a flat one is wanted");
+        return error_set(err, ERROR_INPUT, "a deep picture, a flat one is required");
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
         if (c.channel().xSampling != 1 || c.channel().ySampling != 1 ||
             is_one_of(c.name(), {"RY", "BY"}))
             return error_set(err, ERROR_INPUT,
                              "channel %s is sampled every %d x %d pixels (luminance-chroma "
-                             "coding), one value for each pixel is wanted",
+                             "coding), one value for each pixel is required",
                              c.name(), c.channel().xSampling, c.channel().ySampling);
         reader->channels.push_back({c.name(), c.channel().type == Imf::UINT, nullptr});
     }

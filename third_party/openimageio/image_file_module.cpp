@@ -61,7 +61,7 @@ static bool open_input(ImageDecoder *decoder, const char *format, const char *na
     }
     if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1) {
         return error_set(err, ERROR_INPUT,
-                         "%d x %d x %d pixels of %d channels, a flat picture is wanted",
+                         "%d x %d x %d pixels of %d channels, a flat picture is required",
                          spec.width, spec.height, spec.depth, spec.nchannels);
     }
     ImageFileInfo *info = &decoder->info;

@@ -106,7 +106,7 @@ static bool check_name(const Equip *equip, const Scene *scene, const char *name,
     if (!is_in_model(scene, name)) return true;
     snprintf(path, sizeof path, "%.200s/name", place);
     return error_at(err, ERROR_INPUT, equip->file, path,
-                    "is '%.60s', which the model has already, wanted a new name", name);
+                    "is '%.60s', which the model has already, required: a new name", name);
 }
 
 static bool check_names(const Equip *equip, const Scene *scene, Error *err)
@@ -146,10 +146,11 @@ static bool check_output(const Applying *at, const char *path, Error *err)
     for (int i = 0; i < scene->input_count; i++)
         is_read |= file_is_same(path, scene->inputs[i]);
     if (is_read)
-        return error_at(err, ERROR_OUTPUT, path, "", "is read, wanted the name of a new file");
+        return error_at(err, ERROR_OUTPUT, path, "", "is read, required: the name of a new "
+                                                     "file");
     if (!order->overwrites && file_exists(path))
         return error_at(err, ERROR_OUTPUT, path, "",
-                        "is there already, wanted the name of a new file, or --overwrite");
+                        "is there already, required: the name of a new file, or --overwrite");
     return file_check_writable(path, err);
 }
 

@@ -48,7 +48,7 @@ static bool square(const JsonView *view, EquipDisplay *display, Error *err)
     double  along = r[0] * u[0] + r[1] * u[1] + r[2] * u[2], length = 0;
     if (fabs(along) > SQUARE)
         return field_fails(view, "up", err,
-                           "stands at %.4g degrees to \"right\", wanted 90",
+                           "stands at %.4g degrees to \"right\", required: 90",
                            acos(along) * 180 / M_PI);
     for (int i = 0; i < 3; i++) u[i] -= along * r[i];
     for (int i = 0; i < 3; i++) length += u[i] * u[i];
@@ -233,7 +233,7 @@ static bool read_displays(const JsonView *root, Equip *out, Error *err)
             !read_display(&view, &list[i], err))
             return false;
         if (is_taken(out, i, 0, list[i].name))
-            return field_fails(&view, "name", err, "is '%.60s' once more, wanted a new name",
+            return field_fails(&view, "name", err, "is '%.60s' once more, required: a new name",
                                list[i].name);
     }
     out->display_count = count;
@@ -252,10 +252,10 @@ static bool find_target(const JsonView *view, const Equip *equip, EquipEye *eye,
         return position(view, "target_m", eye->target_m, err);
     if (json_object_get(view->object, "target_m"))
         return field_fails(view, "target_m", err,
-                           "stands beside \"looks_at\", wanted one of the two");
+                           "stands beside \"looks_at\", required: one of the two");
     if (!words.count)
         return field_fails(view, "looks_at", err,
-                           "names a display where there is none, wanted \"target_m\"");
+                           "names a display where there is none, required: \"target_m\"");
     if (!field_choice(view, "looks_at", words, &id, err)) return false;
     memcpy(eye->target_m, equip->displays[id].centre_m, sizeof eye->target_m);
     return true;
@@ -284,7 +284,8 @@ static bool read_eye(const JsonView *view, const Equip *equip, EquipEye *out, Er
     double way = 0;
     for (int i = 0; i < 3; i++) way += pow(out->target_m[i] - out->position_m[i], 2);
     return sqrt(way) >= NEAR_M ||
-           field_fails(view, "position_m", err, "is where it looks at, wanted another place");
+           field_fails(view, "position_m", err, "is where it looks at, required: another "
+                                                "place");
 }
 
 static bool read_eyes(const JsonView *root, Equip *out, Error *err)
@@ -303,7 +304,7 @@ static bool read_eyes(const JsonView *root, Equip *out, Error *err)
             !read_eye(&view, out, &list[i], err))
             return false;
         if (is_taken(out, out->display_count, i, list[i].name))
-            return field_fails(&view, "name", err, "is '%.60s' once more, wanted a new name",
+            return field_fails(&view, "name", err, "is '%.60s' once more, required: a new name",
                                list[i].name);
     }
     out->eye_count = count;
@@ -360,7 +361,7 @@ static bool read_materials(const JsonView *root, Equip *out, Error *err)
             return false;
         for (int j = 0; j < i; j++)
             if (list[j].index == list[i].index)
-                return field_fails(&view, "index", err, "is %d once more, wanted each once",
+                return field_fails(&view, "index", err, "is %d once more, required: each once",
                                    list[i].index);
     }
     out->material_count = count;
@@ -389,7 +390,8 @@ static bool read_place(const JsonView *root, Equip *out, Error *err)
         return false;
     return (fabs(where[0]) <= 90 && fabs(where[1]) <= 180) ||
            field_fails(&view, "where", err,
-                       "is %g, %g: wanted a latitude of -90 to 90 and a longitude of -180 to "
+                       "is %g, %g: required: a latitude of -90 to 90 and a longitude of -180 "
+                       "to "
                        "180 degrees",
                        where[0], where[1]);
 }
@@ -413,7 +415,7 @@ static bool read_forward(const JsonView *root, Equip *out, Error *err)
     out->forward_is_proposed = !is_given;
     return hypot(out->forward[0], out->forward[2]) > VERTICAL ||
            field_fails(root, "forward", err,
-                       "is vertical, wanted where the vehicle points");
+                       "is vertical, required: where the vehicle points");
 }
 
 static bool read_occupant(const JsonView *root, Equip *out, Error *err)
@@ -449,7 +451,7 @@ static bool read_profile(const JsonView *root, Equip *out, Error *err)
     if (!strchr(out->profile, '/') && !strchr(out->profile, '.') &&
         profile_load(out->profile, root->arena, &profile, &why))
         return true;
-    return field_fails(root, "profile", err, "is '%.60s', wanted one of %s", out->profile,
+    return field_fails(root, "profile", err, "is '%.60s', required: one of %s", out->profile,
                        profile_names(root->arena));
 }
 

@@ -364,7 +364,7 @@ static bool check_region(const ExplainWords *words, Error *err)
                              "--region: %g is no edge of a pixel of a picture of %dx%d", r[i],
                              size[0], size[1]);
     return (r[0] < r[2] && r[1] < r[3]) ||
-           error_set(err, ERROR_USAGE, "--region: wanted X0 < X1 and Y0 < Y1");
+           error_set(err, ERROR_USAGE, "--region: required: X0 < X1 and Y0 < Y1");
 }
 
 static bool read_eye(ExplainWords *words, Error *err)
@@ -373,7 +373,7 @@ static bool read_eye(ExplainWords *words, Error *err)
     if (!words->eye) return true;
     camera->has_eye = cli_numbers(words->eye, 3, camera->eye);
     return camera->has_eye ||
-           error_set(err, ERROR_USAGE, "--eye %s: of a scene wanted X,Y,Z in metres",
+           error_set(err, ERROR_USAGE, "--eye %s: required of a scene: X,Y,Z in metres",
                      words->eye);
 }
 
@@ -388,13 +388,13 @@ static bool read_scene(ExplainWords *words, Arena *arena, Error *err)
                          of_review);
     if (asked != 1)
         return error_set(err, ERROR_USAGE,
-                         "wanted one of --display NAME, --pixel X,Y, --region X0,Y0,X1,Y1: "
+                         "required: one of --display NAME, --pixel X,Y, --region X0,Y0,X1,Y1: "
                          "what of the scene is to be explained?");
     if (!render_check_size(&scene->camera, words->has_size, scene->size, err)) return false;
     if (words->has_uv && !scene->display)
         return error_set(err, ERROR_USAGE, "--uv: of which --display?");
     if (!(scene->uv[0] < scene->uv[2] && scene->uv[1] < scene->uv[3]))
-        return error_set(err, ERROR_USAGE, "--uv: wanted L < R and T < B");
+        return error_set(err, ERROR_USAGE, "--uv: required: L < R and T < B");
     if (words->has_pixel)
         for (int i = 0; i < 4; i++) scene->region[i] = words->pixel[i % 2] + (int)(i / 2);
     return (scene->display || check_region(words, err)) && read_eye(words, err) &&
@@ -503,7 +503,7 @@ static bool read_sun(const char *text, double out_deg[2], Error *err)
 {
     return (cli_numbers(text, 2, out_deg) && fabs(out_deg[0]) <= 720 && out_deg[1] >= -18 &&
             out_deg[1] <= 90) ||
-           error_set(err, ERROR_USAGE, "--sun %s: wanted AZ,EL in degrees, the azimuth of "
+           error_set(err, ERROR_USAGE, "--sun %s: required: AZ,EL in degrees, the azimuth of "
                      "the vehicle: 0 ahead, 90 right; the elevation from -18 to 90", text);
 }
 
@@ -560,7 +560,7 @@ static bool run(int argc, char **argv, Arena *arena, Error *err)
         return false;
     if (words.outlook && !explained.has_outlook)
         return error_set(err, ERROR_INPUT, "--outlook %s: the eye meets no surface there, "
-                         "wanted one to look out from", words.outlook);
+                         "required: one to look out from", words.outlook);
     cli_print_warnings(&problems);
     return (!words.rays || ray_file_write(&explained.of, words.rays, err)) &&
            write_outlook(&words, &explained, arena, err) &&

@@ -94,7 +94,7 @@ static bool check_format(const JsonView *view, Error *err)
     if (!json_view_text(view, "format", &format, err)) return false;
     if (strcmp(format, FORMAT) != 0)
         return error_at(err, ERROR_INPUT, view->file, "/format",
-                        "is '%.80s', wanted '" FORMAT "' — it is no job that was shared by "
+                        "is '%.80s', required: '" FORMAT "' — it is no job that was shared by "
                         "`parhelion render --slurm N` or `parhelion review --slurm N`",
                         format);
     if (!json_view_number(view, "version", 0, 1e6, &version, err)) return false;
@@ -111,7 +111,7 @@ static bool read_list(const JsonView *view, const char *key, int least, int most
     int count = (int)json_array_size(list);
     if (count < least || count > most)
         return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                        "has %d items, wanted %d to %d", count, least, most);
+                        "has %d items, required: %d to %d", count, least, most);
     *out = list;
     return true;
 }
@@ -142,9 +142,9 @@ static bool read_wholes(const JsonView *view, const char *key, int count, double
     for (int i = 0; i < found; i++)
         if (out[i] != (double)(long)out[i])
             return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                            "is %g, wanted whole numbers", out[i]);
+                            "is %g, required: whole numbers", out[i]);
     return found == count || error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                                      "has %d values, wanted %d", found, count);
+                                      "has %d values, required: %d", found, count);
 }
 
 static bool check_index(const JsonView *view, int index, Error *err)
@@ -153,7 +153,7 @@ static bool check_index(const JsonView *view, int index, Error *err)
     return json_view_number(view, "index", 0, JOB_PARTS_MAX, &number, err) &&
            (number == index ||
             error_at(err, ERROR_INPUT, view->file, json_view_path(view, "index"),
-                     "is %g, wanted %d", number, index));
+                     "is %g, required: %d", number, index));
 }
 
 /* Reads a part of a frame. */
@@ -165,11 +165,11 @@ static bool read_part(const JsonView *view, const SharedJob *job, JobPart *out, 
         return false;
     if (samples[0] >= samples[1])
         return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "samples"),
-                        "is %g to %g, wanted a range", samples[0], samples[1]);
+                        "is %g to %g, required: a range", samples[0], samples[1]);
     if (crop[0] >= crop[2] || crop[1] >= crop[3] || crop[2] > job->width ||
         crop[3] > job->height)
         return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "crop"),
-                        "wanted X0,Y0,X1,Y1 inside the frame of %dx%d pixels", job->width,
+                        "required: X0,Y0,X1,Y1 inside the frame of %dx%d pixels", job->width,
                         job->height);
     *out = (JobPart){{(int)crop[0], (int)crop[1], (int)crop[2], (int)crop[3]},
                      (uint32_t)samples[0], (uint32_t)samples[1]};
@@ -202,7 +202,7 @@ static bool read_folder(const JsonView *view, const char *key, const char **out,
     return json_view_text(view, key, out, err) &&
            ((*out)[0] == '/' ||
             error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                     "is '%.200s', wanted a path from the root", *out));
+                     "is '%.200s', required: a path from the root", *out));
 }
 
 static bool read_kind(const JsonView *view, JobKind *out, Error *err)
@@ -214,7 +214,7 @@ static bool read_kind(const JsonView *view, JobKind *out, Error *err)
     for (*out = JOB_FRAME; *out < JOB_KINDS; (*out)++)
         if (!strcmp(kind, job_kind_names[*out])) return true;
     return error_at(err, ERROR_INPUT, view->file, "/kind",
-                    "is '%.80s', wanted 'frame' or 'review'", kind);
+                    "is '%.80s', required: 'frame' or 'review'", kind);
 }
 
 /* Reads what only a frame's job has. */

@@ -37,7 +37,7 @@ static bool check_text(const char *text, Arena scratch, Error *err)
 {
     return !strcmp(arena_printable(&scratch, text), text) ||
            error_set(err, ERROR_USAGE,
-                     "'%.200s' cannot be kept in a job: wanted UTF-8 without control "
+                     "'%.200s' cannot be kept in a job: required: UTF-8 without control "
                      "characters",
                      text);
 }

@@ -117,7 +117,7 @@ static bool check_file(const SharedJob *job, const JobPart *wanted, const FilmPa
         part->first_sample != wanted->first_sample)
         return error_set(err, ERROR_INPUT, "is another part of the frame");
     return part->end_sample == wanted->end_sample ||
-           error_set(err, ERROR_INPUT, "has samples %u:%u, wanted %u:%u", part->first_sample,
+           error_set(err, ERROR_INPUT, "has samples %u:%u, required: %u:%u", part->first_sample,
                      part->end_sample, wanted->first_sample, wanted->end_sample);
 }
 

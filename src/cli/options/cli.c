@@ -58,7 +58,8 @@ bool cli_name_value(const char *option, const char *text, Arena *arena, const ch
 {
     const char *equals = strchr(text, '=');
     if (!equals || equals == text || !equals[1])
-        return error_set(err, ERROR_USAGE, "%s %s: wanted NAME=VALUE, both not empty", option,
+        return error_set(err, ERROR_USAGE, "%s %s: required: NAME=VALUE, both not "
+                                           "empty", option,
                          text);
     *name = arena_string(arena, text, (size_t)(equals - text));
     *value = equals + 1;
@@ -84,7 +85,8 @@ static bool has_limits(const Option *option)
 static bool bad_value(const Parser *in, const Option *option, const char *text,
                       const char *wanted)
 {
-    return error_set(in->err, ERROR_USAGE, "%s %s: wanted %s (%s)", option->name, text, wanted,
+    return error_set(in->err, ERROR_USAGE, "%s %s: required: %s "
+                                           "(%s)", option->name, text, wanted,
                      option->value);
 }
 
@@ -103,9 +105,9 @@ static bool inside_limits(const Parser *in, const Option *option, double value)
     print_number(low, option->low);
     print_number(high, option->high);
     if (isinf(option->high))
-        return error_set(in->err, ERROR_USAGE, "%s: %s is out of range, wanted at least %s",
+        return error_set(in->err, ERROR_USAGE, "%s: %s is out of range, required: at least %s",
                          option->name, found, low);
-    return error_set(in->err, ERROR_USAGE, "%s: %s is out of range, wanted %s to %s",
+    return error_set(in->err, ERROR_USAGE, "%s: %s is out of range, required: %s to %s",
                      option->name, found, low, high);
 }
 

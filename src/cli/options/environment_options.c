@@ -48,7 +48,7 @@ static bool set_constant(Change *change, const char *text, Error *err)
     double luminance;
     if (!cli_numbers(text, 1, &luminance) || luminance < 0 || luminance > SCENE_MOST_CD_M2)
         return error_set(err, ERROR_USAGE,
-                         "--environment constant:%s: wanted a luminance in cd/m2, 0 to %g",
+                         "--environment constant:%s: required: a luminance in cd/m2, 0 to %g",
                          text, SCENE_MOST_CD_M2);
     change->environment->kind = ENVIRONMENT_CONSTANT;
     change->environment->luminance_cd_m2 = (float)luminance;
@@ -109,7 +109,7 @@ static bool set_cie(Change *change, const char *text, Error *err)
     if (!(number[0] >= 1 && number[0] <= 16 && floor(number[0]) == number[0]) ||
         (colon && !has_lux) || number[1] > SCENE_MOST_LX)
         return error_set(err, ERROR_USAGE,
-                         "--environment cie:%s: wanted cie:N or cie:N:LUX with N "
+                         "--environment cie:%s: required: cie:N or cie:N:LUX with N "
                          "1 to 15 (16: the traditional overcast sky) and LUX up to %g",
                          text, SCENE_MOST_LX);
     bool was_cie = change->environment->kind == ENVIRONMENT_CIE;
@@ -133,7 +133,7 @@ static bool set_perez(Change *change, const char *text, Error *err)
     if (!cli_numbers(text, 2, w_m2) || w_m2[0] < 0 || !(w_m2[1] > 0) ||
         fmax(w_m2[0], w_m2[1]) > SCENE_MOST_W_M2)
         return error_set(err, ERROR_USAGE,
-                         "--environment perez:%s: wanted perez:DIRECT,DIFFUSE, "
+                         "--environment perez:%s: required: perez:DIRECT,DIFFUSE, "
                          "normal and horizontal irradiance in W/m2, up to %g",
                          text, SCENE_MOST_W_M2);
     become_measured(change);
@@ -150,7 +150,8 @@ static bool set_sky(Change *change, const char *text, Error *err)
     if (!strncmp(text, "cie:", 4)) return set_cie(change, text + 4, err);
     if (!strncmp(text, "perez:", 6)) return set_perez(change, text + 6, err);
     if (strcmp(text, "sky:clear"))
-        return error_set(err, ERROR_USAGE, "--environment %s: wanted sky:clear, cie:N[:LUX], "
+        return error_set(err, ERROR_USAGE, "--environment %s: required: sky:clear, "
+                                           "cie:N[:LUX], "
                          "perez:DIRECT,DIFFUSE, hdri:FILE or constant:CD_M2", text);
     become(change, ENVIRONMENT_SKY, DAYLIGHT_CLEAR);
     return true;
@@ -245,7 +246,7 @@ static bool check_row(const WeatherAsk *ask, const WeatherHour *hour, double apa
     if (state == WEATHER_ROW_DARK)
         return error_at(err, ERROR_INPUT, ask->file, place,
                         "month %d, day %d, hour %g (its instant is %+.0f min from --when) is "
-                        "dark (0 W/m2 diffuse), wanted an hour by day — for a night use "
+                        "dark (0 W/m2 diffuse), required: an hour by day — for a night use "
                         "--environment sky:clear", hour->month, hour->day, hour->label_h,
                         apart_min);
     return state == WEATHER_ROW_LIT ||
@@ -307,7 +308,7 @@ static bool set_place(Change *change, const char *text, Error *err)
     if ((!cli_numbers(text, 3, place) && !cli_numbers(text, 2, place)) ||
         fabs(place[0]) > 90 || fabs(place[1]) > 360 || place[2] < -500 || place[2] > 60000)
         return error_set(err, ERROR_USAGE,
-                         "--where %s: wanted LAT,LON or LAT,LON,ALT: -90 to 90 "
+                         "--where %s: required: LAT,LON or LAT,LON,ALT: -90 to 90 "
                          "and -360 to 360 degrees, -500 to 60000 m",
                          text);
     change->environment->daylight.where = (SkyPlace){place[0], place[1], place[2]};
@@ -418,7 +419,8 @@ static bool set_ground(Change *change, Error *err)
         daylight->cloud_top_m = top;
         return true;
     }
-    return error_set(err, ERROR_USAGE, "--ground %s: wanted land, sea, cloud or cloud:TOP with "
+    return error_set(err, ERROR_USAGE, "--ground %s: required: land, sea, cloud or cloud:TOP "
+                                       "with "
                      "the clouds' top 0 to 20000 m above the sea", text);
 }
 
@@ -447,7 +449,7 @@ static bool set_sun(Change *change, const char *text, Error *err)
         (has_lux && (sun[2] < 0 || sun[2] > SCENE_MOST_LX)))
         return error_set(
             err, ERROR_USAGE,
-            "--sun %s: wanted auto, off, or AZ,EL,LUX with AZ -360 to 360 and EL -90 "
+            "--sun %s: required: auto, off, or AZ,EL,LUX with AZ -360 to 360 and EL -90 "
             "to 90 degrees and LUX 0 to %g",
             text, SCENE_MOST_LX);
     if (!has_lux && !environment->has_sun && !is_model)
@@ -475,7 +477,7 @@ static bool set_directions(Change *change, Error *err)
                         (float)asked->forward[2]);
     if (forward.x == 0 && forward.z == 0)
         return error_set(err, ERROR_USAGE,
-                         "--forward %g,%g,%g: wanted a vector that is not vertical",
+                         "--forward %g,%g,%g: required: a vector that is not vertical",
                          asked->forward[0], asked->forward[1], asked->forward[2]);
     environment->forward = forward;
     return true;

@@ -80,7 +80,7 @@ static bool panel_grid_parse(const char *text, PanelGrid *out, Error *err)
         return error_set(err, ERROR_USAGE, "--grid %s has more than %d directions", text,
                          POINTS_MAX);
     return ok || error_set(err, ERROR_USAGE,
-                           "--grid is '%s', wanted THETA0:THETA1:STEP,PHI0:PHI1:STEP in "
+                           "--grid is '%s', required: THETA0:THETA1:STEP,PHI0:PHI1:STEP in "
                            "degrees, theta within 0 to 90, steps above 0", text);
 }
 
@@ -297,7 +297,7 @@ static bool fill_question(const CsvTable *csv, int row, Arena *arena, PanelQuest
         double *to = panel_question_member(q, csv->name[c]);
         if (!to)
             return error_at(err, ERROR_INPUT, csv->file, "header line",
-                            "column '%s' is unknown, wanted theta, phi, r, g, b, incidence, "
+                            "column '%s' is unknown, required: theta, phi, r, g, b, incidence, "
                             "incidence_phi, wavelength, u or v", csv->name[c]);
         *to = (double)csv->cell[(size_t)row * (size_t)csv->columns + (size_t)c];
     }

@@ -26,7 +26,8 @@ static bool find_parts(const char *table, PanelLevel *level, Error *err)
                    : !strncmp(table, "brdf", 4) ? PANEL_COARSE_REFLECTION
                    : PANEL_COARSE_EMISSION;
     if (!level->is_asked || !table || strcmp(table, "primaries") != 0) return true;
-    return error_set(err, ERROR_USAGE, "--level is %ld, wanted none: the table 'primaries' is "
+    return error_set(err, ERROR_USAGE, "--level is %ld, required: none: the table 'primaries' "
+                                       "is "
                      "read from no tree", level->asked);
 }
 

@@ -224,7 +224,7 @@ static bool add_gloss(const CliTexts *texts, Arena *arena, Gloss *gloss, Error *
             return false;
         double numbers[2] = {strtod(angle, &after[0]), strtod(value, &after[1])};
         if (after[0] == angle || *after[0] || after[1] == value || *after[1])
-            return error_set(err, ERROR_USAGE, "--gloss is '%s', wanted an angle and gloss "
+            return error_set(err, ERROR_USAGE, "--gloss is '%s', required: an angle and gloss "
                              "units, as 60=82.5", texts->list[i]);
         if (!specular_gloss_add(gloss, numbers[0], numbers[1], err))
             return error_prefix(err, "--gloss %s", texts->list[i]);

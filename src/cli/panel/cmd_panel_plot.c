@@ -92,7 +92,7 @@ static bool check_request(const PlotRequest *request, Error *err)
         return error_set(err, ERROR_USAGE, "panel plot wants -o X.svg or -o X.png; a page of "
                          "all figures is 'panel report'");
     if (w > 0 && (w < LEAST_SIZE || h < LEAST_SIZE || w > LARGEST_SIZE || h > LARGEST_SIZE))
-        return error_set(err, ERROR_USAGE, "--size is %dx%d, wanted %d to %d each way", w, h,
+        return error_set(err, ERROR_USAGE, "--size is %dx%d, required: %d to %d each way", w, h,
                          LEAST_SIZE, LARGEST_SIZE);
     return true;
 }

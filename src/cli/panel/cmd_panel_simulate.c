@@ -47,7 +47,8 @@ static bool set_grid(SyntheticInstrument *instrument, const int grid[2], Error *
     double theta = instrument->theta_max_deg / grid[0], phi = 360.0 / grid[1];
     if (theta < 0.05 || phi < 0.05)
         return error_set(err, ERROR_USAGE,
-                         "--grid %dx%d has steps of %.3g x %.3g degrees, wanted at least 0.05",
+                         "--grid %dx%d has steps of %.3g x %.3g degrees, required: at least "
+                         "0.05",
                          grid[0], grid[1], theta, phi);
     instrument->theta_step_deg = instrument->brdf_theta_step_deg = theta;
     instrument->phi_step_deg = instrument->brdf_phi_step_deg = phi;
@@ -88,7 +89,7 @@ static bool run_simulate(int argc, char **argv, Arena *arena, Error *err)
     if (!folder && !wants_truth)
         return error_set(err, ERROR_USAGE, "panel simulate wants -o DIR");
     if (has_place && !wants_truth)
-        return error_set(err, ERROR_USAGE, "--at is of --truth, wanted with it");
+        return error_set(err, ERROR_USAGE, "--at places the values of --truth; required: both");
     bool ok = synthetic_panel_read(cli.arguments[0], arena, &panel, err);
     if (ok && noise) switch_noise_off(&panel.instrument);
     if (ok && has_grid) ok = set_grid(&panel.instrument, grid, err);

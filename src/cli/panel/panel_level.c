@@ -6,13 +6,14 @@
 
 static bool refuse(const char *path, const PanelLevel *level, int finest, Error *err)
 {
-    return error_at(err, ERROR_USAGE, path, "", "--level is %ld, wanted 0 to %d", level->asked,
+    return error_at(err, ERROR_USAGE, path, "", "--level is %ld, required: 0 to "
+                                                "%d", level->asked,
                     finest);
 }
 
 static bool refuse_any(const char *path, const PanelLevel *level, Error *err)
 {
-    return error_at(err, ERROR_USAGE, path, "", "--level is %ld, wanted none: it has no %s, "
+    return error_at(err, ERROR_USAGE, path, "", "--level is %ld, required: none: it has no %s, "
                     "and so no tree of it", level->asked,
                     level->parts == PANEL_COARSE_EMISSION ? "emission" : "reflection data");
 }

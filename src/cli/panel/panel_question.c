@@ -54,17 +54,17 @@ static bool is_anywhere(const PanelQuestion *q)
 bool panel_question_check(const PanelQuestion *q, Error *err)
 {
     if (q->is_brdf && !(q->incidence >= 0 && q->incidence <= 90))
-        return error_set(err, ERROR_USAGE, "incidence is %g, wanted 0 to 90 degrees",
+        return error_set(err, ERROR_USAGE, "incidence is %g, required: 0 to 90 degrees",
                          q->incidence);
     if (!(q->theta >= 0 && q->theta <= 90))
-        return error_set(err, ERROR_USAGE, "theta is %g, wanted 0 to 90 degrees", q->theta);
+        return error_set(err, ERROR_USAGE, "theta is %g, required: 0 to 90 degrees", q->theta);
     for (int i = 0; i < 3; i++)
         if (!(q->rgb[i] >= 0 && q->rgb[i] <= 255))
-            return error_set(err, ERROR_USAGE, "a code is %g, wanted 0 to 255", q->rgb[i]);
+            return error_set(err, ERROR_USAGE, "a code is %g, required: 0 to 255", q->rgb[i]);
     if (is_anywhere(q)) return true;
     for (int k = 0; k < 2; k++)
         if (!(q->at[k] >= 0 && q->at[k] <= 1))
-            return error_set(err, ERROR_USAGE, "%s is %g, wanted 0 to 1, with the other one",
+            return error_set(err, ERROR_USAGE, "%s is %g, required: 0 to 1, with the other one",
                              k ? "v" : "u", q->at[k]);
     return true;
 }

@@ -32,7 +32,7 @@ bool frame_area_parse(const char *text, const char *more, FrameArea *out, Error 
     }
     if (!cli_numbers(text, 4, corner) || !is_inside(corner, within))
         return error_set(err, ERROR_USAGE,
-                         "%s %s%s: wanted %sdisplay, display:NAME or whole numbers "
+                         "%s %s%s: required: %sdisplay, display:NAME or whole numbers "
                          "X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 inside %d,%d,%d,%d",
                          out->option, text, more, out->instead ? out->instead : "", within.x0,
                          within.y0, within.x1, within.y1);

@@ -13,7 +13,7 @@ bool noise_goal_parse(const char *text, FilmRect crop, Arena *arena, NoiseGoal *
     if (!cli_numbers(colon ? colon + 1 : text, 1, &goal.error) ||
         !(goal.error > 0 && goal.error < 1))
         return error_set(err, ERROR_USAGE,
-                         "--noise %s: wanted a relative error above 0 and below 1, such as "
+                         "--noise %s: required: a relative error above 0 and below 1, such as "
                          "0.05, display:0.01, display:NAME:0.01 or X0,Y0,X1,Y1:0.02",
                          text);
     *out = goal;

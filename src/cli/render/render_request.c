@@ -103,7 +103,8 @@ static bool parse_samples(const char *text, RenderOptions *options, Error *err)
     unsigned long last = *end == ':' ? strtoul(end + 1, &end, 10) : 0;
     if (strchr(text, '-') || *end || first >= last || last > FILM_SAMPLES_MAX)
         return error_set(err, ERROR_USAGE,
-                         "--samples %s: wanted A:B, whole numbers with 0 <= A < B <= %u", text,
+                         "--samples %s: required: A:B, whole numbers with 0 <= A < B <= "
+                         "%u", text,
                          FILM_SAMPLES_MAX);
     options->first_sample = (uint32_t)first;
     options->end_sample = (uint32_t)last;
@@ -126,7 +127,7 @@ static bool parse_crop(const double crop[4], RenderOptions *options, Error *err)
         rect.x1 > options->width || rect.y1 > options->height)
         return error_set(
             err, ERROR_USAGE,
-            "--crop %d,%d,%d,%d: wanted X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 inside "
+            "--crop %d,%d,%d,%d: required: X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 inside "
             "the frame of %dx%d pixels",
             rect.x0, rect.y0, rect.x1, rect.y1, options->width, options->height);
     options->crop = rect;
@@ -140,7 +141,8 @@ static bool parse_replay(const double replay[3], RenderOptions *options, Error *
         replay[1] < 0 || replay[2] < 0 || replay[0] >= options->width ||
         replay[1] >= options->height)
         return error_set(err, ERROR_USAGE,
-                         "--replay %g,%g,%g: wanted X,Y,SAMPLE with the pixel inside the frame "
+                         "--replay %g,%g,%g: required: X,Y,SAMPLE with the pixel inside the "
+                         "frame "
                          "of %dx%d pixels",
                          replay[0], replay[1], replay[2], options->width, options->height);
     int x = (int)replay[0], y = (int)replay[1];
@@ -171,7 +173,7 @@ static bool check_radiance(const RenderWords *typed, const RenderRequest *reques
                          : request->share.parts ? "--slurm" : NULL;
     if (!render_output_is_radiance(request) || !option) return true;
     return error_set(err, ERROR_USAGE, "%s does not go with -o %s: a Radiance picture holds "
-                     "R, G, B alone — wanted -o FRAME.exr", option, request->output);
+                     "R, G, B alone — required: -o FRAME.exr", option, request->output);
 }
 
 /* A file of its own: the others are kept until the render has ended well. */
@@ -188,7 +190,7 @@ static bool check_live(const RenderRequest *request, Error *err)
             return error_set(err, ERROR_USAGE, "--live %s: %s is to stand there",
                              request->live, others[i].what);
     return ends_with(request->live, ".exr") ||
-           error_set(err, ERROR_USAGE, "--live %s: wanted a name that ends in .exr",
+           error_set(err, ERROR_USAGE, "--live %s: required: a name that ends in .exr",
                      request->live);
 }
 
@@ -245,7 +247,8 @@ static bool check_outputs(const RenderRequest *request, Error *err)
     if (!request->output)
         return error_set(err, ERROR_USAGE, "no output — add -o FRAME.exr");
     if (!ends_with(request->output, ".exr") && !render_output_is_radiance(request))
-        return error_set(err, ERROR_USAGE, "-o %s: wanted a name that ends in .exr, or in .hdr "
+        return error_set(err, ERROR_USAGE, "-o %s: required: a name that ends in .exr, or in "
+                                           ".hdr "
                          "for a Radiance picture", request->output);
     return check_live(request, err);
 }

@@ -65,7 +65,8 @@ bool render_check_size(const CameraChoice *choice, bool given, int size[2], Erro
     }
     return !is_round || size[0] == size[1] ||
            error_set(err, ERROR_USAGE,
-                     "--size %dx%d: a fisheye's picture is a square around its circle, wanted "
+                     "--size %dx%d: a fisheye's picture is a square around its circle, "
+                     "required: "
                      "%dx%d or another", size[0], size[1], size[1], size[1]);
 }
 
@@ -80,7 +81,7 @@ static bool look(const Scene *scene, const CameraChoice *choice, SceneCamera *ou
         return error_set(err, ERROR_USAGE, "--camera and --eye exclude each other");
     if (!choice->has_eye || !choice->has_look_at)
         return error_set(err, ERROR_USAGE,
-                         "%s: wanted --eye X,Y,Z and --look-at X,Y,Z together",
+                         "%s: required: --eye X,Y,Z and --look-at X,Y,Z together",
                          choice->has_eye       ? "--eye"
                          : choice->has_look_at ? "--look-at"
                                                : "--fov");
@@ -89,7 +90,7 @@ static bool look(const Scene *scene, const CameraChoice *choice, SceneCamera *ou
                                            "it out");
     if (!(vec3_length(vec3_sub(target, eye)) > 0))
         return error_set(err, ERROR_USAGE,
-                         "--look-at: is where --eye is; another point is wanted");
+                         "--look-at: is where --eye is; another point is required");
     *out = camera_look_at(eye, target, (float)radians_from_degrees(fov_deg));
     return true;
 }

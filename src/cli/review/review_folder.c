@@ -35,7 +35,7 @@ static bool read_earlier(ReviewFolder *folder, Arena *arena, Error *err)
     return review_json_read(path, arena, &folder->before, err) &&
            (!folder->before.is_partial ||
             error_at(err, ERROR_INPUT, path, "/provisional", "is of a review that was not "
-                     "finished, wanted a whole one — the command that made it goes on"));
+                     "finished, required: a whole one — the command that made it goes on"));
 }
 
 void review_folder_responses(ReviewFolder *folder, Arena *arena)

@@ -41,7 +41,8 @@ bool html_report_check_name(const char *path, Error *err)
 {
     const char *ending = path_ending(path);
     if (!strcasecmp(ending, ".html") || !strcasecmp(ending, ".htm")) return true;
-    return error_set(err, ERROR_USAGE, "--report %s: wanted a name that ends in .html", path);
+    return error_set(err, ERROR_USAGE, "--report %s: required: a name that ends in "
+                                       ".html", path);
 }
 
 /* ---- tables of metrics, regions, displays and metadata ----------------------------------- */

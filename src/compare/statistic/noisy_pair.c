@@ -101,7 +101,7 @@ static bool check_windows(const FrameImage *reference, const FrameImage *test,
         !memcmp(&reference->display, &test->display, sizeof a))
         return true;
     return error_at(err, ERROR_INPUT, options->test_name, "",
-                    "holds pixels %d,%d,%d,%d, the reference %d,%d,%d,%d: wanted the same",
+                    "holds pixels %d,%d,%d,%d, the reference %d,%d,%d,%d: required: the same",
                     b.x0, b.y0, b.x1, b.y1, a.x0, a.y0, a.x1, a.y1);
 }
 

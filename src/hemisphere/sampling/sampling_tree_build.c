@@ -254,18 +254,18 @@ static void put_functions(Build *build)
 static bool check_options(const SamplingOptions *o, Error *err)
 {
     if (o->level < 0 || o->level > GEODESIC_MAX_LEVEL)
-        return error_set(err, ERROR_INPUT, "level is %d, wanted 0 to %d", o->level,
+        return error_set(err, ERROR_INPUT, "level is %d, required: 0 to %d", o->level,
                          GEODESIC_MAX_LEVEL);
     if (o->octants != 2 && o->octants != 4)
-        return error_set(err, ERROR_INPUT, "octants are %d, wanted 2 or 4", o->octants);
+        return error_set(err, ERROR_INPUT, "octants are %d, required: 2 or 4", o->octants);
     if (o->functions < 1 || o->functions > SAMPLING_FUNCTIONS_MAX)
-        return error_set(err, ERROR_INPUT, "functions are %d, wanted 1 to %d", o->functions,
+        return error_set(err, ERROR_INPUT, "functions are %d, required: 1 to %d", o->functions,
                          SAMPLING_FUNCTIONS_MAX);
     if (o->cells < o->octants || o->cells > SAMPLING_CELLS_MAX)
-        return error_set(err, ERROR_INPUT, "cells are %d, wanted %d to %d", o->cells,
+        return error_set(err, ERROR_INPUT, "cells are %d, required: %d to %d", o->cells,
                          o->octants, SAMPLING_CELLS_MAX);
     if (!(o->uniform_share >= 0 && o->uniform_share <= 1))
-        return error_set(err, ERROR_INPUT, "uniform share is %g, wanted 0 to 1",
+        return error_set(err, ERROR_INPUT, "uniform share is %g, required: 0 to 1",
                          (double)o->uniform_share);
     return true;
 }
@@ -277,7 +277,7 @@ static bool check_integrals(const SamplingOptions *options, const float *integra
     for (uint32_t i = 0; i < count; i++) {
         if (!(integrals[i] >= 0 && isfinite(integrals[i])))
             return error_set(err, ERROR_INPUT,
-                             "the integral over leaf %u is %g, wanted a finite "
+                             "the integral over leaf %u is %g, required: a finite "
                              "value of at least 0",
                              i, (double)integrals[i]);
         sum += (double)integrals[i];
@@ -335,7 +335,7 @@ size_t sampling_tree_size(const void *blob)
 
 static bool refuse(Error *err, const char *what, double found, double wanted)
 {
-    return error_set(err, ERROR_INPUT, "sampling tree: %s is %.9g, wanted %.9g", what, found,
+    return error_set(err, ERROR_INPUT, "sampling tree: %s is %.9g, required: %.9g", what, found,
                      wanted);
 }
 

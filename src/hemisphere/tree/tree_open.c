@@ -22,7 +22,7 @@ size_t tree_size(const void *blob)
 
 static bool refuse(Error *err, const char *what, double found, double wanted)
 {
-    return error_set(err, ERROR_INPUT, "tree: %s is %.9g, wanted %.9g", what, found, wanted);
+    return error_set(err, ERROR_INPUT, "tree: %s is %.9g, required: %.9g", what, found, wanted);
 }
 
 static bool check_header(const TreeHeader *h, size_t size, Error *err)
@@ -30,7 +30,7 @@ static bool check_header(const TreeHeader *h, size_t size, Error *err)
     if (h->magic != TREE_MAGIC) return refuse(err, "magic number", h->magic, TREE_MAGIC);
     if (h->version != TREE_VERSION) return refuse(err, "version", h->version, TREE_VERSION);
     if (h->size > size)
-        return error_set(err, ERROR_INPUT, "tree: %zu bytes are there, wanted %llu", size,
+        return error_set(err, ERROR_INPUT, "tree: %zu bytes are there, required: %llu", size,
                          (unsigned long long)h->size);
     if (h->level > GEODESIC_MAX_LEVEL)
         return refuse(err, "level", h->level, GEODESIC_MAX_LEVEL);
@@ -94,7 +94,7 @@ static bool check_nodes(Tree *tree, uint32_t byte_level, Error *err)
         }
         if (node.children >> 4 != next_node || node.rows >> 3 != next_row)
             return error_set(err, ERROR_INPUT, "tree: node %u points to node %u and row %u, "
-                             "wanted %u and %u", i, node.children >> 4, node.rows >> 3,
+                             "required: %u and %u", i, node.children >> 4, node.rows >> 3,
                              next_node, next_row);
         next_node += (uint32_t)__builtin_popcount(node.children & 15);
         next_row += (uint32_t)__builtin_popcount(node.rows & 7);
@@ -117,7 +117,7 @@ static bool check_finite(const float *values, size_t count, const char *what, Er
 {
     for (size_t i = 0; i < count; i++)
         if (!isfinite(values[i]))
-            return error_set(err, ERROR_INPUT, "tree: %s %zu is %g, wanted a finite number",
+            return error_set(err, ERROR_INPUT, "tree: %s %zu is %g, required: a finite number",
                              what, i, (double)values[i]);
     return true;
 }

@@ -214,12 +214,13 @@ static bool make_weights(const VertexSamples *samples, double *weight, Error *er
     for (int s = 0; s < samples->count; s++) {
         float w = samples->weight ? samples->weight[s] : 1.0f;
         if (!(w >= 0) || !isfinite(w))
-            return error_set(err, ERROR_INPUT, "sample %d has the weight %g, wanted 0 or more",
+            return error_set(err, ERROR_INPUT, "sample %d has the weight %g, required: 0 or "
+                                               "more",
                              s, (double)w);
         sum += (double)w;
     }
     if (!(sum > 0))
-        return error_set(err, ERROR_INPUT, "%d samples have no weight, wanted some",
+        return error_set(err, ERROR_INPUT, "%d samples have no weight, required: some",
                          samples->count);
     for (int s = 0; s < samples->count; s++)
         weight[s] = (samples->weight ? (double)samples->weight[s] : 1.0) / sum;
@@ -231,7 +232,7 @@ static bool check_samples(const VertexSamples *samples, Error *err)
     size_t k = (size_t)samples->components;
     for (size_t i = 0; i < k * (size_t)samples->count; i++)
         if (!isfinite(samples->value[i]))
-            return error_set(err, ERROR_INPUT, "sample %zu is %g, wanted a finite number",
+            return error_set(err, ERROR_INPUT, "sample %zu is %g, required: a finite number",
                              i / k, (double)samples->value[i]);
     return true;
 }

@@ -11,7 +11,7 @@ _Static_assert(sizeof(VertexHeader) == 32 && sizeof(VertexLevel) == 16, "the blo
 
 static bool refuse(Error *err, const char *what, double found, double wanted)
 {
-    return error_set(err, ERROR_INPUT, "vertex tree: %s is %.9g, wanted %.9g", what, found,
+    return error_set(err, ERROR_INPUT, "vertex tree: %s is %.9g, required: %.9g", what, found,
                      wanted);
 }
 
@@ -42,7 +42,7 @@ static bool check_header(const VertexHeader *h, size_t size, Error *err)
     if (h->size != parts.size)
         return refuse(err, "size", (double)h->size, (double)parts.size);
     if (h->size > size)
-        return error_set(err, ERROR_INPUT, "vertex tree: %zu bytes are there, wanted %llu",
+        return error_set(err, ERROR_INPUT, "vertex tree: %zu bytes are there, required: %llu",
                          size, (unsigned long long)h->size);
     return true;
 }
@@ -164,7 +164,7 @@ static bool check_scales(const Tree *tree, Error *err)
     for (int c = 0; c < tree->components; c++)
         if (!(fabsf(tree->scale[c]) <= VERTEX_MAX_SCALE))
             return error_set(err, ERROR_INPUT,
-                             "vertex tree: scale %d is %g, wanted a number within %g", c,
+                             "vertex tree: scale %d is %g, required: a number within %g", c,
                              (double)tree->scale[c], (double)VERTEX_MAX_SCALE);
     return true;
 }

@@ -217,19 +217,19 @@ static void measure_tolerances(Coder *c, float *tolerance)
 static bool check_options(const VertexTreeOptions *o, const float *values, Error *err)
 {
     if (o->lattice.level < 0 || o->lattice.level >= GEODESIC_MAX_LEVEL)
-        return error_set(err, ERROR_INPUT, "vertex tree: level %d, wanted 0 to %d",
+        return error_set(err, ERROR_INPUT, "vertex tree: level %d, required: 0 to %d",
                          o->lattice.level, GEODESIC_MAX_LEVEL - 1);
     if (o->lattice.octants != 2 && o->lattice.octants != 4)
-        return error_set(err, ERROR_INPUT, "vertex tree: %d octants, wanted 2 or 4",
+        return error_set(err, ERROR_INPUT, "vertex tree: %d octants, required: 2 or 4",
                          o->lattice.octants);
     if (o->components < 1 || o->components > TREE_MAX_COMPONENTS)
-        return error_set(err, ERROR_INPUT, "vertex tree: %d components, wanted 1 to %d",
+        return error_set(err, ERROR_INPUT, "vertex tree: %d components, required: 1 to %d",
                          o->components, TREE_MAX_COMPONENTS);
     size_t count = vertex_count(o->lattice) * (size_t)o->components;
     for (size_t i = 0; i < count; i++)
         if (!(fabsf(values[i]) <= 1e15f))
             return error_set(err, ERROR_INPUT,
-                             "vertex tree: value %zu is %g, wanted a number within 1e15", i,
+                             "vertex tree: value %zu is %g, required: a number within 1e15", i,
                              (double)values[i]);
     return true;
 }

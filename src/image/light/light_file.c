@@ -107,7 +107,7 @@ LightFile light_file_of_floats(const Image *image, Arena *arena)
 static bool is_no_light(const char *name, size_t size, Error *err)
 {
     return error_at(err, ERROR_INPUT, name, "",
-                    "%s, wanted an OpenEXR file or a Radiance picture (.hdr)",
+                    "%s, required: an OpenEXR file or a Radiance picture (.hdr)",
                     size ? "is neither by its first bytes" : "is empty");
 }
 
@@ -120,7 +120,8 @@ static bool read_floats(FileBytes bytes, const char *name, Arena *arena, LightFi
         return is_no_light(name, bytes.size, err);
     if (image.format != IMAGE_RGBA32F)
         return error_at(err, ERROR_INPUT, name, "",
-                        "holds display codes, wanted linear light — an OpenEXR or Radiance HDR "
+                        "holds display codes, required: linear light — an OpenEXR or Radiance "
+                        "HDR "
                         "picture");
     *out = light_file_of_floats(&image, arena);
     return true;

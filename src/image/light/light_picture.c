@@ -36,7 +36,7 @@ static bool unfold_cube(const char *name, Arena *arena, Image *image, Error *err
     Image out = {4 * image->width, 2 * image->width, IMAGE_RGBA32F, NULL};
     if (image->height != 6 * image->width || image->width > 8192)
         return error_at(err, ERROR_INPUT, name, "envmap",
-                        "is a cube map of %dx%d pixels, wanted six square faces of at most "
+                        "is a cube map of %dx%d pixels, required: six square faces of at most "
                         "8192 below each other", image->width, image->height);
     float *rgba = ARENA_NEW(arena, float, 4 * (size_t)out.width * (size_t)out.height);
     for (int y = 0; y < out.height; y++)

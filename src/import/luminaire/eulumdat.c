@@ -52,7 +52,7 @@ static bool next_number(LuminaireScan *in, const char *what, double low, double 
     TextLine line;
     if (!next_line(in, what, &line)) return false;
     if (!number_of(in, line, out) || !(*out >= low && *out <= high))
-        return luminaire_scan_fail(in, "%s is '%.*s', wanted a number from %g to %g", what,
+        return luminaire_scan_fail(in, "%s is '%.*s', required: a number from %g to %g", what,
                                    line.length < 40 ? line.length : 40, line.text, low, high);
     return true;
 }
@@ -146,7 +146,7 @@ static bool read_lamps(LuminaireScan *in, EulumdatHead *head, Luminaire *out)
         if (!i) head->is_absolute = lamps < 0;
     }
     return head->flux_lm > 0 ||
-           luminaire_scan_fail(in, "the lamps' flux is 0 lm, wanted the flux that the "
+           luminaire_scan_fail(in, "the lamps' flux is 0 lm, required: the flux that the "
                                "intensities belong to");
 }
 
@@ -167,7 +167,7 @@ static bool stored_planes(LuminaireScan *in, const EulumdatHead *head, int *firs
                 (head->symmetry == 2 && head->planes % 2 == 0);
     if (head->symmetry == 2) *count = head->planes / 2 + 1;
     return fits || error_at(in->err, ERROR_INPUT, in->text.file, "line 4",
-                            "has %d C-planes, wanted a multiple of %d for symmetry %d",
+                            "has %d C-planes, required: a multiple of %d for symmetry %d",
                             head->planes, head->symmetry == 2 ? 2 : 4, head->symmetry);
 }
 

@@ -54,7 +54,7 @@ static bool next_number(LuminaireScan *in, const char *what, double low, double 
     if (!find_word(in, &word))
         return luminaire_scan_fail(in, "the file ends before %s", what);
     if (text_number(word, '.', out) && *out >= low && *out <= high) return true;
-    return luminaire_scan_fail(in, "%s is '%.*s', wanted a number from %g to %g", what,
+    return luminaire_scan_fail(in, "%s is '%.*s', required: a number from %g to %g", what,
                                word.length < 40 ? word.length : 40, word.text, low, high);
 }
 
@@ -270,7 +270,8 @@ static bool find_symmetry(LuminaireScan *in, Luminaire *out)
     if (first == 90 && last == 270) out->mirror_deg[0] = 90;
     bool is_whole = first == 0 && last > 180; /* 345 or 360 */
     return out->mirror_deg[0] >= 0 || is_whole ||
-           luminaire_scan_fail(in, "horizontal angles go from %g to %g, wanted 0, 0 to 90, 0 "
+           luminaire_scan_fail(in, "horizontal angles go from %g to %g, required: 0, 0 to 90, "
+                                   "0 "
                                "to 180, 90 to 270 or 0 to 360 degrees", first, last);
 }
 
@@ -309,14 +310,15 @@ static bool read_tipped_angles(LuminaireScan *in, TippedTable *table)
     table->is_mirrored = h0 == 0;
     if (table->h_count < 2)
         return luminaire_scan_fail(in, "photometry of types A and B has one horizontal angle, "
-                                   "wanted 0 to 90 or -90 to 90 degrees");
+                                   "required: 0 to 90 or -90 to 90 degrees");
     if (h0 > 0)
         return luminaire_scan_fail(in, "horizontal angles of types A and B go from %g to %g, "
-                                   "wanted 0 to 90 or -90 to 90 degrees", h0,
+                                   "required: 0 to 90 or -90 to 90 degrees", h0,
                                    table->h[table->h_count - 1]);
     return v0 < 0 ||
            luminaire_scan_fail(in, "vertical angles of types A and B go from %g to %g: nothing "
-                               "says whether the half below is dark or the same, wanted -90 to "
+                               "says whether the half below is dark or the same, required: "
+                               "-90 to "
                                "90 degrees", v0, table->v[table->v_count - 1]);
 }
 

@@ -131,7 +131,8 @@ static bool note_flux(const Luminaire *in, const Plane *plane, int count, Import
     double front = total_flux(in, plane, count, 90), all = total_flux(in, plane, count, 180);
     if (!(front > 0))
         return error_at(err, ERROR_INPUT, in->file, "",
-                        "shines nothing within 90 degrees of gamma 0, wanted a luminaire that "
+                        "shines nothing within 90 degrees of gamma 0, required: a luminaire "
+                        "that "
                         "lights in front of its face");
     import_note(set, "%s: the intensities add up to %.6g lm in front of the face", name, front);
     if (all > front * (1 + 1e-9))
@@ -228,7 +229,8 @@ bool luminaire_add(const Luminaire *in, const ImportOptions *options, ImportSet 
     size_t most = (size_t)count * (size_t)in->gammas;
     double area_m2;
     if (most > IMPORT_ROWS_MAX)
-        return error_at(err, ERROR_INPUT, in->file, "", "has %zu directions, wanted at most %d",
+        return error_at(err, ERROR_INPUT, in->file, "", "has %zu directions, required: at "
+                                                        "most %d",
                         most, IMPORT_ROWS_MAX);
     if (!find_area(in, options, &area_m2, err) || !note_flux(in, plane, count, set, err))
         return false;
@@ -280,7 +282,8 @@ bool luminaire_web(const Luminaire *in, Arena *arena, IntensityWeb *out, Error *
     size_t total = (size_t)(planes + 1) * (size_t)in->gammas;
     float *gamma = ARENA_NEW(arena, float, in->gammas);
     if (total > IMPORT_ROWS_MAX)
-        return error_at(err, ERROR_INPUT, in->file, "", "has %zu directions, wanted at most %d",
+        return error_at(err, ERROR_INPUT, in->file, "", "has %zu directions, required: at "
+                                                        "most %d",
                         total, IMPORT_ROWS_MAX);
     float *c = ARENA_NEW(arena, float, planes + 1), *relative = ARENA_NEW(arena, float, total);
     for (int k = 0; k < in->gammas; k++)
@@ -291,7 +294,7 @@ bool luminaire_web(const Luminaire *in, Arena *arena, IntensityWeb *out, Error *
     fill_web(in, plane, c, relative, &web);
     if (!(web.largest_cd > 0))
         return error_at(err, ERROR_INPUT, in->file, "",
-                        "has no intensity above 0 cd, wanted a luminaire that lights");
+                        "has no intensity above 0 cd, required: a luminaire that lights");
     for (size_t i = 0; i < total; i++) relative[i] /= web.largest_cd;
     *out = web;
     return true;

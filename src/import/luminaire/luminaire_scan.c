@@ -28,7 +28,7 @@ bool luminaire_scan_count(LuminaireScan *scan, const char *what, int low, int hi
     if (!scan->number(scan, what, low, high, &value)) return false;
     *out = (int)value;
     return value == floor(value) ||
-           luminaire_scan_fail(scan, "%s is %g, wanted a whole number", what, value);
+           luminaire_scan_fail(scan, "%s is %g, required: a whole number", what, value);
 }
 
 bool luminaire_scan_angles(LuminaireScan *scan, const char *what, int count,
@@ -37,7 +37,7 @@ bool luminaire_scan_angles(LuminaireScan *scan, const char *what, int count,
     for (int i = 0; i < count; i++) {
         if (!scan->number(scan, what, range[0], range[1], &angle[i])) return false;
         if (i && !(angle[i] > angle[i - 1]))
-            return luminaire_scan_fail(scan, "%s %g follows %g, wanted rising angles", what,
+            return luminaire_scan_fail(scan, "%s %g follows %g, required: rising angles", what,
                                        angle[i], angle[i - 1]);
     }
     return true;

@@ -97,7 +97,7 @@ static bool name_channels(Astm *in, char *const *name, const int *column, int co
     in->nm = ARENA_NEW(in->scan.arena, float, count);
     for (int c = 0; c < count; c++) {
         if (!is_wavelength(name[c], &nm))
-            return scan_fail(&in->scan, err, "VARS names '%.40s', wanted a wavelength like "
+            return scan_fail(&in->scan, err, "VARS names '%.40s', required: a wavelength like "
                              "550nm, or R,G,B or X,Y,Z, or one column", name[c]);
         insert_channel(in, column[c], (float)nm);
     }
@@ -131,14 +131,14 @@ static bool read_header(Astm *in, Error *err)
         double number;
         if (!strncasecmp(line, "NUM_POINTS", 10)) {
             if (!scan_to_number(line + 10, &number) || number < 1 || number > IMPORT_ROWS_MAX)
-                return scan_fail(&in->scan, err, "NUM_POINTS is '%.40s', wanted 1 to %d",
+                return scan_fail(&in->scan, err, "NUM_POINTS is '%.40s', required: 1 to %d",
                                  line + 10, IMPORT_ROWS_MAX);
             in->stated_rows = (int)number;
         }
         if (strncasecmp(line, "VARS", 4) || (line[4] != ' ' && line[4] != '\t')) continue;
         return read_names(in, arena_string(in->scan.arena, line + 5, strlen(line + 5)), err);
     }
-    return scan_fail(&in->scan, err, "the file ends in its header, wanted VARS and rows");
+    return scan_fail(&in->scan, err, "the file ends in its header, required: VARS and rows");
 }
 
 /* ---- rows -------------------------------------------------------------------------------- */
@@ -198,7 +198,7 @@ static bool convert_angles(Astm *in, ImportSet *set, Error *err)
             if (!is_degree) *one = degrees_from_radians(*one);
             if (!(fabs(*one) <= limit[a] + 1e-3))
                 return error_at(err, ERROR_INPUT, in->scan.file, "", "row %d has an angle of "
-                                "%g, wanted at most %g degrees", i + 1, *one, limit[a]);
+                                "%g, required: at most %g degrees", i + 1, *one, limit[a]);
         }
     import_note(set, "%s: angles are taken as %s", path_name(in->scan.file),
                 is_degree ? "degrees" : "radians");
@@ -281,7 +281,7 @@ static bool read_astm(const char *file, const ImportOptions *options, ImportSet 
         !(nm = name_bands(&in, options, set, err)))
         return false;
     if (in.channels > MEASUREMENT_WAVELENGTHS_MAX)
-        return error_at(err, ERROR_INPUT, file, "", "has %d wavelengths, wanted at most %d",
+        return error_at(err, ERROR_INPUT, file, "", "has %d wavelengths, required: at most %d",
                         in.channels, MEASUREMENT_WAVELENGTHS_MAX);
     return add_tables(&in, nm, set, err);
 }

@@ -30,10 +30,11 @@ static bool read_format(Fred *in, char *line, Error *err)
             continue;
         if (!strncasecmp(word, "scale=", 6)) {
             if (!scan_to_number(word + 6, &in->scale) || !(in->scale > 0))
-                return scan_fail(&in->scan, err, "scale is '%s', wanted a number above 0",
+                return scan_fail(&in->scan, err, "scale is '%s', required: a number above 0",
                                  word + 6);
         } else {
-            return scan_fail(&in->scan, err, "'%.40s' is no format that is known here, wanted "
+            return scan_fail(&in->scan, err, "'%.40s' is no format that is known here, "
+                                             "required: "
                              "angles=deg, bsdf=value, scale=NUMBER", word);
         }
     }
@@ -71,10 +72,11 @@ static bool start_light(Fred *in, const double *cell, ImportSet *set, Error *err
     double lean = cell[0], phi = cell[1];
     if (!flush(in, set, err)) return false;
     if (!(lean >= 0 && lean < 90))
-        return scan_fail(&in->scan, err, "the angle of incidence is %g, wanted 0 to below 90 "
+        return scan_fail(&in->scan, err, "the angle of incidence is %g, required: 0 to below "
+                                         "90 "
                          "degrees", lean);
     if (!(fabs(phi) <= 360))
-        return scan_fail(&in->scan, err, "phi is %g, wanted -360 to 360 degrees", phi);
+        return scan_fail(&in->scan, err, "phi is %g, required: -360 to 360 degrees", phi);
     in->light = (ScatterLight){lean, phi + 180};
     in->mirror_phi = phi;
     in->rows = scatter_rows(set->arena, count_lines(in), 1);
@@ -91,9 +93,9 @@ static bool put_row(Fred *in, const double *cell, Error *err)
     if (in->rows.rows + in->rows.masked == in->rows.capacity)
         return scan_fail(&in->scan, err, "there are more rows than can be taken");
     if (!(theta >= -90 && theta <= 180))
-        return scan_fail(&in->scan, err, "theta is %g, wanted -90 to 90 degrees", theta);
+        return scan_fail(&in->scan, err, "theta is %g, required: -90 to 90 degrees", theta);
     if (!(fabs(phi) <= 360))
-        return scan_fail(&in->scan, err, "phi is %g, wanted -360 to 360 degrees", phi);
+        return scan_fail(&in->scan, err, "phi is %g, required: -360 to 360 degrees", phi);
     if (theta < 0) phi += 180;
     scatter_put_measured(&in->rows, fabs(theta), phi - in->mirror_phi, &value);
     return true;
@@ -117,7 +119,8 @@ static bool read_row(Fred *in, const char *line, ImportSet *set, Error *err)
         if (count == 2) return start_light(in, cell, set, err);
         if (count == 3) return put_row(in, cell, err);
     }
-    return scan_fail(&in->scan, err, "'%.40s' is no row, wanted theta, phi and value, or the "
+    return scan_fail(&in->scan, err, "'%.40s' is no row, required: theta, phi and value, or "
+                                     "the "
                      "two angles of the light", line);
 }
 
@@ -132,7 +135,7 @@ static bool read_lines(Fred *in, ImportSet *set, Error *err)
         if (!strncasecmp(line, "type", 4)) {
             if (!strstr(line, "bsdf_data"))
                 ok = scan_fail(&in->scan, err, "'%.40s' stands where 'type bsdf_data' is "
-                               "wanted", line);
+                               "required", line);
         } else if (!strncasecmp(line, "format", 6)) {
             ok = read_format(in, arena_string(set->arena, line, strlen(line)), err);
         } else if (*line && *line != '#' && strncmp(line, "!!", 2)) {

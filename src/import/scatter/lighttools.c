@@ -38,7 +38,8 @@ static bool read_symmetry(LightTools *in, Error *err)
 {
     const char *word = scan_word(&in->scan);
     if (word && !strncasecmp(word, "Asymmetric", 10)) return true;
-    return scan_fail(&in->scan, err, "Symmetry is '%s', wanted Asymmetric", word ? word : "");
+    return scan_fail(&in->scan, err, "Symmetry is '%s', required: Asymmetric",
+                     word ? word : "");
 }
 
 /* Entries that do not concern the values (Source, ...) are skipped with their line. */
@@ -58,7 +59,7 @@ static bool read_header(LightTools *in, Error *err)
             ok = scan_counted_list(scan, "ScatterRadial", ANGLES_MAX, &in->radials,
                                    &in->radial, err);
         else if (!scan_peek(scan))
-            return scan_fail(scan, err, "the file ends in its header, wanted DataBegin");
+            return scan_fail(scan, err, "the file ends in its header, required: DataBegin");
         else
             scan_line(scan);
         if (!ok) return false;
@@ -113,7 +114,7 @@ static bool read_block_head(LightTools *in, LightToolsBlock *block, bool *found,
         if (!begun && scan_accept(scan, "DataEnd")) return true;
         const char *word = scan_peek(scan);
         return scan_fail(scan, err, "%.40s stands where an entry of a block (AOI, POI, Side, "
-                         "Wavelength, ScatterType, TIS) or DataEnd is wanted",
+                         "Wavelength, ScatterType, TIS) or DataEnd is required",
                          word ? word : "the end of the file");
     }
 }
@@ -133,7 +134,8 @@ static bool add_block(LightTools *in, const LightToolsBlock *block, const float 
     ImportRows rows = scatter_rows(set->arena, in->azimuths * radials, 1);
     double      light = LIGHT_AZIMUTH_DEG + block->poi;
     if (!(block->aoi >= 0 && block->aoi < 90))
-        return scan_fail(&in->scan, err, "AOI is %g, wanted 0 to below 90 degrees", block->aoi);
+        return scan_fail(&in->scan, err, "AOI is %g, required: 0 to below 90 "
+                                         "degrees", block->aoi);
     for (int j = 0; j < in->azimuths; j++)
         for (int i = 0; i < radials; i++)
             scatter_put_measured(&rows, in->radial[i], in->azimuth[j] + 180 - light,

@@ -29,7 +29,7 @@ static bool read_side(ByteScan *scan, int *out, Error *err)
     if (!byte_scan_uint(scan, 4, &side))
         return byte_scan_fail(scan, err, "the file ends inside its header");
     if (side < 1 || side > SIDE_MAX)
-        return byte_scan_fail(scan, err, "a side is %u cells, wanted 1 to %d (MERL: 90, 90, "
+        return byte_scan_fail(scan, err, "a side is %u cells, required: 1 to %d (MERL: 90, 90, "
                               "180)", (unsigned)side, SIDE_MAX);
     *out = (int)side;
     return true;
@@ -44,7 +44,8 @@ static bool open_merl(const char *file, Arena *arena, Merl *out, Error *err)
     out->cells = (size_t)out->half_thetas * (size_t)out->diff_thetas * (size_t)out->diff_phis;
     size_t wanted = RGB_BANDS * out->cells * sizeof(double), left = scan.size - scan.at;
     if (wanted != left)
-        return byte_scan_fail(&scan, err, "%zu bytes follow, wanted %zu for %d x %d x %d cells "
+        return byte_scan_fail(&scan, err, "%zu bytes follow, required: %zu for %d x %d x %d "
+                                          "cells "
                               "of three colours", left, wanted, out->half_thetas,
                               out->diff_thetas, out->diff_phis);
     out->value = byte_scan_take(&scan, left);

@@ -30,7 +30,7 @@ static bool header_number(Mountain *in, const char *text, const char *what, doub
                           Error *err)
 {
     if (sscanf(text, "%lf", out) == 1 && isfinite(*out)) return true;
-    return scan_fail(&in->scan, err, "%s is '%.40s', wanted degrees", what, text);
+    return scan_fail(&in->scan, err, "%s is '%.40s', required: degrees", what, text);
 }
 
 static bool read_format(Mountain *in, const char *text, Error *err)
@@ -45,7 +45,7 @@ static bool read_format(Mountain *in, const char *text, Error *err)
             return scan_fail(&in->scan, err, "the format is BTDF: transmission, and a display "
                              "panel is opaque");
     }
-    return scan_fail(&in->scan, err, "the format is '%.60s', wanted theta phi BSDF or DSF",
+    return scan_fail(&in->scan, err, "the format is '%.60s', required: theta phi BSDF or DSF",
                      text);
 }
 
@@ -55,7 +55,8 @@ static bool read_colorimetry(Mountain *in, const char *text, Error *err)
     sscanf(text, "%15s", kind);
     in->is_xyz = !strcasecmp(kind, "CIE-XYZ");
     if (in->is_xyz || !strcasecmp(kind, "CIE-Y")) return true;
-    return scan_fail(&in->scan, err, "the colorimetry is '%s', wanted CIE-Y or CIE-XYZ", kind);
+    return scan_fail(&in->scan, err, "the colorimetry is '%s', required: CIE-Y or "
+                                     "CIE-XYZ", kind);
 }
 
 /* The rest of the line after its key, or NULL. */
@@ -85,7 +86,8 @@ static bool read_entry(Mountain *in, const char *line, ImportSet *set, Error *er
     if ((text = value_of(line, "#incident_angle"))) {
         in->has_theta = in->has_phi = true;
         if (sscanf(text, "%lf %lf", &in->theta, &in->phi) != 2)
-            return scan_fail(&in->scan, err, "incident_angle is '%.40s', wanted theta and phi",
+            return scan_fail(&in->scan, err, "incident_angle is '%.40s', required: theta and "
+                                             "phi",
                              text);
     }
     return true;
@@ -103,10 +105,12 @@ static bool read_header(Mountain *in, ImportSet *set, Error *err)
         return scan_fail(&in->scan, err, "the header has no %s",
                          in->has_theta ? "#inphi" : "#intheta");
     if (in->theta >= 90 && in->theta <= 180)
-        return scan_fail(&in->scan, err, "the light comes from behind (intheta %g), wanted the "
+        return scan_fail(&in->scan, err, "the light comes from behind (intheta %g), required: "
+                                         "the "
                          "front: below 90 degrees", in->theta);
     if (!(in->theta >= 0 && in->theta < 90) || !(fabs(in->phi) <= 360))
-        return scan_fail(&in->scan, err, "the light comes from (%g, %g), wanted theta 0 to 90 "
+        return scan_fail(&in->scan, err, "the light comes from (%g, %g), required: theta 0 to "
+                                         "90 "
                          "and phi -360 to 360 degrees", in->theta, in->phi);
     return true;
 }
@@ -121,7 +125,8 @@ static bool put_row(Mountain *in, ImportRows *rows, Error *err)
     for (int c = 0; c < numbers; c++)
         if (!scan_number(&in->scan, "the value", &value[c], err)) return false;
     if (!(theta >= 0 && theta <= 180) || !(fabs(phi) <= 360))
-        return scan_fail(&in->scan, err, "the direction is (%g, %g), wanted theta 0 to 180 and "
+        return scan_fail(&in->scan, err, "the direction is (%g, %g), required: theta 0 to 180 "
+                                         "and "
                          "phi -360 to 360 degrees", theta, phi);
     double one = value[numbers == 3];
     if (theta > 90) {

@@ -36,7 +36,8 @@ static bool read_angles(Pbsdf *in, int which, const char *name, Arena *arena, Er
         return false;
     if (field->count < 2 || field->count > ANGLES_MAX ||
         field->count != field->shape[field->rank - 1])
-        return error_at(err, ERROR_INPUT, in->file.file, name, "has the wrong shape, wanted 1 "
+        return error_at(err, ERROR_INPUT, in->file.file, name, "has the wrong shape, "
+                                                               "required: 1 "
                         "x 2 to 4096 angles");
     in->count[which] = (int)field->count;
     in->angle[which] = ARENA_NEW(arena, double, field->count);
@@ -52,7 +53,8 @@ static bool read_bands(Pbsdf *in, Arena *arena, float **nm, Error *err)
     const TensorField *field;
     if (!tensor_file_field(&in->file, "wvls", 1, &field, err)) return false;
     if (field->count < 1 || field->count > MEASUREMENT_WAVELENGTHS_MAX)
-        return error_at(err, ERROR_INPUT, in->file.file, "wvls", "has %zu wavelengths, wanted "
+        return error_at(err, ERROR_INPUT, in->file.file, "wvls", "has %zu wavelengths, "
+                                                                 "required: "
                         "1 to %d", field->count, MEASUREMENT_WAVELENGTHS_MAX);
     in->channels = (int)field->count;
     *nm = ARENA_NEW(arena, float, field->count);
@@ -69,7 +71,7 @@ static bool find_matrix(Pbsdf *in, Error *err)
                 m->shape[1] == (size_t)in->count[1] && m->shape[2] == (size_t)in->count[2] &&
                 m->shape[3] == (size_t)in->channels && m->shape[4] == 4 && m->shape[5] == 4;
     if (!fits)
-        return error_at(err, ERROR_INPUT, in->file.file, "M", "has the wrong shape, wanted "
+        return error_at(err, ERROR_INPUT, in->file.file, "M", "has the wrong shape, required: "
                         "phi_d x theta_d x theta_h x wvls x 4 x 4");
     in->matrix = m;
     return true;

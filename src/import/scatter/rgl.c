@@ -34,7 +34,8 @@ typedef struct Rgl {
 
 static bool wrong_shape(const Rgl *in, const TensorField *field, Error *err, const char *wanted)
 {
-    return error_at(err, ERROR_INPUT, in->file.file, field->name, "has the wrong shape, wanted "
+    return error_at(err, ERROR_INPUT, in->file.file, field->name, "has the wrong shape, "
+                                                                  "required: "
                     "%s", wanted);
 }
 
@@ -96,7 +97,7 @@ static bool check_angles(Rgl *in, Error *err)
     for (int i = 0; i < in->thetas; i++) {
         double theta = tensor_value(in->theta_i, (size_t)i);
         if (!(theta >= 0 && theta <= PI / 2 + 1e-6))
-            return error_at(err, ERROR_INPUT, file, "theta_i", "has %g, wanted 0 to pi / 2",
+            return error_at(err, ERROR_INPUT, file, "theta_i", "has %g, required: 0 to pi / 2",
                             theta);
     }
     if (in->is_isotropic) return true;
@@ -239,7 +240,8 @@ static bool add_light(const Rgl *in, int phi, int theta, const float *nm, Import
                                              degrees_from_radians(turn));
     light.sigma = bilinear(in->sigma, sqrt(lean * 2 / PI), (turn + PI) / (2 * PI));
     if (in->has_jacobian && !(light.sigma > 0))
-        return error_at(err, ERROR_INPUT, in->file.file, "sigma", "is %g at theta_i %g, wanted "
+        return error_at(err, ERROR_INPUT, in->file.file, "sigma", "is %g at theta_i %g, "
+                                                                  "required: "
                         "above 0", light.sigma, lean);
     Arena   before = *set->arena;
     size_t  height = in->values->shape[3], width = in->values->shape[4];
@@ -267,7 +269,8 @@ static bool name_bands(const Rgl *in, ImportSet *set, const float **nm, Error *e
     for (int c = 0; c < in->channels; c++) {
         list[c] = (float)tensor_value(in->wavelengths, (size_t)c);
         if (!(list[c] > 0) || (c && !(list[c] > list[c - 1])))
-            return error_at(err, ERROR_INPUT, in->file.file, "wavelengths", "has %g nm, wanted "
+            return error_at(err, ERROR_INPUT, in->file.file, "wavelengths", "has %g nm, "
+                                                                            "required: "
                             "rising wavelengths", (double)list[c]);
     }
     *nm = list;

@@ -104,12 +104,12 @@ bool scan_number(WordScan *scan, const char *what, double *out, Error *err)
     const char *begin = scan->next;
     while (scan->next < scan->end && !is_separator(scan, *scan->next)) scan->next++;
     size_t length = (size_t)(scan->next - begin);
-    if (!length) return scan_fail(scan, err, "the file ends, wanted %s", what);
+    if (!length) return scan_fail(scan, err, "the file ends, required: %s", what);
     size_t copied = length < sizeof text ? length : sizeof text - 1;
     memcpy(text, begin, copied);
     text[copied] = 0;
     if (length < sizeof text && scan_to_number(text, out)) return true;
-    return scan_fail(scan, err, "%s is '%.*s', wanted a number", what, WORD_SHOWN_MAX, text);
+    return scan_fail(scan, err, "%s is '%.*s', required: a number", what, WORD_SHOWN_MAX, text);
 }
 
 bool scan_count(WordScan *scan, const char *what, int most, int *out, Error *err)
@@ -117,7 +117,8 @@ bool scan_count(WordScan *scan, const char *what, int most, int *out, Error *err
     double value;
     if (!scan_number(scan, what, &value, err)) return false;
     if (!(value >= 1 && value <= most && value == floor(value)))
-        return scan_fail(scan, err, "%s is %g, wanted a whole number from 1 to %d", what, value,
+        return scan_fail(scan, err, "%s is %g, required: a whole number from 1 to "
+                                    "%d", what, value,
                          most);
     double words = (double)(scan->end - scan->next) / 2 + 1;
     if (value > words)
@@ -148,7 +149,7 @@ int scan_choice(WordScan *scan, const char *what, const char *const *list, const
     const char *word = scan_word(scan);
     int found = word ? import_word_find(list, word) : -1;
     if (found < 0)
-        scan_fail(scan, err, "%s is '%s', wanted %s", what, word ? word : "", wanted);
+        scan_fail(scan, err, "%s is '%s', required: %s", what, word ? word : "", wanted);
     return found;
 }
 

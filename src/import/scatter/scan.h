@@ -52,7 +52,7 @@ bool scan_counted_list(WordScan *scan, const char *what, int most, int *count, d
                        Error *err);
 
 /* The next word's place in a list that ends with NULL (case does not matter); or -1 and an
- * error, "WHAT is '...', wanted WANTED". */
+ * error, "WHAT is '...', required: WANTED". */
 int scan_choice(WordScan *scan, const char *what, const char *const *list, const char *wanted,
                 Error *err);
 

@@ -258,10 +258,10 @@ bool angles_check(const char *file, const char *what, const double *list, int co
 {
     for (int i = 0; i < count; i++) {
         if (!(list[i] >= range[0] && list[i] <= range[1]))
-            return error_at(err, ERROR_INPUT, file, "", "%s is %g, wanted %g to %g degrees",
+            return error_at(err, ERROR_INPUT, file, "", "%s is %g, required: %g to %g degrees",
                             what, list[i], range[0], range[1]);
         if (i && !(list[i] > list[i - 1]))
-            return error_at(err, ERROR_INPUT, file, "", "%s %g follows %g, wanted rising "
+            return error_at(err, ERROR_INPUT, file, "", "%s %g follows %g, required: rising "
                             "angles", what, list[i], list[i - 1]);
     }
     return true;

@@ -77,7 +77,8 @@ static bool find_scale(const Speos *in, Arena scratch, double *scale, Error *err
     double high = table_integral(table[1], scratch);
     if (!(low > 0 && high > 0))
         return error_at(err, ERROR_INPUT, in->file, "", "the table at incidence %g integrates "
-                        "to %g, wanted above 0", table[0]->incidence_deg, low > 0 ? high : low);
+                        "to %g, required: above 0", table[0]->incidence_deg,
+                        low > 0 ? high : low);
     double span = table[1]->incidence_deg - table[0]->incidence_deg;
     double u = span > 0 ? (in->spectrum_theta_deg - table[0]->incidence_deg) / span : 0;
     *scale = (1 - u) / low + u / high;
@@ -126,11 +127,11 @@ static bool check_spectrum(const Speos *in, Error *err)
     for (int i = 0; i < in->spectrum_count; i++) {
         double nm = in->spectrum_nm[i], percent = in->spectrum_percent[i];
         if (!(nm > 0) || (i && !(nm > in->spectrum_nm[i - 1])))
-            return error_at(err, ERROR_INPUT, in->file, "", "the spectrum has %g nm, wanted "
+            return error_at(err, ERROR_INPUT, in->file, "", "the spectrum has %g nm, required: "
                             "rising wavelengths", nm);
         if (!(percent >= 0))
             return error_at(err, ERROR_INPUT, in->file, "", "the spectrum is %g%% at %g nm, "
-                            "wanted 0 or more", percent, nm);
+                            "required: 0 or more", percent, nm);
     }
     return true;
 }
@@ -176,7 +177,7 @@ static bool add_scaled(const Speos *in, ImportSet *set, Error *err)
     bands.count = choose_bands(in, set, nm);
     if (!bands.count)
         return error_at(err, ERROR_INPUT, in->file, "", "the spectrum goes from %g to %g nm, "
-                        "wanted some of %g to %g nm", in->spectrum_nm[0],
+                        "required: some of %g to %g nm", in->spectrum_nm[0],
                         in->spectrum_nm[in->spectrum_count - 1], FIRST_NM, LAST_NM);
     for (int c = 0; c < bands.count; c++)
         bands.factor[c] = percent_at(in, (double)nm[c]) / 100 * scale;
@@ -200,7 +201,7 @@ static bool add_spectral(const Speos *in, ImportSet *set, Error *err)
         double            total = table_integral(table, *set->arena);
         if (!(total > 0))
             return error_at(err, ERROR_INPUT, in->file, "", "the table at incidence %g and %g "
-                            "nm integrates to %g, wanted above 0", table->incidence_deg,
+                            "nm integrates to %g, required: above 0", table->incidence_deg,
                             table->nm, total);
         SpeosBands bands = {1, scatter_band(table->nm, set), {table->percent / 100 / total}};
         totals_add(&totals, table->incidence_deg, table->percent / 100, total);
@@ -244,7 +245,7 @@ static bool read_simple(const char *file, ImportSet *set, Error *err)
     scan_line(&scan);
     scan_line(&scan); /* title and comment */
     if (!scan_accept(&scan, "Reflection"))
-        return scan_fail(&scan, err, "the surface's kind is '%.40s', wanted Reflection",
+        return scan_fail(&scan, err, "the surface's kind is '%.40s', required: Reflection",
                          scan_peek(&scan) ? scan_peek(&scan) : "");
     for (int i = 0; i < 4; i++)
         if (!scan_number(&scan, "a share in percent", &number[i], err)) return false;
@@ -279,7 +280,7 @@ static bool read_speos(const char *file, const ImportOptions *options, ImportSet
     if (!scan_open(file, &scratch, &scan, err)) return false;
     const char *title = scan_line(&scan);
     if (!title || strncmp(title, "OPTIS - ", 8))
-        return scan_fail(&scan, err, "the first line is '%.40s', wanted OPTIS - ...",
+        return scan_fail(&scan, err, "the first line is '%.40s', required: OPTIS - ...",
                          title ? title : "");
     if (strstr(title, "Simple scattering")) return read_simple(file, set, err);
     bool is_binary = scan.next < scan.end && *scan.next == '1';

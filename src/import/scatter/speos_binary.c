@@ -55,7 +55,7 @@ static bool read_flag(SpeosBinary *in, bool *out, Error *err)
     if (!read_uint(in, 1, "its header", &found, err)) return false;
     *out = found == 1;
     return found <= 1 ||
-           byte_scan_fail(&in->scan, err, "a flag is %d, wanted 0 or 1", (int)found);
+           byte_scan_fail(&in->scan, err, "a flag is %d, required: 0 or 1", (int)found);
 }
 
 static bool read_double(SpeosBinary *in, const char *what, double *out, Error *err)
@@ -81,7 +81,7 @@ static bool read_block(SpeosBinary *in, size_t count, double **out, Error *err)
         !(block = byte_scan_take(&in->scan, (size_t)packed)))
         return cut(in, err, "a block of numbers");
     if (bytes != count * sizeof(double) || again != bytes)
-        return byte_scan_fail(&in->scan, err, "a block has %llu bytes, wanted %zu",
+        return byte_scan_fail(&in->scan, err, "a block has %llu bytes, required: %zu",
                               (unsigned long long)bytes, count * sizeof(double));
     if (bytes / 255 > packed)
         return byte_scan_fail(&in->scan, err, "a block of %u bytes cannot hold %llu",
@@ -105,7 +105,8 @@ static bool read_count(SpeosBinary *in, const char *what, int *out, Error *err)
     uint64_t count;
     if (!read_uint(in, 4, what, &count, err)) return false;
     if (count < 1 || count > SPEOS_ANGLES_MAX)
-        return byte_scan_fail(&in->scan, err, "%s is %u, wanted 1 to %d", what, (unsigned)count,
+        return byte_scan_fail(&in->scan, err, "%s is %u, required: 1 to "
+                                              "%d", what, (unsigned)count,
                               SPEOS_ANGLES_MAX);
     *out = (int)count;
     return true;
@@ -208,6 +209,7 @@ bool speos_binary_read(const char *file, Arena *arena, Speos *out, Error *err)
     size_t settings = (size_t)out->tables * SETTINGS_PER_LIGHT;
     size_t tail = (settings + 1) * sizeof(double) + 1;
     size_t left = in.scan.size - in.scan.at;
-    return left == tail || byte_scan_fail(&in.scan, err, "%zu bytes follow the tables, wanted "
+    return left == tail || byte_scan_fail(&in.scan, err, "%zu bytes follow the tables, "
+                                                         "required: "
                                           "%zu", left, tail);
 }

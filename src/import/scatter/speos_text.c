@@ -20,7 +20,7 @@ static bool read_flag(SpeosText *in, const char *what, bool *out, Error *err)
     double value;
     if (!scan_number(&in->scan, what, &value, err)) return false;
     if (value != 0 && value != 1)
-        return scan_fail(&in->scan, err, "%s is %g, wanted 0 or 1", what, value);
+        return scan_fail(&in->scan, err, "%s is %g, required: 0 or 1", what, value);
     *out = value == 1;
     return true;
 }
@@ -198,7 +198,7 @@ bool speos_text_read(const char *file, Arena *arena, Speos *out, Error *err)
     const char *version = title ? strrchr(title, 'v') : NULL;
     double      number;
     if (!version || !scan_to_number(version + 1, &number) || number < 8)
-        return scan_fail(&in.scan, err, "the version is '%.20s', wanted v8.0 or later",
+        return scan_fail(&in.scan, err, "the version is '%.20s', required: v8.0 or later",
                          version ? version : "");
     out->is_spectral = !strstr(title, "Anisotropic");
     bool is_binary;

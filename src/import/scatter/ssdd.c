@@ -59,7 +59,7 @@ static bool read_list(Ssdd *in, char *text, const char *what, SsddList *out, Err
         if (out->count == LIST_MAX)
             return scan_fail(&in->scan, err, "%s has more than %d numbers", what, LIST_MAX);
         if (!scan_to_number(word, one))
-            return scan_fail(&in->scan, err, "%s has '%.40s', wanted numbers", what, word);
+            return scan_fail(&in->scan, err, "%s has '%.40s', required: numbers", what, word);
         if (out->count && !(*one > one[-1]))
             return scan_fail(&in->scan, err, "%s does not rise at %g", what, *one);
     }
@@ -71,7 +71,7 @@ static bool read_wavelengths(Ssdd *in, char *text, Error *err)
     SsddList list;
     if (!read_list(in, text, "WAVELENGTH_LIST", &list, err)) return false;
     if (list.count > MEASUREMENT_WAVELENGTHS_MAX)
-        return scan_fail(&in->scan, err, "WAVELENGTH_LIST has %d numbers, wanted at most %d",
+        return scan_fail(&in->scan, err, "WAVELENGTH_LIST has %d numbers, required: at most %d",
                          list.count, MEASUREMENT_WAVELENGTHS_MAX);
     in->nm_count = list.count;
     in->nm = ARENA_NEW(in->scan.arena, float, list.count);
@@ -94,7 +94,8 @@ static bool read_colour(Ssdd *in, const char *text, Error *err)
     static const char *const names[] = {"monochrome", "rgb", "xyz", "spectrum", NULL};
     int at = import_word_find(names, text);
     if (at < 0)
-        return scan_fail(&in->scan, err, "COLOR_MODEL is '%.40s', wanted monochrome, rgb, xyz "
+        return scan_fail(&in->scan, err, "COLOR_MODEL is '%.40s', required: monochrome, rgb, "
+                                         "xyz "
                          "or spectrum", text);
     in->colour = (SsddColour)(COLOUR_MONO + at);
     return true;
@@ -387,7 +388,7 @@ static bool read_block(Ssdd *in, const char *mode, const ImportOptions *options,
 {
     bool is_binary = !strcasecmp(mode, "binary");
     if (!is_binary && strcasecmp(mode, "ascii"))
-        return scan_fail(&in->scan, err, "DATA is '%.40s', wanted ascii or binary", mode);
+        return scan_fail(&in->scan, err, "DATA is '%.40s', required: ascii or binary", mode);
     if (!check_metadata(in, err)) return false;
     bool ok = is_binary ? read_binary(in, err) : read_ascii(in, err);
     return ok && add_block(in, options, set, err);
@@ -400,7 +401,7 @@ static bool read_ssdd(const char *file, const ImportOptions *options, ImportSet 
     if (!scan_open(file, set->arena, &in.scan, err)) return false;
     const char *first = scan_peek(&in.scan), *line;
     if (!first || strcmp(first, "VERSION"))
-        return scan_fail(&in.scan, err, "the file begins with '%.40s', wanted VERSION",
+        return scan_fail(&in.scan, err, "the file begins with '%.40s', required: VERSION",
                          first ? first : "");
     bool has_block = false;
     while ((line = scan_line(&in.scan))) {

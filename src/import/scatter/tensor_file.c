@@ -42,7 +42,8 @@ static bool place_data(const ByteScan *scan, TensorField *field, uint64_t offset
 {
     size_t each = type_size(field->type);
     if (!each)
-        return byte_scan_fail(scan, err, "field '%s' has a type of number %d, wanted 1 to 11",
+        return byte_scan_fail(scan, err, "field '%s' has a type of number %d, required: 1 to "
+                                         "11",
                               field->name, field->type);
     if (offset > scan->size)
         return byte_scan_fail(scan, err, "field '%s' begins behind the file's end",
@@ -69,7 +70,8 @@ static bool read_field(ByteScan *scan, Arena *arena, TensorField *field, Error *
     *field = (TensorField){.name = arena_string(arena, (const char *)name, (size_t)length),
                            .type = (int)type, .rank = (int)rank};
     if (field->rank > TENSOR_RANK_MAX)
-        return byte_scan_fail(scan, err, "field '%.40s' has %d dimensions, wanted at most %d",
+        return byte_scan_fail(scan, err, "field '%.40s' has %d dimensions, required: at most "
+                                         "%d",
                               field->name, field->rank, TENSOR_RANK_MAX);
     for (int d = 0; d < field->rank; d++) {
         if (!byte_scan_uint(scan, 8, &side))
@@ -101,10 +103,10 @@ bool tensor_file_open(const char *file, Arena *arena, TensorFile *out, Error *er
     if (!byte_scan_uint(&scan, 2, &version) || !byte_scan_uint(&scan, 4, &count))
         return byte_scan_fail(&scan, err, "the file ends inside its header");
     if (version != 1)
-        return byte_scan_fail(&scan, err, "the version is %d.%d, wanted 1.0",
+        return byte_scan_fail(&scan, err, "the version is %d.%d, required: 1.0",
                               (int)version & 255, (int)version >> 8);
     if (count > TENSOR_FIELDS_MAX)
-        return byte_scan_fail(&scan, err, "there are %u fields, wanted at most %d",
+        return byte_scan_fail(&scan, err, "there are %u fields, required: at most %d",
                               (unsigned)count, TENSOR_FIELDS_MAX);
     for (; out->fields < (int)count; out->fields++)
         if (!read_field(&scan, arena, &out->field[out->fields], err)) return false;
@@ -124,10 +126,10 @@ bool tensor_file_field(const TensorFile *in, const char *name, int rank,
     const TensorField *field = tensor_file_find(in, name);
     if (!field) return error_at(err, ERROR_INPUT, in->file, name, "this field is missing");
     if (field->rank != rank)
-        return error_at(err, ERROR_INPUT, in->file, name, "has %d dimensions, wanted %d",
+        return error_at(err, ERROR_INPUT, in->file, name, "has %d dimensions, required: %d",
                         field->rank, rank);
     if (!is_readable(field->type))
-        return error_at(err, ERROR_INPUT, in->file, name, "has numbers of type %d, wanted "
+        return error_at(err, ERROR_INPUT, in->file, name, "has numbers of type %d, required: "
                         "floats or unsigned integers", field->type);
     for (size_t i = 0; i < field->count; i++)
         if (!isfinite(tensor_value(field, i)))

@@ -49,7 +49,7 @@ static bool take_mark(WordScan *text, char mark, Error *err)
 {
     char found = next_mark(text);
     if (found != mark)
-        return scan_fail(text, err, "'%c' stands where '%c' of the tensor tree is wanted",
+        return scan_fail(text, err, "'%c' stands where '%c' of the tensor tree is required",
                          found ? found : ' ', mark);
     text->next++;
     return true;
@@ -59,7 +59,8 @@ static bool take_mark(WordScan *text, char mark, Error *err)
 static bool read_grid(WordScan *text, int rank, TensorNode *node, Error *err)
 {
     const char *stop = strchr(text->next, '}');
-    if (!stop) return scan_fail(text, err, "the text ends inside the tensor tree, wanted '}'");
+    if (!stop) return scan_fail(text, err, "the text ends inside the tensor tree, required: "
+                                           "'}'");
     WordScan inside = *text;
     size_t count = 0;
     double one;
@@ -68,7 +69,8 @@ static bool read_grid(WordScan *text, int rank, TensorNode *node, Error *err)
         if (!scan_number(&counted, "a number of the tensor tree", &one, err)) return false;
     while (count > (size_t)1 << (rank * node->log2_side)) node->log2_side++;
     if (count != (size_t)1 << (rank * node->log2_side))
-        return scan_fail(text, err, "a grid of the tensor tree has %zu numbers, wanted a power "
+        return scan_fail(text, err, "a grid of the tensor tree has %zu numbers, required: a "
+                                    "power "
                          "of %d", count, 1 << rank);
     node->value = ARENA_NEW(text->arena, double, count);
     for (size_t i = 0; i < count; i++)

@@ -63,7 +63,7 @@ static bool fail_at(const Document *in, const xmlNode *node, Error *err, const c
 {
     char place[32] = "";
     if (node) snprintf(place, sizeof place, "line %ld", xmlGetLineNo(node));
-    return error_at(err, ERROR_INPUT, in->file, place, "%s, wanted %s", what, wanted);
+    return error_at(err, ERROR_INPUT, in->file, place, "%s, required: %s", what, wanted);
 }
 
 /* ---- opening ----------------------------------------------------------------------------- */

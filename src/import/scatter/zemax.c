@@ -49,7 +49,7 @@ static bool read_type(Zemax *in, Error *err)
     if (word && !strcasecmp(word, "BTDF"))
         return scan_fail(&in->scan, err, "ScatterType is BTDF: transmission, and a display "
                          "panel is opaque");
-    return scan_fail(&in->scan, err, "ScatterType is '%s', wanted BRDF", word ? word : "");
+    return scan_fail(&in->scan, err, "ScatterType is '%s', required: BRDF", word ? word : "");
 }
 
 /* Reads one entry; *done at the first word of the data. */
@@ -75,7 +75,7 @@ static bool read_entry(Zemax *in, bool *done, Error *err)
         if (scan_accept(scan, lists[i].name))
             return scan_counted_list(scan, lists[i].name, ANGLES_MAX, lists[i].count,
                                      lists[i].list, err);
-    if (!word) return scan_fail(scan, err, "the file ends in its header, wanted DataBegin");
+    if (!word) return scan_fail(scan, err, "the file ends in its header, required: DataBegin");
     return scan_fail(scan, err, "'%.40s' is no entry of this format's header", word);
 }
 
@@ -91,7 +91,8 @@ static bool check_header(const Zemax *in, Error *err)
                                              : NULL;
     if (missing) return scan_fail(scan, err, "the header has no %s", missing);
     if (in->rotations > BLOCKS_MAX / in->incidences)
-        return scan_fail(scan, err, "there are %d sample rotations at %d incidences, wanted at "
+        return scan_fail(scan, err, "there are %d sample rotations at %d incidences, "
+                                    "required: at "
                          "most %d blocks", in->rotations, in->incidences, BLOCKS_MAX);
     const double turn[] = {-360, 360}, lean[] = {0, 89.999};
     const double full[] = {0, 360}, half[] = {0, 180};
@@ -115,7 +116,7 @@ static bool read_block(Zemax *in, bool is_kept, Error *err)
 {
     double ignored, *value = NULL;
     if (is_kept && in->blocks == in->rotations * in->incidences)
-        return scan_fail(&in->scan, err, "this TIS is one block too many, wanted %d",
+        return scan_fail(&in->scan, err, "this TIS is one block too many, required: %d",
                          in->rotations * in->incidences);
     if (is_kept) value = in->value + block_size(in) * (size_t)in->blocks;
     if (!scan_number(&in->scan, "TIS", is_kept ? &in->tis[in->blocks] : &ignored, err))
@@ -157,12 +158,13 @@ static bool read_data(Zemax *in, Error *err)
         } else if (!strcasecmp(word, "TIS")) {
             if (!read_block(in, component == kept, err)) return false;
         } else {
-            return scan_fail(&in->scan, err, "'%.40s' stands where TIS or DataEnd is wanted",
+            return scan_fail(&in->scan, err, "'%.40s' stands where TIS or DataEnd is required",
                              word);
         }
     }
     if (in->blocks != in->rotations * in->incidences)
-        return scan_fail(&in->scan, err, "the file ends after %d blocks, wanted %d", in->blocks,
+        return scan_fail(&in->scan, err, "the file ends after %d blocks, required: "
+                                         "%d", in->blocks,
                          in->rotations * in->incidences);
     return is_ended || scan_fail(&in->scan, err, "the file ends without DataEnd");
 }

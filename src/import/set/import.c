@@ -55,7 +55,7 @@ void import_note(ImportSet *set, const char *format, ...)
 static bool refuse(const ImportTable *table, Error *err, const char *what, double found,
                    const char *wanted)
 {
-    return error_at(err, ERROR_INPUT, table->file, "", "%s is %g, wanted %s", what, found,
+    return error_at(err, ERROR_INPUT, table->file, "", "%s is %g, required: %s", what, found,
                     wanted);
 }
 
@@ -64,7 +64,7 @@ static bool check_emission(const ImportTable *table, Error *err)
     int channels = table->component ? 1 : 3;
     if (table->component && !strchr("XYZ", table->component))
         return error_at(err, ERROR_INPUT, table->file, "",
-                        "component '%c' is unknown, wanted X, Y or Z", table->component);
+                        "component '%c' is unknown, required: X, Y or Z", table->component);
     if (table->channels != channels)
         return refuse(table, err, "the number of values a direction", table->channels,
                       table->component ? "1" : "3: X, Y and Z");
@@ -114,7 +114,7 @@ bool import_add(ImportSet *set, const ImportTable *table, Error *err)
 {
     if (set->count == IMPORT_TABLES_MAX)
         return error_at(err, ERROR_INPUT, table->file, "",
-                        "is one table too many, wanted at most %d", IMPORT_TABLES_MAX);
+                        "is one table too many, required: at most %d", IMPORT_TABLES_MAX);
     if (table->rows < 1)
         return error_at(err, ERROR_INPUT, table->file, "", "has no measured direction");
     if (table->rows > IMPORT_ROWS_MAX)

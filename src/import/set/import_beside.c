@@ -47,10 +47,11 @@ bool import_beside_levels(const char *file, double level_max, ImportSet *set, Er
 static bool check(const ImportSpecular *asked, const ImportSet *set, Error *err)
 {
     if (asked->file && asked->gloss.count)
-        return error_set(err, ERROR_USAGE, "both a specular table and gloss are given, wanted "
+        return error_set(err, ERROR_USAGE, "both a specular table and gloss are given, "
+                                           "required: "
                          "one of them: the table says more");
     if (!asked->file && asked->aperture_deg > 0)
-        return error_set(err, ERROR_USAGE, "the aperture is a specular table's, wanted with "
+        return error_set(err, ERROR_USAGE, "the aperture is a specular table's, required: "
                          "one (--specular)");
     return import_first(set, IMPORT_REFLECTION) || (!asked->file && !asked->gloss.count) ||
            error_set(err, ERROR_INPUT, "a specular measurement belongs to a reflection, but "

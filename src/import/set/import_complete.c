@@ -24,7 +24,7 @@ static bool keep_visible(ImportSet *set, ImportTable *table, Error *err)
     while (end > first && table->wavelength_nm[end - 1] > LAST_NM) end--;
     if (first == end)
         return error_at(err, ERROR_INPUT, table->file, "",
-                        "has wavelengths from %g to %g nm, wanted some of %d to %d nm",
+                        "has wavelengths from %g to %g nm, required: some of %d to %d nm",
                         (double)table->wavelength_nm[0], (double)table->wavelength_nm[all - 1],
                         FIRST_NM, LAST_NM);
     if (end - first == all) return true;
@@ -57,7 +57,8 @@ static bool keep_usable(ImportSet *set, Error *err)
     }
     set->count = kept;
     return kept || error_at(err, ERROR_INPUT, first.file, "",
-                            "has light from %g degrees and no file from less, wanted one of 0 "
+                            "has light from %g degrees and no file from less, required: one "
+                            "of 0 "
                             "to %d degrees", first.incidence_deg, INCIDENCE_MAX_DEG);
 }
 
@@ -137,14 +138,15 @@ static bool check_sources(ImportSet *set, Error *err)
     bool white = import_first(set, IMPORT_WHITE), black = import_first(set, IMPORT_BLACK);
     if (!primaries && !white && black)
         return error_at(err, ERROR_INPUT, import_first(set, IMPORT_BLACK)->file, "",
-                        "is a black pattern alone, wanted also red, green and blue, or white");
+                        "is a black pattern alone, required: also red, green and blue, or "
+                        "white");
     for (ImportSource p = IMPORT_RED; primaries && p <= IMPORT_BLUE; p++) {
         if (!import_first(set, p))
             return error_set(err, ERROR_INPUT,
                              "no file is %s — name one as --role FILE=%s:LEVEL",
                              import_source_name(p), import_source_name(p));
         if (count_of(set, p) > MEASUREMENT_LEVELS_MAX)
-            return error_set(err, ERROR_INPUT, "%s has %d grey levels, wanted at most %d",
+            return error_set(err, ERROR_INPUT, "%s has %d grey levels, required: at most %d",
                              import_source_name(p), count_of(set, p),
                              MEASUREMENT_LEVELS_MAX);
     }
@@ -183,7 +185,7 @@ static bool check_signs(const ImportTable *table, Error *err)
     double allowed = fmax(least, share * most);
     return table->value[worst] >= -allowed ||
            error_at(err, ERROR_INPUT, table->file, "",
-                    "is %g at theta %g, phi %g, wanted at least %g %s (noise below zero)",
+                    "is %g at theta %g, phi %g, required: at least %g %s (noise below zero)",
                     table->value[worst], table->theta_deg[worst / size],
                     table->phi_deg[worst / size], -allowed, is_light ? "sr^-1" : "cd/m2");
 }

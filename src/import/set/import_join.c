@@ -167,7 +167,8 @@ static bool join_tables(ImportSet *set, const int *part, int count, ImportTable 
     join_rows(&join, set->arena, joined);
     if (2 * joined->rows < most)
         return error_at(err, ERROR_INPUT, set->table[sorted[count - 1]].file, "",
-                        "and %s share %d of %d directions, wanted the same directions in the "
+                        "and %s share %d of %d directions, required: the same directions in "
+                        "the "
                         "files of one table", joined->file, joined->rows, most);
     if (joined->rows < most)
         import_note(set,
@@ -236,7 +237,7 @@ static bool join_sections(ImportSet *set, Error *err)
         if (count < 2) continue;
         if (rows > IMPORT_ROWS_MAX)
             return error_at(err, ERROR_INPUT, set->table[i].file, "",
-                            "and its other sections have %g directions, wanted at most %d",
+                            "and its other sections have %g directions, required: at most %d",
                             rows, IMPORT_ROWS_MAX);
         ImportTable joined;
         append_tables(set, part, count, &joined);

@@ -222,12 +222,13 @@ bool import_check_lights(const ImportSet *set, Error *err)
     const ImportTable *first = incidences ? find_light(set, incidence[0], azimuth[0]) : NULL;
     if (incidences > MEASUREMENT_INCIDENCES_MAX)
         return error_at(err, ERROR_INPUT, first->file, "",
-                        "gives %d angles of incidence with the other files, wanted at most %d",
+                        "gives %d angles of incidence with the other files, required: at most "
+                        "%d",
                         incidences, MEASUREMENT_INCIDENCES_MAX);
     if (azimuths > MEASUREMENT_AZIMUTHS_MAX || incidences * azimuths > MEASUREMENT_TABLES_MAX)
         return error_at(err, ERROR_INPUT, first->file, "",
                         "gives light from %d incidences and %d azimuths with the other files, "
-                        "wanted at most %d azimuths and %d tables", incidences, azimuths,
+                        "required: at most %d azimuths and %d tables", incidences, azimuths,
                         MEASUREMENT_AZIMUTHS_MAX, MEASUREMENT_TABLES_MAX);
     for (int i = 0; i < incidences; i++)
         for (int k = 0; k < azimuths; k++) {
@@ -235,13 +236,14 @@ bool import_check_lights(const ImportSet *set, Error *err)
             if (!table)
                 return error_set(err, ERROR_INPUT,
                                  "no file has light from incidence %g, azimuth %g degrees; a "
-                                 "material that depends on the azimuth is wanted at every "
+                                 "material that depends on the azimuth is required at every "
                                  "incidence (%d) and azimuth (%d) of the light — or say "
                                  "--isotropic when the azimuth makes no difference",
                                  incidence[i], azimuth[k], incidences, azimuths);
             if (!import_same_channels(first, table))
                 return error_at(err, ERROR_INPUT, table->file, "",
-                                "has other wavelengths than %s, wanted the same in every table",
+                                "has other wavelengths than %s, required: the same in every "
+                                "table",
                                 first->file);
         }
     return true;

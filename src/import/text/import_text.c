@@ -146,7 +146,7 @@ static bool find_kind(TextReader *in)
     in->is_reflection = in->column[QUANTITY_REFLECTION] >= 0;
     if (emission == in->is_reflection)
         return error_at(in->err, ERROR_INPUT, in->file, "header line",
-                        emission ? "has columns of luminance and of reflection, wanted one "
+                        emission ? "has columns of luminance and of reflection, required: one "
                                    "kind — skip some with --columns"
                                  : "has no column of luminance or reflection — name them with "
                                    "--columns");
@@ -164,7 +164,8 @@ static bool find_kind(TextReader *in)
     bool has_pair = in->column[QUANTITY_HORIZONTAL] >= 0 && in->column[QUANTITY_VERTICAL] >= 0;
     return has_polar != has_pair ||
            error_at(in->err, ERROR_INPUT, in->file, "header line",
-                    "has %s, wanted one pair of angles", has_polar ? "theta and phi and also a "
+                    "has %s, required: one pair of angles", has_polar ? "theta and phi and "
+                                                                        "also a "
                     "horizontal and a vertical angle" : "no pair of angles");
 }
 

@@ -44,10 +44,11 @@ bool text_blocks_begin(TextBlocks *blocks, const TextCell *cell, int count, char
         blocks->block = ARENA_NEW(blocks->arena, TextBlock, TEXT_BLOCKS_MAX);
     if (blocks->count == TEXT_BLOCKS_MAX)
         return error_at(err, ERROR_INPUT, file, text_place(line, blocks->arena),
-                        "is one matrix too many, wanted at most %d", TEXT_BLOCKS_MAX);
+                        "is one matrix too many, required: at most %d", TEXT_BLOCKS_MAX);
     if (blocks->count && count - 1 != blocks->across)
         return error_at(err, ERROR_INPUT, file, text_place(line, blocks->arena),
-                        "has %d angles across, wanted the %d of the matrix before", count - 1,
+                        "has %d angles across, required: the %d of the matrix "
+                        "before", count - 1,
                         blocks->across);
     blocks->across = count - 1;
     TextBlock *block = &blocks->block[blocks->count++];
@@ -70,7 +71,7 @@ double *text_blocks_row(TextBlocks *blocks, int line, Error *err)
     TextBlock *block = &blocks->block[blocks->count - 1];
     if ((double)block->down.count * (double)blocks->across >= IMPORT_ROWS_MAX) {
         error_at(err, ERROR_INPUT, blocks->text->file, text_place(line, blocks->arena),
-                 "is one row too many, wanted at most %d directions", IMPORT_ROWS_MAX);
+                 "is one row too many, required: at most %d directions", IMPORT_ROWS_MAX);
         return NULL;
     }
     block->down.width = blocks->across + 1;
@@ -166,7 +167,8 @@ static bool same_grid(const TextBlocks *blocks, const TextBlock *block, Error *e
         same = block->down.cell[i * width] == first->down.cell[i * width];
     return same || error_at(err, ERROR_INPUT, blocks->text->file,
                             text_place(block->line, blocks->arena),
-                            "begins a matrix over other angles than the one of %s, wanted one "
+                            "begins a matrix over other angles than the one of %s, required: "
+                            "one "
                             "grid in a file", text_place(first->line, blocks->arena));
 }
 
@@ -227,7 +229,7 @@ bool text_blocks_finish(TextBlocks *blocks, NamedRows *out, Error *err)
     size_t rows = (size_t)first->down.count * (size_t)blocks->across;
     if (rows > IMPORT_ROWS_MAX)
         return error_at(err, ERROR_INPUT, blocks->text->file, "",
-                        "has %zu directions, wanted at most %d", rows, IMPORT_ROWS_MAX);
+                        "has %zu directions, required: at most %d", rows, IMPORT_ROWS_MAX);
     out->rows.cell = ARENA_NEW(blocks->arena, double, rows * (size_t)out->rows.width);
     out->rows.line = ARENA_NEW(blocks->arena, int, rows);
     fill_rows(blocks, first_down, out);

@@ -165,7 +165,7 @@ static bool header_unit(TextReader *in, ValueUnit *out)
         if (!fits_kind(unit, in->is_reflection)) continue;
         if (*out != UNIT_AUTO && *out != unit)
             return error_at(in->err, ERROR_INPUT, in->file, "header line",
-                            "has columns in %s and in %s, wanted one unit",
+                            "has columns in %s and in %s, required: one unit",
                             value_unit_name(*out), value_unit_name(unit));
         *out = unit;
     }

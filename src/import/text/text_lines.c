@@ -93,7 +93,8 @@ static bool cut_lines(const char *text, const char *end, Arena *arena, TextFile 
     char   feed = memchr(text, '\n', (size_t)(end - text)) ? '\n' : '\r';
     size_t count = count_character(text, end, feed) + 1;
     if (count > LINES_MAX)
-        return error_at(err, ERROR_INPUT, out->file, "", "has %zu lines, wanted fewer", count);
+        return error_at(err, ERROR_INPUT, out->file, "", "has %zu lines, required: "
+                                                         "fewer", count);
     out->line = ARENA_NEW(arena, TextLine, count);
     while (text < end) {
         const char *stop = memchr(text, feed, (size_t)(end - text));

@@ -65,7 +65,8 @@ static const TextKey *key_named(const char *key, Error *err)
 
 static bool bad_value(const TextKey *key, const char *value, Error *err)
 {
-    return error_set(err, ERROR_USAGE, "%s is '%s', wanted %s", key->key, value, key->values);
+    return error_set(err, ERROR_USAGE, "%s is '%s', required: "
+                                       "%s", key->key, value, key->values);
 }
 
 static bool number_of(const char *value, double low, double high, double *out)

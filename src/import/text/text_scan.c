@@ -71,7 +71,8 @@ static bool read_cell(const TextScan *scan, TextCell cell, double *out)
 
 static bool bad_cell(const TextScan *scan, TextCell cell, const char *column)
 {
-    return bad_line(scan, "column '%s' holds '%.*s', wanted a number or a mark of what was not "
+    return bad_line(scan, "column '%s' holds '%.*s', required: a number or a mark of what was "
+                          "not "
                     "measured (---, NaN, or one given as --mask)", column,
                     cell.length < 40 ? cell.length : 40, cell.text);
 }
@@ -102,10 +103,10 @@ static bool add_list_row(TextScan *scan)
     int       wanted = scan->header_cells;
     bool      has_final = scan->count == wanted + 1 && !scan->cell[wanted].length;
     if (scan->count != wanted && !has_final)
-        return bad_line(scan, "has %d cells, wanted %d as the columns are", scan->count,
+        return bad_line(scan, "has %d cells, required: %d as the columns are", scan->count,
                         wanted);
     if (table->rows.count >= IMPORT_ROWS_MAX)
-        return bad_line(scan, "is one row too many, wanted at most %d", IMPORT_ROWS_MAX);
+        return bad_line(scan, "is one row too many, required: at most %d", IMPORT_ROWS_MAX);
     double *row = text_rows_add(&table->rows, scan->at, scan->arena);
     for (int c = 0; c < table->rows.width; c++) {
         TextCell cell = scan->cell[table->column[c].from];
@@ -181,7 +182,7 @@ static bool read_header(TextScan *scan, const TextCell *cell, int count, bool fr
                             "--columns, u' and v' for 1976", text);
         if (name.quantity == QUANTITY_NONE && from_user && strcmp(text, "-") != 0)
             return error_set(scan->err, ERROR_USAGE, "--columns: '%s' is no name of a column, "
-                             "wanted theta, phi, X, Y, Z, L, x, y, u', v', a wavelength, "
+                             "required: theta, phi, X, Y, Z, L, x, y, u', v', a wavelength, "
                              "incidence, ... or -", text);
         scan->metadata->unused_columns += name.quantity == QUANTITY_NONE;
         if (name.quantity != QUANTITY_NONE && !add_column(scan, name, text, i)) return false;
@@ -199,7 +200,7 @@ static bool read_users_columns(TextScan *scan)
     if (count < 0) return error_set(scan->err, ERROR_USAGE, "--columns has too many names");
     if (!has_direction(cell, count) && !has_section(cell, count))
         return error_set(scan->err, ERROR_USAGE,
-                         "--columns '%s' has no two angles, wanted theta and phi, or "
+                         "--columns '%s' has no two angles, required: theta and phi, or "
                          "horizontal and vertical",
                          scan->options->columns);
     return read_header(scan, cell, count, true);
@@ -294,7 +295,8 @@ static bool add_block_row(TextScan *scan)
     int     wanted = blocks->across + 1;
     bool    has_final = scan->count == wanted + 1 && !scan->cell[wanted].length;
     if (scan->count != wanted && !has_final)
-        return bad_line(scan, "has %d cells, wanted %d as the head of the matrix", scan->count,
+        return bad_line(scan, "has %d cells, required: %d as the head of the "
+                              "matrix", scan->count,
                         wanted);
     double *value = text_blocks_row(blocks, scan->at, scan->err);
     if (!value) return false;

@@ -121,7 +121,7 @@ static bool xyz_from_chromaticity(const TextReader *in, int row, bool is_uv, dou
     }
     if (!is_valid)
         return error_at(in->err, ERROR_INPUT, in->file, row_place(in, row),
-                        "chromaticity is %g, %g, wanted a point of the CIE diagram", a, b);
+                        "chromaticity is %g, %g, required: a point of the CIE diagram", a, b);
     xyz[0] = is_uv ? luminance * 9 * a / (4 * b) : luminance * a / b;
     xyz[1] = luminance;
     xyz[2] = is_uv ? luminance * (12 - 3 * a - 20 * b) / (4 * b) : luminance * (1 - a - b) / b;
@@ -177,14 +177,14 @@ static bool row_angles(const TextReader *in, int row, double *theta, double *phi
                      in->is_section ? in->section_phi * phi_unit : cell_of(in, row, b)};
     if (isnan(raw[0]) || isnan(raw[1]))
         return error_at(in->err, ERROR_INPUT, in->file, row_place(in, row),
-                        "has no angle, wanted two numbers");
+                        "has no angle, required: two numbers");
     text_conventions_direction(in, raw, theta, phi);
     if (!(*theta <= 180 + 1e-6))
         return error_at(in->err, ERROR_INPUT, in->file, row_place(in, row),
-                        "theta is %g, wanted -90 to 90 degrees", raw[0]);
+                        "theta is %g, required: -90 to 90 degrees", raw[0]);
     if (!(fabs(raw[1]) <= 720))
         return error_at(in->err, ERROR_INPUT, in->file, row_place(in, row),
-                        "phi is %g, wanted -360 to 360 degrees", raw[1]);
+                        "phi is %g, required: -360 to 360 degrees", raw[1]);
     return true;
 }
 
@@ -222,7 +222,8 @@ static bool fill_table(TextReader *in, const TextChannels *channels, const RowGr
     bool is_helper = table->source == IMPORT_DARK || table->source == IMPORT_REFERENCE;
     if (table->rows < (is_helper ? 1 : DIRECTIONS_MIN))
         return error_at(in->err, ERROR_INPUT, in->file, row_place(in, group[0].row),
-                        "begins a table of %d measured direction%s, wanted an angular table of "
+                        "begins a table of %d measured direction%s, required: an angular "
+                        "table of "
                         "at least %d — leave the file out (--role FILE=skip) if it is none",
                         table->rows, table->rows == 1 ? "" : "s",
                         is_helper ? 1 : DIRECTIONS_MIN);
@@ -285,7 +286,8 @@ static bool codes_role(TextReader *in, const RowGroup *group, Role *role)
     if (is_white) role->source = IMPORT_WHITE;
     return lit <= 1 || is_white ||
            error_at(in->err, ERROR_INPUT, in->file, row_place(in, group->row),
-                    "the codes %g, %g, %g are a mixture, wanted one primary at a time, black "
+                    "the codes %g, %g, %g are a mixture, required: one primary at a time, "
+                    "black "
                     "or white — leave the file out (--role FILE=skip) if it is no table of one "
                     "pattern",
                     group->key[0], group->key[1], group->key[2]);

@@ -47,7 +47,7 @@ static void judge_rms(Judge *judge, const JudgedKind *kind)
     const FitErrors *e = kind->errors;
     double     rms = excess_rms(e);
     JudgeGrade grade = judge_reason_grade(rms, JUDGE_RMS_CARE, JUDGE_RMS_UNUSABLE);
-    judge_reason_add(judge, grade, "%s: the error is %.3g %% rms beside the noise, wanted "
+    judge_reason_add(judge, grade, "%s: the error is %.3g %% rms beside the noise, required: "
                      "at most %.0f %%: %s", kind->name, 100 * rms, 100 * JUDGE_RMS_CARE,
                      kind->advice);
 }
@@ -85,7 +85,7 @@ static void judge_integral(Judge *judge, const FitTable *total)
                                          JUDGE_INTEGRAL_UNUSABLE);
     add_figure(judge, "integral_error", total->integral_error);
     judge_reason_add(judge, grade, "a table's hemispherical integral (luminous flux or "
-                     "albedo) is missed by %.3g %%, wanted at most %.0f %%: see which "
+                     "albedo) is missed by %.3g %%, required: at most %.0f %%: see which "
                      "table in panel info, and check its unit and its "
                      "outliers", 100 * total->integral_error, 100 *
                      JUDGE_INTEGRAL_CARE);
@@ -97,7 +97,7 @@ static void judge_noise(Judge *judge, const FitTable *total)
 {
     JudgeGrade grade = judge_reason_grade(total->noise, JUDGE_NOISE_CARE, JUDGE_NOISE_UNUSABLE);
     add_figure(judge, "noise", total->noise);
-    judge_reason_add(judge, grade, "the noisiest table has %.3g %% of noise, wanted at "
+    judge_reason_add(judge, grade, "the noisiest table has %.3g %% of noise, required: at "
                      "most %.0f %%: measure longer or average repeated measurements", 100 *
                      total->noise, 100 * JUDGE_NOISE_CARE);
 }
@@ -144,7 +144,7 @@ static void judge_albedo(Judge *judge, const FitParts *parts)
     JudgeGrade grade = judge_reason_grade(albedo, JUDGE_ALBEDO_CARE, JUDGE_ALBEDO_UNUSABLE);
     add_figure(judge, "largest_albedo", albedo);
     judge_reason_add(judge, grade, "reflection: the tables say that %.4g times the light "
-                     "comes back (albedo; cut to 0.995), wanted at most 1: check the unit "
+                     "comes back (albedo; cut to 0.995), required: at most 1: check the unit "
                          "(panel import --unit brdf, brdf-cos or factor)", albedo);
     if (albedo < JUDGE_ALBEDO_LEAST)
         judge_reason_add(judge, JUDGE_CARE, "reflection: at most %.2g of the light comes back "
@@ -294,7 +294,7 @@ static void judge_held_out(Judge *judge, const FitParts *parts)
     judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "every second ring or azimuth left out "
                      "near the mirror direction is missed by %.2g %% (light from %.4g degrees, "
                      "theta %.4g, phi %.4g): with all of them, %.2g degrees apart, the panel "
-                     "may miss by %.2g %% between them, wanted at most %.0f %%: measure the "
+                     "may miss by %.2g %% between them, required: at most %.0f %%: measure the "
                      "BRDF every %.1g degrees there", 100 * most->error, degrees,
                      degrees_from_radians(most->theta), degrees_from_radians(most->phi),
                      degrees_from_radians(spacing.widest), 100 * most->estimate,
@@ -436,7 +436,8 @@ static void judge_between(Judge *judge, const FitParts *parts)
     if (!(r->held_out[worst].between > JUDGE_HELD_OUT_CARE)) return;
     judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "between the samples near the mirror "
                      "direction the panel differs from the fitted haze by %.2g %% (light from "
-                     "%.4g degrees), wanted at most %.0f %%: measure the BRDF in finer steps "
+                     "%.4g degrees), required: at most %.0f %%: measure the BRDF in finer "
+                     "steps "
                      "there, or ask for a smaller bound (--max-error)",
                      100 * r->held_out[worst].between,
                      degrees_from_radians(set->incidence[worst % set->incidence_count]),

@@ -45,7 +45,8 @@ static bool check_version(const PanelBytes *bytes, const PanelHeader *header,
                       : has_frame   ? PANEL_VERSION : PANEL_VERSION_PLAIN;
     if (header->version == wanted) return true;
     return error_at(bytes->err, ERROR_INPUT, bytes->name, "header",
-                    "has version %u, wanted %u for what the file holds; it is damaged: fit the "
+                    "has version %u, required: %u for what the file holds; it is damaged: fit "
+                    "the "
                     "panel again", header->version, wanted);
 }
 

@@ -17,23 +17,25 @@ _Static_assert(sizeof(float) == 4, "the file's layout");
 bool panel_refuse(const PanelBytes *bytes, const char *place, const char *what)
 {
     return error_at(bytes->err, ERROR_INPUT, bytes->name, place,
-                    "%s; the panel file is damaged, wanted one that `panel fit` wrote", what);
+                    "%s; the panel file is damaged, required: one that `panel fit` "
+                    "wrote", what);
 }
 
 bool panel_check_header(const PanelBytes *bytes, PanelHeader *header)
 {
     if (bytes->size < sizeof *header || memcmp(bytes->data, PANEL_MAGIC, 8))
         return error_at(bytes->err, ERROR_INPUT, bytes->name, "",
-                        "is no panel file, wanted one that `panel fit` wrote");
+                        "is no panel file, required: one that `panel fit` wrote");
     memcpy(header, bytes->data, sizeof *header);
     if (header->version < PANEL_VERSION_PLAIN || header->version > PANEL_VERSION_PLACES ||
         header->flags)
         return error_at(bytes->err, ERROR_INPUT, bytes->name, "header",
-                        "has version %u, wanted %u to %u: fit the panel again", header->version,
+                        "has version %u, required: %u to %u: fit the panel "
+                        "again", header->version,
                         PANEL_VERSION_PLAIN, PANEL_VERSION_PLACES);
     if (header->size != bytes->size)
         return error_at(bytes->err, ERROR_INPUT, bytes->name, "header",
-                        "has %zu bytes, wanted %llu: the file is cut or grown", bytes->size,
+                        "has %zu bytes, required: %llu: the file is cut or grown", bytes->size,
                         (unsigned long long)header->size);
     if (XXH3_64bits(bytes->data + CHECKSUM_FROM, bytes->size - CHECKSUM_FROM) !=
         header->checksum)

@@ -61,10 +61,10 @@ static bool place_row(const RawTable *raw, Row *row, Arena *arena, Error *err)
 {
     if (!(fabsf(row->theta_deg) <= 90))
         return error_at(err, ERROR_INPUT, raw->file, place_of(row->line, arena),
-                        "theta is %g, wanted 0 to 90 degrees", (double)row->theta_deg);
+                        "theta is %g, required: 0 to 90 degrees", (double)row->theta_deg);
     if (!(fabsf(row->phi_deg) <= 360))
         return error_at(err, ERROR_INPUT, raw->file, place_of(row->line, arena),
-                        "phi is %g, wanted -360 to 360 degrees", (double)row->phi_deg);
+                        "phi is %g, required: -360 to 360 degrees", (double)row->phi_deg);
     if (row->theta_deg < 0) {
         row->theta_deg = -row->theta_deg;
         row->phi_deg += 180;
@@ -86,7 +86,7 @@ static bool check_signs(const RawTable *raw, NoiseAllowance noise, Arena *arena,
         if (raw->value[i] < -allowed)
             return error_at(err, ERROR_INPUT, raw->file,
                             place_of(raw->row[i / (size_t)raw->channels].line, arena),
-                            "a value is %g, wanted at least %g %s (noise below zero)",
+                            "a value is %g, required: at least %g %s (noise below zero)",
                             (double)raw->value[i], -(double)allowed, noise.unit);
     return true;
 }
@@ -198,7 +198,7 @@ static bool finish_table(RawTable *raw, NoiseAllowance noise, Arena *arena, Angl
             return error_at(err, ERROR_INPUT, raw->file,
                             place_of(row->line, arena),
                             "theta %g, phi %g stands here and in line %d with different "
-                            "values, wanted every direction once",
+                            "values, required: every direction once",
                             (double)row->theta_deg, (double)row->phi_deg, last->line);
         }
     }
@@ -260,7 +260,7 @@ static bool xyz_from_yxy(const RawTable *raw, float *value, int line, Arena *are
     float y_cd_m2 = value[0], x = value[1], y = value[2];
     if (!(x >= 0) || !(y >= 0) || !(x + y <= 1) || (y == 0 && y_cd_m2 != 0)) {
         return error_at(err, ERROR_INPUT, raw->file, place_of(line, arena),
-                        "chromaticity is x %g, y %g, wanted a point of the CIE 1931 diagram",
+                        "chromaticity is x %g, y %g, required: a point of the CIE 1931 diagram",
                         (double)x, (double)y);
     }
     float scale = y > 0 ? y_cd_m2 / y : 0;
@@ -346,7 +346,8 @@ static bool reject_other_wavelengths(const CsvTable *csv, const float *wavelengt
         if (count == 1 && !strcmp(name, "brdf")) continue;
         if (!is_wavelength_column(csv, c, wavelength_nm, count))
             return error_at(err, ERROR_INPUT, csv->file, "header line",
-                            "column '%s' is no wavelength of the manifest, wanted theta, phi "
+                            "column '%s' is no wavelength of the manifest, required: theta, "
+                            "phi "
                             "and wavelengths_nm", name);
     }
     return true;
@@ -366,7 +367,8 @@ static bool read_brdf(const char *file, const float *wavelength_nm, int count, A
         int column = wavelength_column(&csv, wavelength_nm[w], count);
         if (column < 0)
             return error_at(err, ERROR_INPUT, file, "header line",
-                            "has no column for %g nm, wanted one a wavelength of the manifest",
+                            "has no column for %g nm, required: one a wavelength of the "
+                            "manifest",
                             (double)wavelength_nm[w]);
         for (int i = 0; i < csv.rows; i++)
             value[(size_t)i * (size_t)count + (size_t)w] =
@@ -398,7 +400,7 @@ static bool same_grid(const CsvTable *a, const CsvTable *b, Error *err)
     for (int i = 0; same && i < a->rows; i++)
         same = a->cell[(size_t)(i * a->columns)] == b->cell[(size_t)(i * b->columns)];
     return same || error_at(err, ERROR_INPUT, b->file, "",
-                            "has other angles than %s, wanted one grid for X, Y and Z",
+                            "has other angles than %s, required: one grid for X, Y and Z",
                             a->file);
 }
 
@@ -408,7 +410,7 @@ static bool grid_azimuth(const CsvTable *csv, int column, float *phi_deg, Error 
     *phi_deg = strtof(csv->name[column], &after);
     return (after != csv->name[column] && !*after && isfinite(*phi_deg)) ||
            error_at(err, ERROR_INPUT, csv->file, "header line",
-                    "column '%s' is no azimuth, wanted phi in degrees", csv->name[column]);
+                    "column '%s' is no azimuth, required: phi in degrees", csv->name[column]);
 }
 
 bool angle_table_read_grid(const char *const files[3], const char *name, Arena *arena,

@@ -436,7 +436,7 @@ static bool is_new_or_empty(const char *folder, Error *err)
     if (list) closedir(list);
     if (list && entries <= 2) return true; /* . and .. */
     return error_at(err, ERROR_OUTPUT, folder, "",
-                    "holds something already, wanted a new or an empty folder");
+                    "holds something already, required: a new or an empty folder");
 }
 
 bool panel_export(const Panel *panel, const char *name, const ExportOptions *options,
@@ -510,7 +510,7 @@ bool panel_export_table(const Panel *panel, const char *table, const ExportOptio
         ok = write_brdf(&export, &light, fmax(0, options->mirror_fwhm_deg), file);
     else
         ok = error_set(err, ERROR_USAGE,
-                       "--table '%s' is no table of this panel, wanted black, white CODE, "
+                       "--table '%s' is no table of this panel, required: black, white CODE, "
                        "red|green|blue CODE, primaries or brdf DEG [at DEG]", table);
     progress_end(&export.progress, export.done);
     arena_release(&export.scratch);

@@ -113,20 +113,21 @@ static bool find_columns(const CsvTable *csv, Columns *out, Error *err)
         if (place < 0) continue;
         if (out->at[place] >= 0)
             return error_at(err, ERROR_INPUT, csv->file, "header line",
-                            "columns '%s' and '%s' hold the same, wanted one of them",
+                            "columns '%s' and '%s' hold the same, required: one of them",
                             csv->name[out->at[place]], csv->name[c]);
         out->at[place] = c;
     }
     if (out->at[PLACE_LEVEL] < 0)
         return error_at(err, ERROR_INPUT, csv->file, "header line",
-                        "has no column of levels, wanted one named 'level' or 'code'");
+                        "has no column of levels, required: one named 'level' or 'code'");
     if (has_primary(out, false) && !has_primary(out, true))
         return error_at(err, ERROR_INPUT, csv->file, "header line",
-                        "has not all of 'red', 'green' and 'blue', wanted all three or "
+                        "has not all of 'red', 'green' and 'blue', required: all three or "
                         "'white' alone");
     if (out->at[PLACE_WHITE] < 0 && !has_primary(out, true))
         return error_at(err, ERROR_INPUT, csv->file, "header line",
-                        "has no column of luminance, wanted 'luminance' or 'white', or 'red', "
+                        "has no column of luminance, required: 'luminance' or 'white', or "
+                        "'red', "
                         "'green' and 'blue' (cd/m2)");
     out->is_percent = strchr(csv->name[out->at[PLACE_LEVEL]], '%') != NULL;
     for (int p = PLACE_RED; p < PLACE_COUNT; p++)
@@ -202,13 +203,14 @@ static bool check_levels(const CsvTable *csv, const LevelRow *row, Error *err)
 {
     if (csv->rows < 2 || csv->rows > LEVEL_TABLE_ROWS_MAX)
         return error_at(err, ERROR_INPUT, csv->file, "",
-                        "has %d row%s, wanted 2 or more (up to %d)", csv->rows,
+                        "has %d row%s, required: 2 or more (up to %d)", csv->rows,
                         csv->rows == 1 ? "" : "s", LEVEL_TABLE_ROWS_MAX);
     if (row[0].level < 0)
         return bad_row(csv, row[0].row, err, "level %g is below zero", row[0].level);
     for (int i = 1; i < csv->rows; i++)
         if (row[i].level == row[i - 1].level)
-            return bad_row(csv, row[i].row, err, "level %g stands in line %d already, wanted "
+            return bad_row(csv, row[i].row, err, "level %g stands in line %d already, "
+                                                 "required: "
                            "each level once", row[i].level, csv->line[row[i - 1].row]);
     return true;
 }
@@ -252,7 +254,7 @@ static bool take_luminance(const CsvTable *csv, const LevelRow *row, int column,
     for (int i = 0; i <= last; i++) {
         out[i] = cell_of(csv, row[i].row, column);
         if (out[i] < 0 && !(-out[i] <= noise_of(0, full, false)))
-            return bad_row(csv, row[i].row, err, "column '%s' holds %g cd/m2, wanted no "
+            return bad_row(csv, row[i].row, err, "column '%s' holds %g cd/m2, required: no "
                            "luminance below zero", name, out[i]);
         if (out[i] > LUMINANCE_MOST)
             return bad_row(csv, row[i].row, err, "column '%s' holds %g cd/m2, required at most "
@@ -260,7 +262,8 @@ static bool take_luminance(const CsvTable *csv, const LevelRow *row, int column,
         bool is_near = row[i].level < LEVEL_NEAR * row[top].level;
         if (out[top] - out[i] > noise_of(out[top], full, is_near))
             return bad_row(csv, row[i].row, err, "column '%s': %g cd/m2 at level %g is less "
-                           "than the %g of level %g (line %d), wanted luminance that does not "
+                           "than the %g of level %g (line %d), required: luminance that does "
+                           "not "
                            "fall by more than noise (%g %% of it; %g %% within %g %% of the "
                            "level; %g %% of full level)",
                            name, out[i], row[i].level, out[top], row[top].level,
@@ -387,7 +390,8 @@ bool level_table_check_white(const LevelTable *table, double white_cd_m2, const 
     snprintf(where, sizeof where, "line %d", table->line[table->rows - 1]);
     return error_at(err, ERROR_INPUT, table->file, where,
                     "full level has %g cd/m2, but the set's white on the axis %g (%s): %.3g %% "
-                    "apart, wanted within %g %%; do both belong to one panel, one backlight? "
+                    "apart, required: within %g %%; do both belong to one panel, one "
+                    "backlight? "
                     "(a column of relative luminance is named so: 'relative')",
                     full, white_cd_m2, source,
                     100 * fabs(full - white_cd_m2) / white_cd_m2, 100 * LEVEL_TABLE_FULL_MISS);

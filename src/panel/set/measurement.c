@@ -25,7 +25,7 @@ static bool read_emission_table(const JsonView *view, const char *key, const cha
                angle_table_read_xyz(file[0], name, view->arena, out, err);
     if (!json_is_object(value))
         return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                        "wanted a table's path, or an object with X, Y and Z paths");
+                        "required: a table's path, or an object with X, Y and Z paths");
     JsonView grid;
     if (!json_view_child(view, key, true, &grid, err) ||
         !json_view_check_keys(&grid, components, 3, err))
@@ -62,7 +62,7 @@ static bool read_level_keys(const JsonView *view, LevelKey *keys, int *count, Er
         double level = strtod(key, &after);
         if (after == key || *after || !(level > 0 && level <= 255))
             return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                            "is no grey level, wanted a number above 0 and up to 255");
+                            "is no grey level, required: a number above 0 and up to 255");
         if (*count == MEASUREMENT_LEVELS_MAX)
             return error_at(err, ERROR_INPUT, view->file, view->path,
                             "has more than %d levels", MEASUREMENT_LEVELS_MAX);
@@ -70,7 +70,7 @@ static bool read_level_keys(const JsonView *view, LevelKey *keys, int *count, Er
     }
     qsort(keys, (size_t)*count, sizeof *keys, by_level);
     return *count || error_at(err, ERROR_INPUT, view->file, view->path,
-                              "has no grey levels, wanted at least \"255\"");
+                              "has no grey levels, required: at least \"255\"");
 }
 
 static bool read_primary(const JsonView *emission, int index, MeasuredPrimary *out, Error *err)
@@ -143,7 +143,8 @@ static bool read_white(const JsonView *emission, Measurement *out, Error *err)
     for (int p = 0; p < 3; p++)
         if (json_object_get(emission->object, primary_names[p]))
             return error_at(err, ERROR_INPUT, emission->file, emission->path,
-                            "has both 'white' and '%s', wanted either the white table or the "
+                            "has both 'white' and '%s', required: either the white table or "
+                            "the "
                             "three primaries", primary_names[p]);
     if (json_object_get(emission->object, "black"))
         return error_at(err, ERROR_INPUT, emission->file, emission->path,
@@ -230,7 +231,7 @@ static bool join_wavelengths(const JsonView *view, const char *pattern, SlicePla
             value = ARENA_NEW(arena, float, count * (size_t)one.rows);
         } else if (!angle_table_same_rows(out, &one)) {
             return error_at(err, ERROR_INPUT, file, "", "has other directions than the table "
-                            "of %g nm, wanted the same at every wavelength",
+                            "of %g nm, required: the same at every wavelength",
                             (double)set->wavelength_nm[0]);
         }
         out->text_bytes += one.text_bytes;
@@ -273,7 +274,7 @@ static bool read_slices(const JsonView *view, const char *pattern, Measurement *
     int count = out->incidence_count * out->azimuth_count;
     if (count > MEASUREMENT_TABLES_MAX)
         return error_at(err, ERROR_INPUT, view->file, view->path, "%d incidences times "
-                        "azimuths, wanted at most %d", count, MEASUREMENT_TABLES_MAX);
+                        "azimuths, required: at most %d", count, MEASUREMENT_TABLES_MAX);
     out->brdf = ARENA_NEW(view->arena, AngleTable, count);
     for (int i = 0; i < count; i++)
         if (!read_slice(view, pattern, i, out, err)) return false;
@@ -286,7 +287,7 @@ static bool check_rising(const JsonView *view, const char *key, const double *va
     for (int i = 1; i < count; i++)
         if (!(value[i] > value[i - 1]))
             return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                            "%g follows %g, wanted rising values", value[i], value[i - 1]);
+                            "%g follows %g, required: rising values", value[i], value[i - 1]);
     return count > 0 || error_at(err, ERROR_INPUT, view->file, view->path,
                                  "key '%s' is missing", key);
 }
@@ -306,10 +307,11 @@ static bool read_azimuths(const JsonView *view, const char *pattern, Measurement
     if (!check_rising(view, "incidence_phi_deg", degrees, count, err)) return false;
     if (count < 2)
         return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "incidence_phi_deg"),
-                        "holds one azimuth, wanted several, or none for an isotropic panel");
+                        "holds one azimuth, required: several, or none for an isotropic panel");
     if (!strstr(pattern, "{azimuth}"))
         return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "files"),
-                        "wanted a pattern that holds {azimuth}, because incidence_phi_deg is "
+                        "required: a pattern that holds {azimuth}, because incidence_phi_deg "
+                        "is "
                         "there");
     out->azimuth_count = count;
     for (int i = 0; i < count; i++) out->azimuth[i] = radians_from_degrees(degrees[i]);
@@ -337,7 +339,7 @@ static bool read_reflection(const JsonView *root, Measurement *out, Error *err)
         return false;
     if (!pattern || !strstr(pattern, "{incidence}"))
         return error_at(err, ERROR_INPUT, view.file, json_view_path(&view, "files"),
-                        "wanted a pattern that holds {incidence}");
+                        "required: a pattern that holds {incidence}");
     out->incidence_count = count;
     out->wavelength_count = nm_count;
     for (int i = 0; i < nm_count; i++) out->wavelength_nm[i] = (float)nm[i];
@@ -353,7 +355,7 @@ static bool missing_position(const JsonView *view, Error *err)
 {
     bool has_both = json_object_get(view->object, "position") != NULL;
     return error_at(err, ERROR_INPUT, view->file, view->path, has_both
-        ? "has both 'position' and 'position_mm', wanted one of them"
+        ? "has both 'position' and 'position_mm', required: one of them"
         : "key 'position' is missing (or 'position_mm')");
 }
 
@@ -372,7 +374,7 @@ static bool read_position(const JsonView *view, const double size_mm[2], double 
     for (int k = 0; k < 2 && is_mm; k++) {
         if (at[k] > size_mm[k])
             return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                            "is %g, wanted 0 to %g mm, the active area", at[k], size_mm[k]);
+                            "is %g, required: 0 to %g mm, the active area", at[k], size_mm[k]);
         at[k] /= size_mm[k];
     }
     return true;
@@ -440,7 +442,7 @@ static bool read_spots(const JsonView *root, Measurement *out, Error *err)
     if (!json_is_array(list)) return json_view_wrong_kind(root, "spots", list, "a list", err);
     if (count < 1 || count > MEASUREMENT_SPOTS_MAX)
         return error_at(err, ERROR_INPUT, root->file, json_view_path(root, "spots"),
-                        "holds %zu spots, wanted 1 to %d", count, MEASUREMENT_SPOTS_MAX);
+                        "holds %zu spots, required: 1 to %d", count, MEASUREMENT_SPOTS_MAX);
     out->spot = ARENA_NEW(root->arena, MeasuredSpot, count);
     out->spots_emit = spots_have(root, "emission");
     out->spots_reflect = spots_have(root, "reflection");
@@ -449,7 +451,7 @@ static bool read_spots(const JsonView *root, Measurement *out, Error *err)
         view.object = spot;
         view.path = arena_format(root->arena, "%s/spots/%zu", root->path, i);
         if (!json_is_object(spot))
-            return error_at(err, ERROR_INPUT, view.file, view.path, "wanted an object");
+            return error_at(err, ERROR_INPUT, view.file, view.path, "required: an object");
         if (!read_spot(root, &view, out, &out->spot[i], err) ||
             !check_apart(&view, out->spot, (int)i, err))
             return false;

@@ -35,7 +35,7 @@ static bool check_spectra(const CsvTable *csv, int nm_column, Arena *arena, Erro
         const float *row = csv->cell + (size_t)i * (size_t)csv->columns;
         if (i && !(row[nm_column] > row[nm_column - csv->columns]))
             return error_at(err, ERROR_INPUT, csv->file, csv_table_place(csv, i, arena),
-                            "wavelength %g follows %g, wanted rising wavelengths",
+                            "wavelength %g follows %g, required: rising wavelengths",
                             (double)row[nm_column], (double)row[nm_column - csv->columns]);
     }
     return true;

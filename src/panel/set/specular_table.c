@@ -40,7 +40,7 @@ static bool find_columns(const CsvTable *csv, SpecularColumns *out, Error *err)
                      csv_table_column(csv, "reflectance")};
     if (out->incidence < 0 || out->value < 0)
         return error_at(err, ERROR_INPUT, csv->file, "header line", "column '%s' is missing, "
-                        "wanted incidence, wavelength and reflectance",
+                        "required: incidence, wavelength and reflectance",
                         out->value < 0 ? "reflectance" : "incidence");
     return csv->rows > 0 || error_at(err, ERROR_INPUT, csv->file, "", "has no rows");
 }
@@ -62,13 +62,16 @@ static bool check_row(const CsvTable *csv, const SpecularColumns *columns, int r
     double degrees = cell_of(csv, row, columns->incidence), nm = nm_of(csv, columns, row);
     double value = cell_of(csv, row, columns->value);
     if (!(degrees >= 0 && degrees < 90))
-        return error_at(err, ERROR_INPUT, csv->file, place, "incidence is %g degrees, wanted 0 "
+        return error_at(err, ERROR_INPUT, csv->file, place, "incidence is %g degrees, "
+                                                            "required: 0 "
                         "to less than 90", degrees);
     if (!(nm >= 360 && nm <= 830))
-        return error_at(err, ERROR_INPUT, csv->file, place, "wavelength is %g nm, wanted 360 "
+        return error_at(err, ERROR_INPUT, csv->file, place, "wavelength is %g nm, required: "
+                                                            "360 "
                         "to 830", nm);
     return (value >= 0 && value <= 1) ||
-           error_at(err, ERROR_INPUT, csv->file, place, "reflectance is %g, wanted 0 to 1 (a "
+           error_at(err, ERROR_INPUT, csv->file, place, "reflectance is %g, required: 0 to 1 "
+                                                        "(a "
                     "share, not per cent)", value);
 }
 
@@ -95,7 +98,7 @@ static bool fill_table(const CsvTable *csv, const SpecularColumns *columns,
 {
     if ((long long)out->rows * out->wavelengths > PLACES_MOST)
         return error_at(err, ERROR_INPUT, csv->file, "", "has %d incidences and %d wavelengths "
-                        "in %d rows, wanted every incidence at every wavelength", out->rows,
+                        "in %d rows, required: every incidence at every wavelength", out->rows,
                         out->wavelengths, csv->rows);
     int     size = out->rows * out->wavelengths;
     double *value = ARENA_NEW(arena, double, size);
@@ -106,14 +109,14 @@ static bool fill_table(const CsvTable *csv, const SpecularColumns *columns,
         double *at = &value[i * out->wavelengths + w];
         if (*at >= 0)
             return error_at(err, ERROR_INPUT, csv->file, csv_table_place(csv, row, arena),
-                            "%g degrees at %g nm stands there already, wanted it once",
+                            "%g degrees at %g nm stands there already, required: once",
                             degrees[i], out->nm[w]);
         *at = cell_of(csv, row, columns->value);
     }
     for (int i = 0; i < size; i++)
         if (value[i] < 0)
             return error_at(err, ERROR_INPUT, csv->file, "", "has no reflectance at %g degrees "
-                            "and %g nm, wanted every incidence at every wavelength",
+                            "and %g nm, required: every incidence at every wavelength",
                             degrees[i / out->wavelengths], out->nm[i % out->wavelengths]);
     out->value = value;
     return true;
@@ -188,10 +191,11 @@ bool specular_gloss_add(Gloss *gloss, double geometry_deg, double gu, Error *err
     bool is_known = false;
     for (int m = 0; m < GLOSS_METERS; m++) is_known |= meters[m].geometry_deg == geometry_deg;
     if (!is_known)
-        return error_set(err, ERROR_INPUT, "a gloss meter's angle is %g degrees, wanted 20, 60 "
+        return error_set(err, ERROR_INPUT, "a gloss meter's angle is %g degrees, required: "
+                                           "20, 60 "
                          "or 85", geometry_deg);
     if (!(gu >= 0 && gu <= GLOSS_MOST))
-        return error_set(err, ERROR_INPUT, "gloss is %g, wanted 0 to %g gloss units", gu,
+        return error_set(err, ERROR_INPUT, "gloss is %g, required: 0 to %g gloss units", gu,
                          GLOSS_MOST);
     double mirror = 100 / glass(radians_from_degrees(geometry_deg));
     if (gu > mirror)
@@ -199,7 +203,8 @@ bool specular_gloss_add(Gloss *gloss, double geometry_deg, double gu, Error *err
                          "has %.4g gloss units", gu, geometry_deg, mirror);
     for (int i = 0; i < gloss->count; i++)
         if (gloss->geometry_deg[i] == geometry_deg)
-            return error_set(err, ERROR_INPUT, "gloss at %g degrees is told twice, wanted it "
+            return error_set(err, ERROR_INPUT, "gloss at %g degrees is told twice, required: "
+                                               "it "
                              "once", geometry_deg);
     gloss->geometry_deg[gloss->count] = geometry_deg;
     gloss->gu[gloss->count++] = gu;
@@ -232,13 +237,13 @@ bool specular_gloss_read(const JsonView *view, Gloss *out, Error *err)
         return json_view_wrong_kind(view, "gloss", list, "a list of {geometry_deg, gu}", err);
     if (count < 1 || count > GLOSS_METERS)
         return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "gloss"),
-                        "holds %zu values, wanted 1 to %d", count, GLOSS_METERS);
+                        "holds %zu values, required: 1 to %d", count, GLOSS_METERS);
     json_array_foreach(list, i, one) {
         JsonView row = *view;
         row.object = one;
         row.path = arena_format(view->arena, "%s/gloss/%zu", view->path, i);
         if (!json_is_object(one))
-            return error_at(err, ERROR_INPUT, row.file, row.path, "wanted an object with "
+            return error_at(err, ERROR_INPUT, row.file, row.path, "required: an object with "
                             "geometry_deg and gu");
         if (!read_gloss_row(&row, out, err)) return false;
     }
@@ -291,7 +296,8 @@ bool specular_table_read(const JsonView *reflection, Arena *arena, const Specula
     if (!has_table && !has_gloss) return true;
     if (has_table && has_gloss)
         return error_at(err, ERROR_INPUT, reflection->file, reflection->path,
-                        "has both 'specular' and 'gloss', wanted one of them: a specular table "
+                        "has both 'specular' and 'gloss', required: one of them: a specular "
+                        "table "
                         "says more");
     SpecularTable *table = ARENA_NEW(arena, SpecularTable, 1);
     if (has_table ? !read_specular(reflection, arena, table, err)

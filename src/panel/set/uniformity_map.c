@@ -32,7 +32,7 @@ static bool check_size(MapFile *file, long width, long height, Error *err)
 {
     if (width < 1 || height < 1 || width > UNIFORMITY_SIDE_MAX ||
         height > UNIFORMITY_SIDE_MAX || width * height > UNIFORMITY_PIXELS_MAX)
-        return error_at(err, ERROR_INPUT, file->path, "", "has %ld x %ld pixels, wanted at "
+        return error_at(err, ERROR_INPUT, file->path, "", "has %ld x %ld pixels, required: at "
                         "most %d a side and %d in all", width, height, UNIFORMITY_SIDE_MAX,
                         UNIFORMITY_PIXELS_MAX);
     file->width = (int)width;
@@ -52,7 +52,7 @@ static bool count_channels(const MapFile *file, const char *begin, const bool ha
     *channels = has[0] && has[1] && has[2] ? 3 : has[1] && !has[0] && !has[2] ? 1 : 0;
     if (*channels || !(has[0] || has[1] || has[2])) return true;
     return error_at(err, ERROR_INPUT, file->path, "", "has only some of %sX, %sY and %sZ, "
-                    "wanted all three or %sY alone", begin, begin, begin, begin);
+                    "required: all three or %sY alone", begin, begin, begin, begin);
 }
 
 /* ---- OpenEXR ----------------------------------------------------------------------------- */
@@ -130,7 +130,7 @@ static bool csv_index(const CsvTable *csv, int row, int column, Arena *arena, in
     *out = value >= 0 && value < UNIFORMITY_SIDE_MAX ? (int)value : -1;
     if (*out >= 0 && (float)*out == value) return true;
     return error_at(err, ERROR_INPUT, csv->file, csv_table_place(csv, row, arena),
-                    "%s is %g, wanted a whole number from 0 to %d", csv->name[column],
+                    "%s is %g, required: a whole number from 0 to %d", csv->name[column],
                     (double)value, UNIFORMITY_SIDE_MAX - 1);
 }
 
@@ -161,7 +161,8 @@ static bool csv_places(MapFile *file, const CsvTable *csv, Arena *arena, size_t 
         (*out)[i] = pixel;
     }
     if ((size_t)csv->rows == pixels_of(file)) return true;
-    return error_at(err, ERROR_INPUT, csv->file, "", "has %d pixels of %d x %d, wanted all of "
+    return error_at(err, ERROR_INPUT, csv->file, "", "has %d pixels of %d x %d, required: all "
+                                                     "of "
                     "them", csv->rows, file->width, file->height);
 }
 
@@ -200,7 +201,7 @@ static bool read_picture(MapFile *file, Arena *arena, Error *err)
     Image image;
     if (!image_read(file->path, arena, &image, err)) return error_in_file(err, file->path);
     if (image.format != IMAGE_RGBA16)
-        return error_at(err, ERROR_INPUT, file->path, "", "has %s, wanted 16 bits a channel",
+        return error_at(err, ERROR_INPUT, file->path, "", "has %s, required: 16 bits a channel",
                         image.format == IMAGE_RGBA8 ? "8 bits a channel, whose steps show"
                                                     : "floating-point numbers");
     if (!check_size(file, image.width, image.height, err)) return false;
@@ -228,7 +229,7 @@ static bool check_values(const MapFile *file, const MapPlanes *planes, const cha
             if (value >= 0 && value <= VALUE_MOST) continue;
             snprintf(place, sizeof place, "pixel %d,%d", (int)(i % (size_t)file->width),
                      (int)(i / (size_t)file->width));
-            return error_at(err, ERROR_INPUT, file->path, place, "%s's %s is %g, wanted a "
+            return error_at(err, ERROR_INPUT, file->path, place, "%s's %s is %g, required: a "
                             "number from 0 to %g", name, axis, (double)value,
                             (double)VALUE_MOST);
         }
@@ -256,7 +257,8 @@ static bool read_file(MapFile *file, Arena *arena, Error *err)
               : is_csv ? read_csv(file, arena, err) : read_picture(file, arena, err);
     if (!ok) return false;
     if (!file->white.channels)
-        return error_at(err, ERROR_INPUT, file->path, "", "has no %s Y, wanted X, Y and Z, or "
+        return error_at(err, ERROR_INPUT, file->path, "", "has no %s Y, required: X, Y and Z, "
+                                                          "or "
                         "Y", is_exr ? "channel" : "column");
     if (!check_values(file, &file->white, "white", err) ||
         !check_values(file, &file->black, "black", err))
@@ -283,13 +285,14 @@ static bool join_black(const JsonView *view, MapFile *white, const MapFile *blac
     if (!black->path) return true;
     if (white->black.channels)
         return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "black"),
-                        "names a file, but '%s' holds black too: wanted one of them",
+                        "names a file, but '%s' holds black too: required: one of them",
                         white->path);
     if (black->black.channels)
         return error_at(err, ERROR_INPUT, black->path, "", "is named as \"black\" and has "
-                        "channels of black beside its own, wanted X, Y and Z, or Y, alone");
+                        "channels of black beside its own, required: X, Y and Z, or Y, alone");
     if (black->width != white->width || black->height != white->height)
-        return error_at(err, ERROR_INPUT, black->path, "", "has %d x %d pixels, wanted %d x %d "
+        return error_at(err, ERROR_INPUT, black->path, "", "has %d x %d pixels, required: %d "
+                                                           "x %d "
                         "as in '%s'", black->width, black->height, white->width, white->height,
                         white->path);
     white->black = black->white; /* in a file of its own it has no other name */

@@ -62,11 +62,11 @@ static bool fails_empty(const PlotData *s, PlotKind kind, Error *err)
         return error_set(err, ERROR_USAGE, "--kind fit wants --measured MANIFEST.json, the set "
                          "that the panel was fitted from");
     if (kind >= PLOT_BRDF && kind <= PLOT_MIRROR && !s->reflects)
-        return error_at(err, ERROR_INPUT, file, "", "has no reflection data, wanted for --kind "
-                        "%s; fit a set with a 'reflection' entry", name);
+        return error_at(err, ERROR_INPUT, file, "", "has no reflection data, which is "
+                        "required for --kind %s; fit a set with a 'reflection' entry", name);
     if (kind < PLOT_BRDF && !s->emits)
-        return error_at(err, ERROR_INPUT, file, "", "has no emission data, wanted for --kind "
-                        "%s; the panel only reflects", name);
+        return error_at(err, ERROR_INPUT, file, "", "has no emission data, which is "
+                        "required for --kind %s; the panel only reflects", name);
     if (kind == PLOT_UNIFORMITY)
         return error_at(err, ERROR_INPUT, file, "", "is the same everywhere: its set had "
                         "neither 'spots' nor 'uniformity'");
@@ -86,8 +86,8 @@ static bool fails_empty(const PlotData *s, PlotKind kind, Error *err)
 static bool can_be_lit(const PlotData *s, Error *err)
 {
     if (!s->source.ambient.count || (s->emits && s->reflects)) return true;
-    return error_at(err, ERROR_INPUT, s->source.file, "", "has no %s data, wanted for "
-                    "--ambient; fit a set with a '%s' entry",
+    return error_at(err, ERROR_INPUT, s->source.file, "", "has no %s data, which is "
+                    "required for --ambient; fit a set with a '%s' entry",
                     s->emits ? "reflection" : "emission", s->emits ? "reflection" : "emission");
 }
 
@@ -119,7 +119,7 @@ bool plot_write(const PlotInput *input, const PlotOptions *options, const char *
     const char *ending = path_ending(path);
     bool        is_svg = !strcmp(ending, ".svg");
     if (!is_svg && strcmp(ending, ".png"))
-        return error_set(err, ERROR_USAGE, "-o is '%s', wanted a name that ends in .svg or "
+        return error_set(err, ERROR_USAGE, "-o is '%s', required: a name that ends in .svg or "
                          ".png", path);
     PlotData *data = plot_ask(input, options, arena, &report, err);
     if (!data) return false;

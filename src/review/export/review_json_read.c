@@ -10,7 +10,7 @@
 
 static bool wrong(const JsonView *view, const char *key, const char *wanted, Error *err)
 {
-    return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key), "wanted %s",
+    return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key), "required: %s",
                     wanted);
 }
 
@@ -77,7 +77,7 @@ static bool read_list(const JsonView *view, const Member *member, void **out, in
         item.object = json_array_get(list, i);
         item.path = arena_format(view->arena, "%s/%s/%zu", view->path, member->key, i);
         if (!json_is_object(item.object))
-            return error_at(err, ERROR_INPUT, item.file, item.path, "wanted an object");
+            return error_at(err, ERROR_INPUT, item.file, item.path, "required: an object");
         if (!read_object(&item, member->of, items + i * member->size, err)) return false;
     }
     *out = items;

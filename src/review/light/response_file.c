@@ -126,7 +126,7 @@ static bool check_bytes(const ResponseFile *file, const FileBytes *bytes,
     uint64_t found = XXH3_64bits(bytes->data, bytes->size - sizeof wanted);
     return found == wanted ||
            error_at(err, ERROR_INPUT, file->path, "",
-                    "is damaged: its bytes have the checksum %016llx, wanted %016llx",
+                    "is damaged: its bytes have the checksum %016llx, required: %016llx",
                     (unsigned long long)found, (unsigned long long)wanted);
 }
 

@@ -182,7 +182,7 @@ static bool is_binary(const char *path)
 bool ray_file_check(const char *path, Error *err)
 {
     return is_binary(path) || !strcasecmp(path_ending(path), ".gltf") ||
-           error_at(err, ERROR_USAGE, path, "", "wanted a name that ends in .gltf or .glb");
+           error_at(err, ERROR_USAGE, path, "", "required: a name that ends in .gltf or .glb");
 }
 
 static void add_word(Text *out, uint32_t word)

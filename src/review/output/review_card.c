@@ -318,7 +318,7 @@ static bool add_file(Text *html, const ReviewPicture *p, Arena scratch, Error *e
     bool        is_png = !strcasecmp(ending, ".png");
     if (!is_png && strcasecmp(ending, ".jpg") != 0 && strcasecmp(ending, ".jpeg") != 0)
         return error_at(err, ERROR_INPUT, p->file, "",
-                        "wanted a picture ending in .png or .jpg");
+                        "required: a picture ending in .png or .jpg");
     if (!file_read(p->file, PICTURE_BYTES_MAX, &scratch, &bytes, err)) return false;
     bool is_plain = is_png && plain_png_open(bytes.data, bytes.size, &png);
     if (p->beside) {

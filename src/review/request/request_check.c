@@ -42,10 +42,10 @@ static bool not_found(const Scene *scene, const char *name, Arena scratch, Error
     int          count = list_names(scene, &scratch, &names);
     if (!count)
         return error_set(err, ERROR_INPUT,
-                         "the scene has no display, wanted a material with a panel");
+                         "the scene has no display, required: a material with a panel");
     for (int i = 0; i < scene->material_count; i++)
         if (!strcmp(scene->materials[i].name, name))
-            return error_set(err, ERROR_INPUT, "'%.60s' has no panel, wanted a display: %s",
+            return error_set(err, ERROR_INPUT, "'%.60s' has no panel, required: a display: %s",
                              name, nearest_word_advice(name, names, count, advice,
                                                        sizeof advice));
     return error_set(err, ERROR_INPUT, "there is no display '%.60s': %s", name,
@@ -87,7 +87,7 @@ static bool check_single(const Scene *scene, const ReviewDisplay *display, const
         const char *other = scene->parts[display->part_ids[i]].name;
         if (strcmp(first, other))
             return error_set(err, ERROR_INPUT,
-                             "'%.60s' is worn by several nodes, wanted one of them: "
+                             "'%.60s' is worn by several nodes, required: one of them: "
                              "'node:%.60s', 'node:%.60s'%s", name, first, other,
                              display->part_count > 2 ? " ..." : "");
     }
@@ -101,7 +101,7 @@ bool review_display_find(const Scene *scene, const char *name, Arena *arena,
     if (id == NO_ID) return not_found(scene, name, *arena, err);
     ReviewDisplay display = collect_parts(scene, name, id, arena);
     if (!scene->displays[id].panel)
-        return error_set(err, ERROR_INPUT, "'%.60s' has no panel, wanted a measured display",
+        return error_set(err, ERROR_INPUT, "'%.60s' has no panel, required: a measured display",
                          name);
     if (!display.part_count)
         return error_set(err, ERROR_INPUT, "'%.60s' is worn by no surface of the scene", name);
@@ -125,7 +125,7 @@ static bool no_camera(const Scene *scene, const char *name, Arena scratch, Error
         names[i] = *scene->cameras[i].node_name ? scene->cameras[i].node_name
                                                 : scene->cameras[i].camera_name;
     if (!scene->camera_count)
-        return error_set(err, ERROR_INPUT, "the scene has no camera, wanted 'position_m'");
+        return error_set(err, ERROR_INPUT, "the scene has no camera, required: 'position_m'");
     return error_set(err, ERROR_INPUT, "there is no camera '%.60s': %s", name,
                      nearest_word_advice(name, names, scene->camera_count, advice,
                                          sizeof advice));
@@ -137,7 +137,7 @@ bool review_camera_find(const Scene *scene, const ReviewEye *eye, Arena scratch,
     if (!eye->camera) {
         if (eye->camera_id >= scene->camera_count)
             return error_set(err, ERROR_INPUT,
-                             "there is no camera %d, wanted one of the scene's %d, counted "
+                             "there is no camera %d, required: one of the scene's %d, counted "
                              "from 0", eye->camera_id, scene->camera_count);
         *camera_id = eye->camera_id;
         return true;
@@ -189,7 +189,8 @@ static void check_eye(const RequestCheck *check, const ReviewEye *eye)
         note(check, path, &why);
     else if (!check->scene->cameras[camera_id].is_perspective)
         problems_add(check->problems, SEVERITY_ERROR, check->request->file, path,
-                     "is an orthographic camera, wanted a perspective one: an eye has a place");
+                     "is an orthographic camera, required: a perspective one: an eye has a "
+                     "place");
 }
 
 static void check_symbol(const RequestCheck *check, const ReviewSymbol *symbol)
@@ -199,7 +200,7 @@ static void check_symbol(const RequestCheck *check, const ReviewSymbol *symbol)
     if (!check_display(check, path, symbol->display, &display) || symbol->content) return;
     if (check->scene->displays[display.display_id].content.texture_id == NO_ID)
         problems_add(check->problems, SEVERITY_ERROR, check->request->file, path,
-                     "'%.60s' shows no content in the scene, wanted 'content' beside it",
+                     "'%.60s' shows no content in the scene, required: 'content' beside it",
                      symbol->display);
 }
 

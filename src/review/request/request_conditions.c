@@ -41,7 +41,7 @@ static bool find_weather(RequestReading *reading, const JsonView *view, int *wea
     if (!strcmp(text, "clear")) return true;
     if (strcmp(path_ending(text), ".epw"))
         return field_fails(view, "weather", err,
-                           "is '%.60s', wanted 'clear' or a weather file .epw", text);
+                           "is '%.60s', required: 'clear' or a weather file .epw", text);
     if (!field_file(view, "weather", &path, err)) return false;
     for (int i = 0; i < request->weather_count; i++)
         if (!strcmp(request->weathers[i].path, path)) *weather_id = i;
@@ -88,20 +88,21 @@ static bool read_range(const JsonView *view, const char *key, JsonRange bounds,
     const json_t *step = json_array_get(json_object_get(view->object, key), 2);
     if (json_array_size(json_object_get(view->object, key)) == 3 && json_is_number(step) &&
         !(json_number_value(step) >= STEP_LEAST))
-        return field_fails(view, key, err, "has a step of %g, wanted at least %g",
+        return field_fails(view, key, err, "has a step of %g, required: at least %g",
                            json_number_value(step), STEP_LEAST);
     if (!field_numbers(view, key, bounds, value, NULL, err)) return false;
     if (value[1] < value[0])
         return field_fails(view, key, err,
-                           "goes from %g to %g, which is empty; wanted [first, last, step] "
+                           "goes from %g to %g, which is empty; required: [first, last, step] "
                            "with last not below first", value[0], value[1]);
     double steps = (value[1] - value[0]) / value[2];
     if (steps > RANGE_MAX)
-        return field_fails(view, key, err, "has %.0f values, wanted at most %d", steps + 1,
+        return field_fails(view, key, err, "has %.0f values, required: at most %d", steps + 1,
                            RANGE_MAX);
     if (fabs(steps - round(steps)) > WHOLE)
         return field_fails(view, key, err,
-                           "does not come from %g to %g in steps of %g, wanted a step such as "
+                           "does not come from %g to %g in steps of %g, required: a step such "
+                           "as "
                            "%.6g", value[0], value[1], value[2], fitting_step(value));
     *out = (ReviewRange){value[0], value[1], value[2], (int)round(steps) + 1};
     return true;
@@ -122,11 +123,11 @@ static bool read_suns(const JsonView *sweep, ReviewCondition *condition, Error *
         !read_range(&sun, axes[1], (JsonRange){-18, 90, 3}, &condition->elevation_deg, err))
         return false;
     if (condition->azimuth_deg.last - condition->azimuth_deg.first > 360)
-        return field_fails(&sun, axes[0], err, "spans %g degrees, wanted at most 360",
+        return field_fails(&sun, axes[0], err, "spans %g degrees, required: at most 360",
                            condition->azimuth_deg.last - condition->azimuth_deg.first);
     double suns = (double)condition->azimuth_deg.count * condition->elevation_deg.count;
     return suns <= SUNS_MAX ||
-           error_at(err, ERROR_INPUT, sun.file, sun.path, "has %.0f suns, wanted at most %d",
+           error_at(err, ERROR_INPUT, sun.file, sun.path, "has %.0f suns, required: at most %d",
                     suns, SUNS_MAX);
 }
 
@@ -143,7 +144,8 @@ static bool read_place(const JsonView *view, SkyPlace *out, bool *found, Error *
     if (!count) return true;
     if (count < 2 || fabs(value[0]) > 90 || fabs(value[1]) > 360)
         return field_fails(view, "where", err,
-                           "is no place, wanted [latitude -90 to 90, longitude -360 to 360] in "
+                           "is no place, required: [latitude -90 to 90, longitude -360 to "
+                           "360] in "
                            "degrees north and east, and an altitude in m");
     *out = (SkyPlace){value[0], value[1], value[2]};
     return true;
@@ -161,7 +163,7 @@ static bool check_headings(const JsonView *view, const ReviewCondition *conditio
         for (int k = 0; k < i; k++)
             if (is_same_heading(condition->headings_deg[i], condition->headings_deg[k]))
                 return field_fails(view, "headings_deg", err,
-                                   "holds %g and %g, wanted each heading once",
+                                   "holds %g and %g, required: each heading once",
                                    condition->headings_deg[k], condition->headings_deg[i]);
     return true;
 }
@@ -214,7 +216,7 @@ static bool read_sweep(RequestReading *reading, const JsonView *view,
     if (!json_view_check_keys(view, keys, COUNT_OF(keys), err)) return false;
     if (has_sun == has_year)
         return error_at(err, ERROR_INPUT, view->file, view->path,
-                        "has %s, wanted one of 'sun' and 'year'",
+                        "has %s, required: one of 'sun' and 'year'",
                         has_sun ? "both" : "neither");
     return has_sun ? read_suns(view, condition, err)
                    : read_year(reading, view, condition, err);
@@ -229,14 +231,15 @@ static bool check_directions(const JsonView *view, const JsonView *environment,
     bool has_heading = json_object_get(environment->object, "heading_deg") != NULL;
     if (json_object_get(environment->object, "forward"))
         return field_fails(environment, "forward", err,
-                           "stands in a condition, wanted it at the top of the file");
+                           "stands in a condition, required: at the top of the file");
     if (has_heading && condition->has_heading)
         return field_fails(view, "heading_deg", err,
-                           "stands in 'environment' as well, wanted it once");
+                           "stands in 'environment' as well, required: once");
     if (has_heading &&
         (condition->kind == CONDITION_ROUTE || condition->kind == CONDITION_YEAR_SWEEP))
         return field_fails(environment, "heading_deg", err,
-                           "stands in a condition that has headings of its own, wanted none");
+                           "stands in a condition that has headings of its own, required: "
+                           "none");
     return true;
 }
 
@@ -247,10 +250,11 @@ static bool check_kind(const JsonView *environment, const ReviewCondition *condi
     if (condition->kind == CONDITION_MOMENT) return true;
     if (condition->weather_id != NO_ID)
         return error_at(err, ERROR_INPUT, environment->file, environment->path,
-                        "stands beside a weather file, wanted one of them");
+                        "stands beside a weather file, required: one of them");
     return condition->environment.kind == ENVIRONMENT_SKY ||
            field_fails(environment, "type", err,
-                       "is another one than 'sky', wanted that: a route and a sweep move the "
+                       "is not 'sky', which is required: a route and a sweep move "
+                       "the "
                        "sun of a clear sky");
 }
 
@@ -372,18 +376,18 @@ static bool check_together(const JsonView *view, Error *err)
 {
     if (has(view, "route") && has(view, "sweep"))
         return error_at(err, ERROR_INPUT, view->file, view->path,
-                        "has both 'route' and 'sweep', wanted one of them");
+                        "has both 'route' and 'sweep', required: one of them");
     static const char *const of_routes[] = {"when", "weather", "weather_lux"};
     for (int i = 0; i < COUNT_OF(of_routes) && !has(view, "route"); i++) {
         const char *key = of_routes[i];
         if (has(view, key))
-            return field_fails(view, key, err, "stands without 'route', wanted it %s",
+            return field_fails(view, key, err, "stands without 'route', required: %s",
                                i ? "beside a route or in the year of a sweep"
                                  : "beside a route or in 'environment'");
     }
     if (has(view, "heading_deg") && has(view, "route"))
         return field_fails(view, "heading_deg", err,
-                           "stands beside 'route', wanted the route's own headings alone");
+                           "stands beside 'route', required: the route's own headings alone");
     return true;
 }
 
@@ -397,7 +401,8 @@ static bool read_time(RequestReading *reading, const JsonView *view,
     if (!sweep.object) return true;
     return read_sweep(reading, &sweep, condition, err) &&
            (condition->kind != CONDITION_YEAR_SWEEP || !has(view, "heading_deg") ||
-            field_fails(view, "heading_deg", err, "stands beside the sweep of a year, wanted "
+            field_fails(view, "heading_deg", err, "stands beside the sweep of a year, "
+                                                  "required: "
                         "'headings_deg' in it"));
 }
 
@@ -421,7 +426,8 @@ static bool read_condition(RequestReading *reading, int i, Error *err)
         return false;
     for (int k = 0; k < i; k++)
         if (!strcmp(request->conditions[k].name, condition->name))
-            return field_fails(&view, "name", err, "is '%.60s' as that of condition %d, wanted "
+            return field_fails(&view, "name", err, "is '%.60s' as that of condition %d, "
+                                                   "required: "
                                "another name", condition->name, k);
     return find_level(reading, &view, condition, err) &&
            find_with(reading, &view, condition, err) &&

@@ -33,10 +33,11 @@ static bool read_grid(const JsonView *view, ReviewEye *eye, Error *err)
         return false;
     for (int axis = 0; axis < 3; axis++) {
         if (grid[axis] != floor(grid[axis]))
-            return field_fails(view, "grid", err, "holds %g, wanted whole numbers", grid[axis]);
+            return field_fails(view, "grid", err, "holds %g, required: whole "
+                                                  "numbers", grid[axis]);
         if (grid[axis] > 1 && !(eye->half_size_m[axis] > 0))
             return field_fails(view, "grid", err,
-                               "has %g points along an axis without length, wanted 1 there",
+                               "has %g points along an axis without length, required: 1 there",
                                grid[axis]);
         eye->grid[axis] = (int)grid[axis];
     }
@@ -77,13 +78,14 @@ static bool check_form(const JsonView *view, const bool *has, Error *err)
     bool is_wide = has[3] || has[4], has_more = is_wide || has[5] || has[6];
     int  forms = has[0] + has[1] + has[2];
     if (forms != 1 || (!has[2] && has_more))
-        return error_at(err, ERROR_INPUT, view->file, view->path, "is %s, wanted one of "
+        return error_at(err, ERROR_INPUT, view->file, view->path, "is %s, required: one of "
                         "'camera', 'position_m', or 'centre_m' with 'half_size_m' or "
                         "'ellipse_m'",
                         forms > 1 ? "said in several ways" : forms ? "a box without a centre"
                                                                    : "nowhere");
     if (has[3] && has[4])
-        return field_fails(view, "ellipse_m", err, "stands beside 'half_size_m', wanted one");
+        return field_fails(view, "ellipse_m", err, "stands beside 'half_size_m', required: "
+                                                   "one");
     if (has[4] ? has[5] : has[6])
         return field_fails(view, has[4] ? "grid" : "tilt_deg", err,
                            has[4] ? "is a box's, not an ellipse's"
@@ -137,7 +139,7 @@ static bool read_forward(RequestReading *reading, Error *err)
     if (!field_unit_vector(&reading->root, "forward", forward, NULL, err)) return false;
     return hypot_d(forward[0], forward[2]) > UPRIGHT ||
            field_fails(&reading->root, "forward", err,
-                       "is vertical, wanted where the vehicle points");
+                       "is vertical, required: where the vehicle points");
 }
 
 /* Ahead on the horizontal, its front down by the tilt; across; upright on both. */
@@ -213,7 +215,7 @@ static bool read_direction(const JsonView *view, ReviewGaze *gaze, Error *err)
     gaze->at_symbols = target == 0;
     if (gaze->at_symbols == has_direction)
         return error_at(err, ERROR_INPUT, view->file, view->path,
-                        "has %s, wanted one of 'at' and 'direction'",
+                        "has %s, required: one of 'at' and 'direction'",
                         has_direction ? "both" : "neither");
     gaze->name = targets[0];
     return (!has_direction && !json_object_get(view->object, "name")) ||
@@ -232,7 +234,7 @@ static bool read_gaze(RequestReading *reading, int i, Error *err)
     for (int k = 0; k < i; k++)
         if (!strcmp(reading->request->gazes[k].name, gaze->name))
             return error_at(err, ERROR_INPUT, view.file, view.path,
-                            "is the second gaze named '%.60s', wanted another name",
+                            "is the second gaze named '%.60s', required: another name",
                             gaze->name);
     return true;
 }
@@ -296,7 +298,8 @@ static bool read_rectangle(const JsonView *view, ReviewSymbol *symbol, Error *er
         return false;
     if (!(uv[0] < uv[2] && uv[1] < uv[3]))
         return field_fails(view, "uv", err,
-                           "is [%g, %g, %g, %g], wanted [left, top, right, bottom] with left "
+                           "is [%g, %g, %g, %g], required: [left, top, right, bottom] with "
+                           "left "
                            "below right and top below bottom",
                            uv[0], uv[1], uv[2], uv[3]);
     for (int i = 0; i < 4; i++) symbol->uv[i] = uv[i];
@@ -311,10 +314,10 @@ static bool read_find(const JsonView *view, ReviewSymbol *symbol, Error *err)
     symbol->find_text = word == 0;
     if (symbol->find_text && symbol->mask)
         return error_at(err, ERROR_INPUT, view->file, view->path,
-                        "has both 'find' and 'mask', wanted one of them");
+                        "has both 'find' and 'mask', required: one of them");
     if (!symbol->find_text && !symbol->mask && !symbol->has_uv)
         return error_at(err, ERROR_INPUT, view->file, view->path,
-                        "says no place on its display, wanted 'uv', 'mask' or 'find'");
+                        "says no place on its display, required: 'uv', 'mask' or 'find'");
     return true;
 }
 

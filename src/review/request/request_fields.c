@@ -49,7 +49,7 @@ bool field_integer(const JsonView *view, const char *key, FieldBounds bounds, in
     double value = *out;
     if (!json_view_number(view, key, bounds.low, bounds.high, &value, err)) return false;
     if (value != floor(value))
-        return field_fails(view, key, err, "is %g, wanted a whole number", value);
+        return field_fails(view, key, err, "is %g, required: a whole number", value);
     *out = (int)value;
     return true;
 }
@@ -65,7 +65,7 @@ bool field_choice(const JsonView *view, const char *key, FieldWords words, int *
             *out = i;
             return true;
         }
-    return field_fails(view, key, err, "is '%.60s', wanted another word: %s", text,
+    return field_fails(view, key, err, "is '%.60s', required: another word: %s", text,
                        nearest_word_advice(text, words.word, words.count, advice,
                                            sizeof advice));
 }
@@ -73,7 +73,7 @@ bool field_choice(const JsonView *view, const char *key, FieldWords words, int *
 bool field_name(const JsonView *view, const char *key, const char **out, Error *err)
 {
     if (!field_wanted(view, key, err) || !json_view_text(view, key, out, err)) return false;
-    return **out || field_fails(view, key, err, "is empty, wanted a name");
+    return **out || field_fails(view, key, err, "is empty, required: a name");
 }
 
 /* ---- vectors ----------------------------------------------------------------------------- */
@@ -85,7 +85,8 @@ bool field_numbers(const JsonView *view, const char *key, JsonRange range, doubl
     int           length = 0;
     if (found) *found = list != NULL;
     if (json_is_array(list) && json_array_size(list) != (size_t)range.capacity)
-        return field_fails(view, key, err, "has %zu values, wanted %d", json_array_size(list),
+        return field_fails(view, key, err, "has %zu values, required: "
+                                           "%d", json_array_size(list),
                            range.capacity);
     return json_view_numbers(view, key, range, out, &length, err);
 }
@@ -101,7 +102,7 @@ bool field_unit_vector(const JsonView *view, const char *key, double out[3], boo
     if (!is_there) return true;
     double length = hypot_d(hypot_d(vector[0], vector[1]), vector[2]);
     if (!(length > LENGTH_LEAST))
-        return field_fails(view, key, err, "is the zero vector, wanted a direction");
+        return field_fails(view, key, err, "is the zero vector, required: a direction");
     for (int i = 0; i < 3; i++) out[i] = vector[i] / length;
     return true;
 }
@@ -116,7 +117,7 @@ bool field_list(const JsonView *view, const char *key, int most, int *count, Err
     if (!json_is_array(list)) return json_view_wrong_kind(view, key, list, "a list", err);
     size_t size = json_array_size(list);
     if (size < 1 || size > (size_t)most)
-        return field_fails(view, key, err, "has %zu entries, wanted 1 to %d", size, most);
+        return field_fails(view, key, err, "has %zu entries, required: 1 to %d", size, most);
     *count = (int)size;
     return true;
 }
@@ -162,12 +163,12 @@ bool field_members(const JsonView *view, const char *key, int most, FieldMembers
     if (!json_view_child(view, key, false, &members.view, err)) return false;
     size_t size = json_object_size(members.view.object);
     if (members.view.object && (size < 1 || size > (size_t)most))
-        return field_fails(view, key, err, "has %zu members, wanted 1 to %d", size, most);
+        return field_fails(view, key, err, "has %zu members, required: 1 to %d", size, most);
     members.name = ARENA_NEW(view->arena, const char *, size);
     json_object_foreach(members.view.object, name, value) {
         if (!*name)
             return field_fails(view, key, err,
-                               "has a member with an empty name, wanted a name");
+                               "has a member with an empty name, required: a name");
         members.name[members.count++] = arena_string(view->arena, name, strlen(name));
     }
     *out = members;
@@ -215,13 +216,15 @@ static bool resolve(const JsonView *view, const char *place, const char *uri, co
     char  *relative;
     size_t scheme = uri_scheme_length(uri);
     if (scheme)
-        return field_fails(view, place, err, "has the scheme '%.*s:', wanted a relative path",
+        return field_fails(view, place, err, "has the scheme '%.*s:', required: a relative "
+                                             "path",
                            (int)(scheme < 40 ? scheme : 40), uri);
     if (!uri_decode(uri, view->arena, &relative, &why))
         return field_fails(view, place, err, "%s", why.text);
     if (!json_view_file(view, place, relative, out, err)) return false;
     return file_exists(*out) ||
-           field_fails(view, place, err, "names '%.200s', which cannot be read; wanted a file",
+           field_fails(view, place, err, "names '%.200s', which cannot be read; required: a "
+                                         "file",
                        *out);
 }
 
@@ -315,7 +318,7 @@ bool request_find_name(const JsonView *view, const char *key, FieldWords names,
         }
     if (!names.count)
         return field_fails(view, key, err, "is '%.60s', but the file has no '%s'", name, what);
-    return field_fails(view, key, err, "is '%.60s', wanted a name of '%s': %s", name, what,
+    return field_fails(view, key, err, "is '%.60s', required: a name of '%s': %s", name, what,
                        nearest_word_advice(name, names.word, names.count, advice,
                                            sizeof advice));
 }

@@ -24,7 +24,7 @@ typedef struct FieldWords {
     int                count;
 } FieldWords;
 
-/* Reports a fault of a member; the format is "..., wanted ...". Always false. */
+/* Reports a fault of a member; the format is "..., required: ...". Always false. */
 bool field_fails(const JsonView *view, const char *key, Error *err, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 

@@ -43,7 +43,7 @@ static bool read_curve(RequestReading *reading, const JsonView *view, ReviewGlas
     bool lets_some = false;
     for (int i = 0; i < CURVE_COUNT; i++) lets_some |= curve->value[i] > 0;
     if (!lets_some)
-        return field_fails(view, "transmittance", err, "lets no light through, wanted some");
+        return field_fails(view, "transmittance", err, "lets no light through, required: some");
     if (beyond > 0)
         problems_add(reading->problems, SEVERITY_WARNING, path, "", CURVE_BEYOND_WARNING,
                      path_name(path), 100 * beyond, CURVE_WHOLE_FIRST_NM, CURVE_WHOLE_LAST_NM);
@@ -70,7 +70,7 @@ static bool check_share(const JsonView *view, const ReviewGlasses *out, Error *e
     double most = 0.5 * (1 + 1 / out->extinction);
     return out->curve || out->transmittance <= most ||
            field_fails(view, "polarising", err, "lets through at most %.3g of unpolarised "
-                       "light, wanted 'transmittance' or a 'category' below that", most);
+                       "light, required: 'transmittance' or a 'category' below that", most);
 }
 
 static bool read_polariser(const JsonView *view, ReviewGlasses *out, Error *err)
@@ -105,14 +105,14 @@ bool request_glasses_read(RequestReading *reading, const JsonView *view,
     bool has_category = json_object_get(own.object, "category") != NULL;
     if (has_category == (json_object_get(own.object, "transmittance") != NULL))
         return field_fails(view, "sunglasses", err,
-                           "has %s, wanted one of 'category' and 'transmittance'",
+                           "has %s, required: one of 'category' and 'transmittance'",
                            has_category ? "both" : "neither");
     if (!(has_category ? read_category : read_transmittance)(reading, &own, out, err) ||
         !read_polariser(&own, out, err))
         return false;
     if ((out->curve || out->is_polarising) && condition->kind != CONDITION_MOMENT)
         return field_fails(view, "sunglasses", err, "is coloured or polarising beside a sweep "
-                           "or a route, wanted a grey one, or a moment");
+                           "or a route, required: a grey one, or a moment");
     condition->glasses = out;
     return true;
 }

@@ -79,16 +79,16 @@ static bool read_row(const JsonView *view, int i, double most, ReviewLevel *leve
         value[k] = json_number_value(number);
     }
     if (!(value[0] >= 0 && value[0] <= LUX_MAX))
-        return field_fails(view, place, err, "holds %g, wanted an illuminance from 0 to %g",
+        return field_fails(view, place, err, "holds %g, required: an illuminance from 0 to %g",
                            value[0], LUX_MAX);
     if (!check_level(view, arena_format(view->arena, "%s/1", place), value[1], most, err))
         return false;
     if (i && !(value[0] > level->lux[i - 1]))
-        return field_fails(view, place, err, "is at %g lx behind %g lx, wanted more lx",
+        return field_fails(view, place, err, "is at %g lx behind %g lx, required: more lx",
                            value[0], level->lux[i - 1]);
     if (i && value[1] < level->level[i - 1])
         return field_fails(view, place, err,
-                           "falls from level %g to %g, wanted one that does not fall",
+                           "falls from level %g to %g, required: one that does not fall",
                            level->level[i - 1], value[1]);
     level->lux[i] = value[0];
     level->level[i] = value[1];

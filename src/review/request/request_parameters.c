@@ -39,7 +39,7 @@ static bool find_kind(const JsonView *view, ReviewParameter *out, Error *err)
         }
     return found == 1 ||
            error_at(err, ERROR_INPUT, view->file, view->path,
-                    "has %d steps, wanted one of 'tilt_deg', 'turn_deg', 'roll_deg', "
+                    "has %d steps, required: one of 'tilt_deg', 'turn_deg', 'roll_deg', "
                     "'shift_m', 'hood_m', 'eye_m', 'brightness', 'reflectance'", found);
 }
 
@@ -49,14 +49,14 @@ static bool read_range(const JsonView *view, ReviewParameter *out, Error *err)
     if (!json_view_pair(view, "range", -180, 180, range, err)) return false;
     if (!(range[0] <= out->at && out->at <= range[1] && range[0] < range[1]))
         return field_fails(view, "range", err,
-                           "is [%g, %g], wanted [least, most] about %g, where it stands",
+                           "is [%g, %g], required: [least, most] about %g, where it stands",
                            range[0], range[1], out->at);
     bool   is_length = out->kind == PARAMETER_HOOD || out->kind == PARAMETER_REFLECTANCE;
     double least = is_length ? 0 : -180;
     double most = out->kind == PARAMETER_REFLECTANCE ? BARE_REFLECTANCE : 180;
     if (out->kind == PARAMETER_BRIGHTNESS) least = 1e-3;
     if (range[0] < least || range[1] > most)
-        return field_fails(view, "range", err, "is [%g, %g], wanted numbers from %g to %g",
+        return field_fails(view, "range", err, "is [%g, %g], required: numbers from %g to %g",
                            range[0], range[1], least, most);
     out->low = range[0];
     out->high = range[1];

@@ -50,7 +50,7 @@ static bool read_precision(RequestReading *reading, Error *err)
     reading->request->seed = (uint32_t)seed;
     if (isnan(*clear)) *clear = fmax(CLEAR_USUAL, *contrast);
     return *clear >= *contrast ||
-           field_fails(&view, "clear", err, "is %g, wanted at least 'contrast', %g", *clear,
+           field_fails(&view, "clear", err, "is %g, required: at least 'contrast', %g", *clear,
                        *contrast);
 }
 
@@ -76,7 +76,7 @@ static bool read_glare(RequestReading *reading, Error *err)
     glare->threshold_cd_m2 = fixed;
     return !(glare->task_factor > 0) ||
            field_fails(&view, "threshold_cd_m2", err,
-                       "stands beside 'task_factor', wanted one of the two");
+                       "stands beside 'task_factor', required: one of the two");
 }
 
 static bool read_size(const JsonView *view, ReviewFrames *frames, Error *err)
@@ -87,7 +87,7 @@ static bool read_size(const JsonView *view, ReviewFrames *frames, Error *err)
     frames->width = (int)size[0];
     frames->height = (int)size[1];
     return (frames->width == size[0] && frames->height == size[1]) ||
-           field_fails(view, "size", err, "is [%g, %g], wanted whole numbers of pixels",
+           field_fails(view, "size", err, "is [%g, %g], required: whole numbers of pixels",
                        size[0], size[1]);
 }
 

@@ -33,7 +33,8 @@ static const char *uri_of(const char *from, const char *file, const ReviewStart 
     const ReferenceReach reach = {start->root, false};
     if (!uri_may_be_named(start->output, uri, reach, *arena)) {
         error_at(err, ERROR_INPUT, file, "",
-                 "lies outside the parent of the new file's folder, wanted the new file in the "
+                 "lies outside the parent of the new file's folder, required: the new file in "
+                 "the "
                  "scene's folder or one beside it (beside it not in \"/\" and the home "
                  "folder), or --root");
         return NULL;
@@ -113,7 +114,7 @@ static bool add_eyes(json_t *document, const ReviewStart *start, const Scene *sc
     }
     return json_object_size(eyes) > 0 ||
            error_at(err, ERROR_INPUT, scene->inputs[0], "",
-                    "has no perspective camera, wanted one where an eye is");
+                    "has no perspective camera, required: one where an eye is");
 }
 
 static int material_of(const Scene *scene, int part)
@@ -205,7 +206,7 @@ static bool add_symbols(json_t *document, const ReviewStart *start, const Scene 
         add_read(symbols, &start->wishes->reads[i], arena);
     return json_object_size(symbols) > 0 ||
            error_at(err, ERROR_INPUT, scene->inputs[0], "",
-                    "has no display that shows content, wanted one to review");
+                    "has no display that shows content, required: one to review");
 }
 
 /* ---- levels and conditions --------------------------------------------------------------- */
@@ -345,7 +346,7 @@ bool review_request_start(const ReviewStart *start, const Scene *scene, Arena *a
     Text text = {.arena = arena};
     if (!start->replaces && !access(start->output, F_OK))
         return error_at(err, ERROR_OUTPUT, start->output, "",
-                        "is there already, wanted the name of a new file");
+                        "is there already, required: the name of a new file");
     json_t *document = json_object();
     bool    ok = fill(document, start, scene, arena, err);
     if (ok) json_print(&text, document, (JsonDigits){DIGITS, true});

@@ -417,7 +417,7 @@ static bool read_variant(RequestReading *reading, const FieldMembers *members, i
         return false;
     if (!json_object_size(v.view.object))
         return field_fails(&members->view, members->name[i], err,
-                           "changes nothing, wanted one of 'panels', 'levels', 'nodes' ...");
+                           "changes nothing, required: one of 'panels', 'levels', 'nodes' ...");
     size_t room = 2 * room_for(&v.view);
     *v.variant = (ReviewVariant){.name = members->name[i],
                                  .words = ARENA_NEW(v.view.arena, const char *, room)};

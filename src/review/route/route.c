@@ -72,7 +72,7 @@ static bool fill_headings(const RoutePoints *points, Error *err)
     for (int i = 0; i < points->count; i++) is_said &= points->list[i].has_heading;
     return has_moved || is_said ||
            error_at(err, ERROR_INPUT, points->file, "",
-                    "never moves, so that no heading follows; wanted a column 'heading', or "
+                    "never moves, so that no heading follows; required: a column 'heading', or "
                     "points more than %g m apart", STANDING_M);
 }
 

@@ -72,13 +72,13 @@ static bool read_document(const GpxReader *reader, xmlDoc *document, Error *err)
     xmlNode    *root = xmlDocGetRootElement(document);
     if (!root || !is_named(root, "gpx"))
         return error_at(err, ERROR_INPUT, file, "",
-                        "holds an element '%.40s', wanted a GPX file's 'gpx'",
+                        "holds an element '%.40s', required: a GPX file's 'gpx'",
                         root ? (const char *)root->name : "");
     for (xmlNode *node = root->children; node; node = node->next)
         if (is_named(node, "trk") && !read_track(reader, node, err)) return false;
     return reader->points->count > 0 ||
            error_at(err, ERROR_INPUT, file, "",
-                    "has no track point, wanted trk / trkseg / trkpt");
+                    "has no track point, required: trk / trkseg / trkpt");
 }
 
 /* ---- opening ----------------------------------------------------------------------------- */
@@ -107,7 +107,7 @@ static xmlDoc *parse(const char *text, const char *file, Error *err)
         const char *why = problem && problem->message ? problem->message : "is not XML";
         char        place[32] = "";
         if (problem && problem->line) snprintf(place, sizeof place, "line %d", problem->line);
-        error_at(err, ERROR_INPUT, file, place, "is no sound XML: %.*s, wanted a GPX file",
+        error_at(err, ERROR_INPUT, file, place, "is no sound XML: %.*s, required: a GPX file",
                  (int)strcspn(why, "\r\n"), why);
     }
     xmlFreeParserCtxt(context);

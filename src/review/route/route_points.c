@@ -38,10 +38,10 @@ static bool parse_number(const RoutePoints *points, int line, RouteNumber number
     char  *after = NULL;
     double value = is_given(number.text) ? strtod(number.text, &after) : 0;
     if (!is_given(number.text))
-        return fails(points, line, err, "the point has no %s, wanted a number from %g to %g",
+        return fails(points, line, err, "the point has no %s, required: a number from %g to %g",
                      number.name, number.low, number.high);
     if (after == number.text || *after || !(value >= number.low && value <= number.high))
-        return fails(points, line, err, "%s is '%.40s', wanted a number from %g to %g",
+        return fails(points, line, err, "%s is '%.40s', required: a number from %g to %g",
                      number.name, number.text, number.low, number.high);
     *out = value;
     return true;
@@ -53,7 +53,7 @@ static bool parse_time(const RoutePoints *points, const RouteText *text, SkyTime
     Error why;
     if (!is_given(text->time))
         return fails(points, text->line, err,
-                     "the point has no time, wanted a moment such as 2026-06-21T08:30:15Z");
+                     "the point has no time, required: a moment such as 2026-06-21T08:30:15Z");
     return sky_time_parse(text->time, "", out, &why) ||
            fails(points, text->line, err, "time: %s", why.text);
 }
@@ -77,7 +77,8 @@ static bool follow(const RoutePoints *points, RoutePoint *point, Error *err)
     point->seconds = seconds_between(first->when, point->when);
     return point->seconds >= last->seconds ||
            fails(points, point->line, err,
-                 "the time lies %.0f s before that of line %d, wanted times that do not fall",
+                 "the time lies %.0f s before that of line %d, required: times that do not "
+                 "fall",
                  last->seconds - point->seconds, last->line);
 }
 
@@ -105,7 +106,7 @@ bool route_points_add(RoutePoints *points, const RouteText *text, Error *err)
 {
     RoutePoint point;
     if (points->count == ROUTE_POINTS_MAX)
-        return fails(points, text->line, err, "is a point too many, wanted at most %d",
+        return fails(points, text->line, err, "is a point too many, required: at most %d",
                      ROUTE_POINTS_MAX);
     if (!parse(points, text, &point, err)) return false;
     if (points->count == points->capacity) {
@@ -184,27 +185,28 @@ static bool read_header(CsvRoute *in, Error *err)
     bool  seen[COLUMNS] = {false};
     if (!line)
         return error_at(err, ERROR_INPUT, in->points->file, "",
-                        "is empty, wanted a header line time,lat,lon,heading and points");
+                        "is empty, required: a header line time,lat,lon,heading and points");
     in->columns = cut(line, cell);
     if (in->columns > LINE_CELLS_MAX)
-        return fails(in->points, in->line, err, "has %d columns, wanted time,lat,lon,heading",
+        return fails(in->points, in->line, err, "has %d columns, required: "
+                                                "time,lat,lon,heading",
                      in->columns);
     for (int i = 0; i < in->columns; i++) {
         int column = column_of(cell[i]);
         if (column < 0)
             return fails(in->points, in->line, err,
-                         "has a column '%.40s', wanted time,lat,lon,heading,altitude_m; the "
+                         "has a column '%.40s', required: time,lat,lon,heading,altitude_m; the "
                          "nearest is '%s'", cell[i], nearest_word(cell[i], NAMES, COLUMNS));
         if (seen[column])
             return fails(in->points, in->line, err,
-                         "has the column '%s' twice, wanted it once", NAMES[column]);
+                         "has the column '%s' twice, required: once", NAMES[column]);
         seen[column] = true;
         in->column[i] = column;
     }
     for (int i = COLUMN_TIME; i <= COLUMN_LON; i++)
         if (!seen[i])
             return fails(in->points, in->line, err,
-                         "has no column '%s', wanted time,lat,lon,heading", NAMES[i]);
+                         "has no column '%s', required: time,lat,lon,heading", NAMES[i]);
     return true;
 }
 
@@ -214,7 +216,8 @@ static bool read_row(CsvRoute *in, char *line, Error *err)
     const char *text[COLUMNS] = {NULL};
     int         cells = cut(line, cell);
     if (cells != in->columns)
-        return fails(in->points, in->line, err, "has %d cells, wanted the header's %d", cells,
+        return fails(in->points, in->line, err, "has %d cells, required: the header's "
+                                                "%d", cells,
                      in->columns);
     for (int i = 0; i < cells; i++) text[in->column[i]] = cell[i];
     return route_points_add(in->points,

@@ -35,7 +35,7 @@ bool live_frame_split(const FrameImage *frame, Arena *arena, LiveFrame *out, Err
     if (!frame_rgb(frame, "", all) || !frame_rgb(frame, "display.emitted", emitted) ||
         !coverage)
         return error_set(err, ERROR_INPUT,
-                         "wanted channels R, G, B, display.emitted and display.coverage");
+                         "required: channels R, G, B, display.emitted and display.coverage");
     out->scene = planes_new(width, height, arena);
     out->displays = planes_new(width, height, arena);
     for (int c = 0; c < 3; c++)

@@ -444,7 +444,7 @@ bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, 
     SweepSuns suns = sweep_suns(condition, 1, &scratch);
     if (!suns.count)
         return error_at(err, ERROR_INPUT, request->file, place,
-                        "the sun is never up: wanted a time or a place with some");
+                        "the sun is never up: required: a time or a place with some");
     return condition->weather_id == NO_ID ||
            sweep_weather_check(request, condition, &suns, scratch, err);
 }

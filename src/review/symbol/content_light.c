@@ -31,7 +31,7 @@ static bool rectangle_is_fine(const double uv[4], Error *err)
     if (uv[0] < uv[2] && uv[1] < uv[3]) return true;
     return error_set(err, ERROR_INPUT,
                      "uv [%g, %g, %g, %g]: the rectangle is empty; left < right and "
-                     "top < bottom are wanted", uv[0], uv[1], uv[2], uv[3]);
+                     "top < bottom are required", uv[0], uv[1], uv[2], uv[3]);
 }
 
 static bool place_pixels(const double uv[4], ContentLight *light, Error *err)

@@ -184,7 +184,8 @@ static int find_node(GltfFile *file, const SceneChange *change, const char *name
     if (!count) report_missing(file, nodes, change, name);
     else
         problems_add(file->load->problems, SEVERITY_ERROR, change->file, change->place,
-                     "%d nodes of %.200s are named \"%.100s\", wanted one", count, file->path,
+                     "%d nodes of %.200s are named \"%.100s\", required: "
+                     "one", count, file->path,
                      name);
     return NO_ID;
 }
@@ -212,7 +213,8 @@ static void change_nodes(GltfFile *file, const SceneChange *change)
     NodeSurface surface = surface_of(file, parent, top);
     if (has_turns(change) && !(surface.low.x <= surface.high.x)) {
         problems_add(file->load->problems, SEVERITY_ERROR, change->file, change->place,
-                     "node \"%.100s\" of %.200s has no surface to turn about: wanted one with "
+                     "node \"%.100s\" of %.200s has no surface to turn about: required: one "
+                     "with "
                      "triangles", change->name, file->path);
         return;
     }

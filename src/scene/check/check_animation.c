@@ -46,12 +46,12 @@ static void check_sampler(const DocumentCheck *check, const GltfValue *sampler)
     if (input && (strcmp(tree_text(input, "type", ""), "SCALAR") != 0 ||
                   tree_int(input, "componentType", 0) != FLOAT_CODE))
         check_fails(check, sampler,
-                    "the times are %s of component type %s, SCALAR of %s is wanted",
+                    "the times are %s of component type %s, SCALAR of %s is required",
                     tree_text(input, "type", "?"),
                     component_name(tree_int(input, "componentType", 0)),
                     component_name(FLOAT_CODE));
     if (input && is_cubic && tree_number(input, "count", 2) < 2)
-        check_warns(check, sampler, "a cubic spline has %g key frame, at least 2 are wanted",
+        check_warns(check, sampler, "a cubic spline has %g key frame, at least 2 are required",
                     tree_number(input, "count", 2));
 }
 
@@ -85,15 +85,15 @@ static void check_output(const DocumentCheck *check, const GltfValue *channel,
     if (strcmp(tree_text(output, "type", ""), type) != 0 ||
         !is_component(output, path, is_pointed))
         check_fails(check, channel,
-                    "the values of a %s are %s of component type %s, %s is wanted", name,
+                    "the values of a %s are %s of component type %s, %s is required", name,
                     tree_text(output, "type", "?"),
                     component_name(tree_int(output, "componentType", FLOAT_CODE)), type);
     if (path == MOVES_VISIBLE && strcmp(how, "STEP") != 0)
-        check_fails(check, channel, "the interpolation of visible is %.20s, STEP is wanted",
+        check_fails(check, channel, "the interpolation of visible is %.20s, STEP is required",
                     how);
     double wanted = tree_number(input, "count", 0) * (is_cubic ? 3 : 1) * values;
     if (values && tree_number(output, "count", 0) != wanted)
-        check_fails(check, channel, "%g values for %g key frames, %g are wanted",
+        check_fails(check, channel, "%g values for %g key frames, %g are required",
                     tree_number(output, "count", 0), tree_number(input, "count", 0), wanted);
 }
 

@@ -14,7 +14,7 @@ static void check_stride(const DocumentCheck *check, const GltfValue *view, doub
     const GltfValue *at = tree_member(view, "byteStride");
     if (!at) return;
     if (fmod(stride, 4) != 0)
-        check_fails(check, at, "is %g, a multiple of 4 is wanted", stride);
+        check_fails(check, at, "is %g, a multiple of 4 is required", stride);
     if (stride > length)
         check_warns(check, at, "is %g, the whole buffer view has %g bytes", stride, length);
     if (tree_int(view, "target", 0) == 34963)
@@ -87,11 +87,11 @@ static void check_run(const DocumentCheck *check, const ByteRun *run)
     if (fmod(start, run->align) != 0)
         check_fails(check, run->at,
                     "starts at byte %.0f of the buffer, a multiple of %.0f is "
-                    "wanted",
+                    "required",
                     start, run->align);
     else if (fmod(run->offset, run->align) != 0)
         check_warns(check, run->at,
-                    "starts at byte %.0f of the buffer view, a multiple of %.0f is wanted",
+                    "starts at byte %.0f of the buffer view, a multiple of %.0f is required",
                     run->offset, run->align);
 }
 
@@ -145,7 +145,8 @@ static void check_bounds(const DocumentCheck *check, const GltfValue *accessor)
         const GltfValue *bounds = tree_member(accessor, side ? "max" : "min");
         if (!bounds || bounds->kind != GLTF_ARRAY) continue;
         if (wanted && bounds->count != wanted)
-            check_warns(check, bounds, "has %d numbers, %d are wanted", bounds->count, wanted);
+            check_warns(check, bounds, "has %d numbers, %d are "
+                                       "required", bounds->count, wanted);
         for (int i = 0; i < bounds->count; i++)
             if (!can_hold(component, bounds->items[i].number))
                 check_warns(check, &bounds->items[i],

@@ -18,7 +18,7 @@ static bool check_finite(GltfFile *file, const GltfValue *value, const GltfAcces
     size_t total = accessor->count * (size_t)accessor->component_count;
     for (size_t i = 0; i < total; i++) {
         if (isfinite(numbers[i])) continue;
-        file_error(file, value, "element %zu has the component %g; finite numbers are wanted",
+        file_error(file, value, "element %zu has the component %g; finite numbers are required",
                    i / (size_t)accessor->component_count, (double)numbers[i]);
         return false;
     }
@@ -66,7 +66,7 @@ static void check_sparse_order(GltfFile *file, const GltfValue *value,
         if (i && indices[i] <= indices[i - 1]) {
             file_error(file, tree_member(value, "sparse"),
                        "index %zu is %u after %u; indices that "
-                       "rise are wanted",
+                       "rise are required",
                        i, indices[i], indices[i - 1]);
             return;
         }
@@ -235,10 +235,11 @@ static void check_times(GltfFile *file, const GltfValue *sampler)
     const float *times = accessor_floats(file, id);
     for (size_t i = 0; i < accessor->count; i++) {
         if (i == 0 && times[0] < 0)
-            file_warning(file, sampler, "time 0 is %g, at least 0 is wanted", (double)times[0]);
+            file_warning(file, sampler, "time 0 is %g, at least 0 is "
+                                        "required", (double)times[0]);
         if (i == 0 || times[i] > times[i - 1]) continue;
         file_problem(file, if_played(file), sampler,
-                     "time %zu is %g after %g; times that rise are wanted", i,
+                     "time %zu is %g after %g; times that rise are required", i,
                      (double)times[i], (double)times[i - 1]);
         return;
     }
@@ -271,7 +272,7 @@ static void check_instances(GltfFile *file, const GltfValue *node)
         if (!is_unit(q)) {
             file_error(file, turns,
                        "the turn of instance %zu is (%g, %g, %g, %g); a quaternion of length "
-                       "1 is wanted",
+                       "1 is required",
                        i, (double)q[0], (double)q[1], (double)q[2], (double)q[3]);
             return;
         }

@@ -22,7 +22,7 @@ static double version_of(const DocumentCheck *check, const GltfValue *value)
     long major, minor;
     if (!value || value->kind != GLTF_STRING) return -1;
     if (parse_version(value->text, &major, &minor)) return 1e6 * (double)major + (double)minor;
-    check_fails(check, value, "is \"%.40s\", a version like \"2.0\" is wanted", value->text);
+    check_fails(check, value, "is \"%.40s\", a version like \"2.0\" is required", value->text);
     return -1;
 }
 
@@ -39,7 +39,7 @@ void check_asset(const DocumentCheck *check, const GltfValue *asset)
         check_warns(check, value, "is \"%.40s\": read as 2.0, what is newer is not seen",
                     value->text);
     if (version >= 0 && least > version)
-        check_fails(check, minimum, "is \"%.40s\", at most the version (%.40s) is wanted",
+        check_fails(check, minimum, "is \"%.40s\", at most the version (%.40s) is required",
                     minimum->text, value->text);
     else if (least > 2e6)
         check_warns(check, minimum, "is \"%.40s\": the file may need what 2.0 does not have",
@@ -53,7 +53,7 @@ static void check_pointer(const DocumentCheck *check, const GltfValue *pointer)
     const char *rest = pointer->text;
     if (rest[0] != '/') {
         check_warns(check, pointer,
-                    "is \"%.80s\", a JSON pointer like \"/nodes/0/scale\" is wanted", rest);
+                    "is \"%.80s\", a JSON pointer like \"/nodes/0/scale\" is required", rest);
         return;
     }
     while (at && rest[0] == '/') {
@@ -115,7 +115,7 @@ void check_animation_pointer(const DocumentCheck *check, const GltfValue *extens
     if (tree_member(target, "node"))
         check_warns(check, extension, "a target with a pointer has a node as well");
     if (path && strcmp(path->text, "pointer") != 0)
-        check_warns(check, path, "is \"%.40s\" beside a pointer, \"pointer\" is wanted",
+        check_warns(check, path, "is \"%.40s\" beside a pointer, \"pointer\" is required",
                     path->text);
     if (pointer && pointer->kind == GLTF_STRING) check_pointer(check, pointer);
 }
@@ -127,7 +127,7 @@ static void check_source(const DocumentCheck *check, const GltfValue *object, co
     const GltfValue *uri = tree_member(object, "uri");
     const GltfValue *view = tree_member(object, "bufferView");
     if ((uri != NULL) == (view != NULL))
-        check_fails(check, object, "has %s; either \"uri\" or \"bufferView\" is wanted",
+        check_fails(check, object, "has %s; either \"uri\" or \"bufferView\" is required",
                     uri ? "both" : "neither");
     if (tree_member(tree_referred(view, "bufferViews"), "byteStride"))
         check_warns(check, view, "the buffer view of %s has a byteStride", what);
@@ -150,7 +150,7 @@ static void check_depths(const DocumentCheck *check, const GltfValue *kind)
     const GltfValue *zfar = tree_member(kind, "zfar");
     double near = tree_number(kind, "znear", 0);
     if (zfar && zfar->number <= near)
-        check_fails(check, zfar, "is %g, more than znear (%g) is wanted", zfar->number, near);
+        check_fails(check, zfar, "is %g, more than znear (%g) is required", zfar->number, near);
 }
 
 void check_camera(const DocumentCheck *check, const GltfValue *camera)
@@ -159,21 +159,21 @@ void check_camera(const DocumentCheck *check, const GltfValue *camera)
     const GltfValue *eye = tree_member(camera, "perspective");
     const GltfValue *flat = tree_member(camera, "orthographic");
     if (eye && flat)
-        check_fails(check, camera, "has \"perspective\" and \"orthographic\"; one is wanted");
+        check_fails(check, camera, "has \"perspective\" and \"orthographic\"; one is required");
     if ((strcmp(type, "perspective") == 0 && !eye) ||
         (strcmp(type, "orthographic") == 0 && !flat))
         check_fails(check, camera, "\"%s\" is missing", type);
     check_depths(check, eye);
     check_depths(check, flat);
     if (tree_number(eye, "yfov", 1) >= 3.14159265358979)
-        check_warns(check, tree_member(eye, "yfov"), "is %g rad, less than pi is wanted",
+        check_warns(check, tree_member(eye, "yfov"), "is %g rad, less than pi is required",
                     tree_number(eye, "yfov", 1));
     for (int i = 0; i < 2; i++) {
         const GltfValue *mag = tree_member(flat, i ? "ymag" : "xmag");
         if (mag && mag->kind == GLTF_NUMBER && mag->number == 0)
-            check_fails(check, mag, "is 0, half the picture's size in metres is wanted");
+            check_fails(check, mag, "is 0, half the picture's size in metres is required");
         if (mag && mag->number < 0)
-            check_warns(check, mag, "is %g, a positive number is wanted: its size is taken",
+            check_warns(check, mag, "is %g, a positive number is required: its size is taken",
                         mag->number);
     }
 }
@@ -186,7 +186,7 @@ void check_light(const DocumentCheck *check, const GltfValue *light)
     if (type && strcmp(type->text, "point") != 0 && strcmp(type->text, "spot") != 0 &&
         strcmp(type->text, "directional") != 0)
         check_warns(check, type,
-                    "is \"%.40s\", one of point|spot|directional is wanted: the light "
+                    "is \"%.40s\", one of point|spot|directional is required: the light "
                     "is skipped",
                     type->text);
     if (type && strcmp(type->text, "spot") == 0 && !cone)
@@ -296,13 +296,13 @@ static void check_time_and_place(const DocumentCheck *check, const GltfValue *en
     const GltfValue *latitude = tree_item(where, 0), *longitude = tree_item(where, 1);
     if (when && when->kind == GLTF_STRING && !is_moment(when->text))
         check_fails(check, when,
-                    "is \"%.60s\", a time like \"2026-06-21T08:30+02:00\" is wanted",
+                    "is \"%.60s\", a time like \"2026-06-21T08:30+02:00\" is required",
                     when->text);
     if (latitude && !(fabs(latitude->number) <= 90))
-        check_fails(check, latitude, "is %g, a latitude from -90 to 90 degrees is wanted",
+        check_fails(check, latitude, "is %g, a latitude from -90 to 90 degrees is required",
                     latitude->number);
     if (longitude && !(fabs(longitude->number) <= 360))
-        check_fails(check, longitude, "is %g, a longitude from -360 to 360 degrees is wanted",
+        check_fails(check, longitude, "is %g, a longitude from -360 to 360 degrees is required",
                     longitude->number);
 }
 
@@ -317,10 +317,10 @@ void check_environment(const DocumentCheck *check, const GltfValue *environment)
     if ((strcmp(type, "perez") == 0 || strcmp(type, "sky") == 0) && !has_time &&
         !tree_member(environment, "sun"))
         check_fails(check, environment,
-                    "has no sun: \"when\" and \"where\", or \"sun\", are wanted");
+                    "has no sun: \"when\" and \"where\", or \"sun\", are required");
     if (tree_member(environment, "scale") &&
         tree_member(environment, "horizontal_illuminance_lx"))
         check_fails(check, environment,
                     "has \"scale\" and \"horizontal_illuminance_lx\"; one of "
-                    "them is wanted");
+                    "them is required");
 }

@@ -41,17 +41,18 @@ static void check_matrix(const DocumentCheck *check, const GltfValue *node)
     float matrix[16];
     for (int i = 0; i < 3; i++)
         if (tree_member(node, PARTS[i]))
-            check_fails(check, node, "has \"matrix\" and \"%s\"; one way is wanted", PARTS[i]);
+            check_fails(check, node, "has \"matrix\" and \"%s\"; one way is "
+                                     "required", PARTS[i]);
     if (!tree_floats(node, "matrix", 16, matrix)) return;
     if (matrix[3] != 0 || matrix[7] != 0 || matrix[11] != 0 || matrix[15] != 1)
         check_fails(check, tree_member(node, "matrix"),
                     "the last row is (%g, %g, %g, %g), "
-                    "(0, 0, 0, 1) is wanted",
+                    "(0, 0, 0, 1) is required",
                     (double)matrix[3], (double)matrix[7], (double)matrix[11],
                     (double)matrix[15]);
     if (is_skewed(matrix))
         check_warns(check, tree_member(node, "matrix"),
-                    "is skewed; a translation, a rotation and a scale are wanted");
+                    "is skewed; a translation, a rotation and a scale are required");
 }
 
 static void check_rotation(const DocumentCheck *check, const GltfValue *node)
@@ -65,7 +66,7 @@ static void check_rotation(const DocumentCheck *check, const GltfValue *node)
     if (!(off <= QUATERNION_ALLOWED))
         check_fails(&milder, tree_member(node, "rotation"),
                     "the quaternion's length is %g, 1 is "
-                    "wanted",
+                    "required",
                     (double)length);
 }
 
@@ -122,7 +123,7 @@ static void check_instance_format(const DocumentCheck *check, const GltfValue *a
     bool is_integer = (code == 5120 || code == 5122) && wanted->may_be_integer &&
                       tree_boolean(accessor, "normalized", false);
     if (accessor && (strcmp(type, wanted->type) != 0 || (code != 5126 && !is_integer)))
-        check_fails(check, at, "%s is %s of component type %s, %s of %s is wanted", at->key,
+        check_fails(check, at, "%s is %s of component type %s, %s of %s is required", at->key,
                     type, component_name(code), wanted->type, component_name(5126));
 }
 
@@ -172,7 +173,7 @@ void check_skin(const DocumentCheck *check, const GltfValue *skin)
     if (strcmp(tree_text(accessor, "type", ""), "MAT4") != 0 ||
         tree_int(accessor, "componentType", 0) != 5126)
         check_fails(check, value,
-                    "refers to an accessor of %s of component type %s, MAT4 of %s is wanted",
+                    "refers to an accessor of %s of component type %s, MAT4 of %s is required",
                     tree_text(accessor, "type", "nothing"),
                     component_name(tree_int(accessor, "componentType", 0)),
                     component_name(5126));

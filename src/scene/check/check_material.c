@@ -16,7 +16,7 @@ static void check_source(const DocumentCheck *check, const GltfValue *holder, co
     const GltfValue *image = tree_referred(source, "images");
     const char *type = tree_text(image, "mimeType", "");
     if (type[0] && !strstr(types, type))
-        check_warns(check, source, "names a picture of the type %.40s, %s is wanted", type,
+        check_warns(check, source, "names a picture of the type %.40s, %s is required", type,
                     types);
 }
 
@@ -86,10 +86,10 @@ void check_glazing_layer(const DocumentCheck *check, const GltfValue *layer)
     bool is_file = transmission && transmission->kind == GLTF_STRING && transmission->text[0];
     if (transmission && !is_file && !is_share(transmission))
         check_fails(check, transmission,
-                    "a number from 0 to 1, or the name of a CSV file of nm,value is wanted");
+                    "a number from 0 to 1, or the name of a CSV file of nm,value is required");
     if (tree_number(layer, "wedge_rad", 0) > 0 && !tree_member(layer, "wedge_toward"))
         check_fails(check, layer,
-                    "a wedge without \"wedge_toward\": +u, -u, +v or -v is wanted");
+                    "a wedge without \"wedge_toward\": +u, -u, +v or -v is required");
 }
 
 /* Warns of properties that are not rendered on a pane and that other viewers do not need. */
@@ -113,7 +113,7 @@ static void check_face_coating(const DocumentCheck *check, const GltfValue *coat
         check_fails(check, faces, "has no meaning here: \"%s\" is one face", coating->key);
     if (outside > 1)
         check_fails(check, tree_member(coating, "outside"),
-                    "is %.9g, 1 is wanted: a pane stands in air", outside);
+                    "is %.9g, 1 is required: a pane stands in air", outside);
 }
 
 void check_glazing(const DocumentCheck *check, const GltfValue *glazing)

@@ -81,7 +81,7 @@ static void check_format(const DocumentCheck *check, const GltfValue *attribute,
     if (!is_type(types, type) || !(bit & allowed))
         check_fails(check, attribute,
                     "%s is %s of component type %s, which glTF does not allow "
-                    "(%s is wanted)",
+                    "(%s is required)",
                     attribute->key, type, component_name(code), types);
     else if (format->is_normalized && bit != FLOATS &&
              !tree_boolean(accessor, "normalized", false))
@@ -117,7 +117,8 @@ static void check_alignment(const DocumentCheck *check, const GltfValue *attribu
         check_warns(check, attribute, "%s starts at no multiple of 4 bytes", attribute->key);
     else if (fmod(stride, 4) != 0)
         check_warns(check, attribute,
-                    "%s has a vertex every %g bytes, a multiple of 4 is wanted", attribute->key,
+                    "%s has a vertex every %g bytes, a multiple of 4 is "
+                    "required", attribute->key,
                     stride);
 }
 
@@ -165,7 +166,7 @@ static void check_indices(const DocumentCheck *check, const GltfValue *indices)
     if (!accessor) return;
     if (strcmp(tree_text(accessor, "type", ""), "SCALAR") != 0 || !is_unsigned)
         check_fails(check, indices,
-                    "are %s of component type %s, SCALAR of %s, %s or %s is wanted",
+                    "are %s of component type %s, SCALAR of %s, %s or %s is required",
                     tree_text(accessor, "type", "?"), component_name(code),
                     component_name(5121), component_name(5123), component_name(5125));
     else if (tree_boolean(accessor, "normalized", false))
@@ -183,7 +184,7 @@ static void check_displacement(const DocumentCheck *check, const GltfValue *attr
                                const GltfValue *base, double count)
 {
     if (!tree_referred(attribute, "accessors"))
-        check_fails(check, attribute, "an index into accessors is wanted");
+        check_fails(check, attribute, "an index into accessors is required");
     if (!tree_member(base, attribute->key))
         check_warns(check, attribute, "%s displaces what the primitive does not have",
                     attribute->key);
@@ -202,13 +203,13 @@ static void check_targets(const DocumentCheck *check, const GltfValue *primitive
     const GltfValue *base = tree_member(primitive, "attributes");
     if (!targets) return;
     if (targets->kind != GLTF_ARRAY || !targets->count) {
-        check_fails(check, targets, "an array of morph targets is wanted");
+        check_fails(check, targets, "an array of morph targets is required");
         return;
     }
     for (int t = 0; t < targets->count; t++) {
         const GltfValue *target = &targets->items[t];
         if (target->kind != GLTF_OBJECT || !target->count) {
-            check_fails(check, target, "an object of attributes is wanted");
+            check_fails(check, target, "an object of attributes is required");
             continue;
         }
         for (int i = 0; i < target->count; i++)

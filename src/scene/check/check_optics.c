@@ -17,7 +17,7 @@ static bool check_index_value(const DocumentCheck *check, const GltfValue *value
     else if (!(value->number >= 0 && value->number <= INDEX_MAX))
         check_fails(check, value,
                     "is %.9g, a number from 0 to %g or the name of a file of rows nm,n,k is "
-                    "wanted", value->number, INDEX_MAX);
+                    "required", value->number, INDEX_MAX);
     else
         return true;
     return false;
@@ -29,7 +29,7 @@ void check_layer(const DocumentCheck *check, const GltfValue *layer)
     bool ok = check_index_value(check, n) && check_index_value(check, k);
     bool is_dark = (k && k->kind == GLTF_STRING) || tree_number(layer, "k", 0) > 0;
     if (ok && n && n->kind == GLTF_NUMBER && n->number == 0 && !is_dark)
-        check_fails(check, n, "is 0 and so is k: one of them above 0 is wanted");
+        check_fails(check, n, "is 0 and so is k: one of them above 0 is required");
 }
 
 void check_coating(const DocumentCheck *check, const GltfValue *coating)
@@ -37,11 +37,11 @@ void check_coating(const DocumentCheck *check, const GltfValue *coating)
     const GltfValue *layers = tree_member(coating, "layers");
     const GltfValue *stack = tree_member(coating, "stack");
     if (!layers && !stack)
-        check_fails(check, coating, "holds neither \"layers\" nor \"stack\", one is wanted");
+        check_fails(check, coating, "holds neither \"layers\" nor \"stack\", one is required");
     if (layers && stack)
-        check_fails(check, stack, "stands beside \"layers\", one of them is wanted");
+        check_fails(check, stack, "stands beside \"layers\", one of them is required");
     if (layers && layers->kind == GLTF_ARRAY && layers->count > THIN_LAYERS_MAX)
-        check_fails(check, layers, "has %d layers, up to %d are wanted", layers->count,
+        check_fails(check, layers, "has %d layers, up to %d are required", layers->count,
                     THIN_LAYERS_MAX);
 }
 
@@ -104,12 +104,12 @@ static void check_shares(const DocumentCheck *check, const GltfValue *material)
     if (metal > 0)
         check_warns(check, metallic ? metallic : pbr ? pbr : material,
                     "is %.9g of metal%s: KHR_materials_volume makes the material a closed "
-                    "solid, which is clear as a whole; metallicFactor 0 is wanted", metal,
+                    "solid, which is clear as a whole; metallicFactor 0 is required", metal,
                     metallic ? "" : " (metallicFactor's default)");
     if (through < 1)
         check_warns(check, tree_member(clear, "transmissionFactor"),
                     "is %.9g: KHR_materials_volume makes the material a closed solid, which is "
-                    "clear as a whole; transmissionFactor 1 is wanted", through);
+                    "clear as a whole; transmissionFactor 1 is required", through);
     not_shown(check, tree_member(clear, "transmissionTexture"), "which is clear as a whole");
 }
 
@@ -131,11 +131,11 @@ static void check_body(const DocumentCheck *check, const GltfValue *material,
     if (metallic > 0 && !has_conductor && !material_is_clear_solid(material))
         check_fails(check, coating,
                     "lies on a metal (metallicFactor %.9g) whose n and k are not known: a "
-                    "PARHELION_spectrum with \"conductor\", or metallicFactor 0, is wanted",
+                    "PARHELION_spectrum with \"conductor\", or metallicFactor 0, is required",
                     metallic);
     if (tree_number(coat, "clearcoatFactor", 0) > 0)
         check_fails(check, coating,
-                    "stands beside KHR_materials_clearcoat, one of them is wanted");
+                    "stands beside KHR_materials_clearcoat, one of them is required");
 }
 
 /* A layer that is there is not seen beside what is another surface altogether. */
@@ -204,10 +204,10 @@ void check_coated_material(const DocumentCheck *check, const GltfValue *material
     if (tree_extension(material, "KHR_materials_unlit"))
         check_warns(check, coating, "has no effect beside KHR_materials_unlit");
     if (tree_extension(material, "PARHELION_glazing"))
-        check_fails(check, coating, "stands beside PARHELION_glazing, one of them is wanted");
+        check_fails(check, coating, "stands beside PARHELION_glazing, one of them is required");
     if (ior && tree_number(ior, "ior", 1.5) == 0)
         check_fails(check, coating, "lies on a body of infinite index (ior 0): a number of at "
-                                    "least 1 is wanted there");
+                                    "least 1 is required there");
     if (!tree_extension(material, "PARHELION_display"))
         check_body(check, material, coating, is_known);
 }
@@ -222,9 +222,9 @@ static const GltfValue *measured_in(const DocumentCheck *check, const GltfValue 
     const GltfValue *physical = tree_member(parameters, "physical_properties");
     const GltfValue *uri = tree_member(physical, "refractive_index_uri");
     if (physical && physical->kind != GLTF_OBJECT)
-        check_fails(check, physical, "is no object, one is wanted");
+        check_fails(check, physical, "is no object, one is required");
     if (uri && uri->kind != GLTF_STRING)
-        check_fails(check, uri, "is no text, the name of a file of n and k is wanted");
+        check_fails(check, uri, "is no text, the name of a file of n and k is required");
     return uri && uri->kind == GLTF_STRING && uri->text[0] ? uri : NULL;
 }
 
@@ -237,7 +237,7 @@ static void check_measured(const DocumentCheck *check, const GltfValue *material
         check_warns(check, uri, "is not used: PARHELION_spectrum has \"conductor\" for it");
     if (tree_extension(material, "PARHELION_coating") && material_is_clear_solid(material))
         check_fails(check, uri, "stands beside PARHELION_coating on a solid, one of them is "
-                                "wanted: coatings are worked out for one index");
+                                "required: coatings are worked out for one index");
 }
 
 /* ---- dispersion ------------------------------------------------------------------------- */
@@ -261,11 +261,12 @@ static void check_dispersion(const DocumentCheck *check, const GltfValue *materi
     }
     if (tree_extension(material, "PARHELION_coating"))
         check_fails(check, dispersion, "stands beside PARHELION_coating on a solid, one of "
-                                       "them is wanted: coatings are worked out for one index");
+                                       "them is required: coatings are worked out for one "
+                                       "index");
     double most = dispersion_index(nd, strength, CURVE_FIRST_NM);
     if (most > INDEX_MAX)
         check_fails(check, tree_member(dispersion, "dispersion"),
-                    "is %.9g: the index at %d nm would be %.4g, up to %g is wanted", strength,
+                    "is %.9g: the index at %d nm would be %.4g, up to %g is required", strength,
                     CURVE_FIRST_NM, most, INDEX_MAX);
 }
 

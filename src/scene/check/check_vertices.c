@@ -31,7 +31,7 @@ static void report(GltfFile *file, const GltfValue *at, const Faults *faults, co
                    const char *wanted)
 {
     if (faults->count)
-        file_warning(file, at, "%s %zu has the %s %g, %s is wanted (%zu such)", at->key,
+        file_warning(file, at, "%s %zu has the %s %g, %s is required (%zu such)", at->key,
                      faults->first, what, (double)faults->value, wanted, faults->count);
 }
 

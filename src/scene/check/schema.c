@@ -20,7 +20,7 @@ static bool is_component_type(const char *key)
     return key && strcmp(key, "componentType") == 0;
 }
 
-/* The value found, for "is ..., ... is wanted". */
+/* The value found, for "is ..., ... is required". */
 static const char *describe(const GltfValue *value, char *buffer, size_t size)
 {
     switch (value->kind) {
@@ -42,7 +42,7 @@ static const char *describe(const GltfValue *value, char *buffer, size_t size)
 static void fails_as(const DocumentCheck *check, const GltfValue *value, const char *wanted)
 {
     char found[128];
-    check_fails(check, value, "is %s, %s is wanted", describe(value, found, sizeof found),
+    check_fails(check, value, "is %s, %s is required", describe(value, found, sizeof found),
                 wanted);
 }
 
@@ -314,7 +314,7 @@ static void check_extras(const DocumentCheck *check, const GltfValue *extras, co
                                  : "names no extension for a %s and is skipped",
                         host);
         else if (tree_member(extensions, member->key))
-            check_fails(check, member, "stands in extras and in extensions; one is wanted");
+            check_fails(check, member, "stands in extras and in extensions; one is required");
         else
             check_extension(check, member, host);
     }

@@ -85,7 +85,7 @@ static void check_ior(const DocumentCheck *check, const GltfValue *extension)
     double ior = tree_number(extension, "ior", 1.5);
     if ((ior > 0 && ior < 1) || ior > IOR_MAX)
         check_fails(check, tree_member(extension, "ior"),
-                    "is %.9g, 0 (which means infinite) or a number from 1 to %.9g is wanted",
+                    "is %.9g, 0 (which means infinite) or a number from 1 to %.9g is required",
                     ior, IOR_MAX);
 }
 static const Schema SCHEMA_IOR = {"KHR_materials_ior", false, check_ior, RULES(
@@ -274,13 +274,13 @@ static void check_stride(const DocumentCheck *check, const GltfValue *packed, do
     const char *mode = tree_text(packed, "mode", ""), *filter = tree_text(packed, "filter", "");
     bool is_vertices = strcmp(mode, "ATTRIBUTES") == 0;
     if (is_vertices && fmod(stride, 4) != 0)
-        check_fails(check, at, "is %g, with ATTRIBUTES a multiple of 4 is wanted", stride);
+        check_fails(check, at, "is %g, with ATTRIBUTES a multiple of 4 is required", stride);
     if (!is_vertices && stride != 2 && stride != 4)
-        check_fails(check, at, "is %g, with %.20s 2 or 4 is wanted", stride, mode);
+        check_fails(check, at, "is %g, with %.20s 2 or 4 is required", stride, mode);
     if (strcmp(filter, "OCTAHEDRAL") == 0 && stride != 4 && stride != 8)
-        check_fails(check, at, "is %g, with OCTAHEDRAL 4 or 8 is wanted", stride);
+        check_fails(check, at, "is %g, with OCTAHEDRAL 4 or 8 is required", stride);
     if (strcmp(filter, "QUATERNION") == 0 && stride != 8)
-        check_fails(check, at, "is %g, with QUATERNION 8 is wanted", stride);
+        check_fails(check, at, "is %g, with QUATERNION 8 is required", stride);
 }
 
 static void check_meshopt(const DocumentCheck *check, const GltfValue *packed)
@@ -301,9 +301,9 @@ static void check_meshopt(const DocumentCheck *check, const GltfValue *packed)
                     count * stride, length);
     if (strcmp(mode, "TRIANGLES") == 0 && fmod(count, 3) != 0)
         check_fails(check, tree_member(packed, "count"),
-                    "is %.15g, with TRIANGLES a multiple of 3 is wanted", count);
+                    "is %.15g, with TRIANGLES a multiple of 3 is required", count);
     if (filter && strcmp(mode, "ATTRIBUTES") != 0 && strcmp(filter->text, "NONE") != 0)
-        check_fails(check, filter, "is \"%.20s\", with %.20s only NONE is wanted",
+        check_fails(check, filter, "is \"%.20s\", with %.20s only NONE is required",
                     filter->text, mode);
 }
 
@@ -327,7 +327,7 @@ static void check_ids(const DocumentCheck *check, const GltfValue *ids, const Gl
     for (int i = 0; i < ids->count; i++) {
         const GltfValue *id = &ids->items[i];
         if (!tree_is_integer(id) || id->number < 0 || id->number > 4294967295.0)
-            check_fails(check, id, "the id of an attribute is wanted, 0 to 4294967295");
+            check_fails(check, id, "the id of an attribute is required, 0 to 4294967295");
         if (!tree_member(own, id->key))
             check_fails(check, id, "the primitive has no %.60s", id->key);
     }
@@ -342,7 +342,7 @@ static void check_draco(const DocumentCheck *check, const GltfValue *packed)
     if (ids && ids->kind == GLTF_OBJECT)
         check_ids(check, ids, tree_member(primitive, "attributes"));
     else if (ids)
-        check_fails(check, ids, "an object of attributes is wanted");
+        check_fails(check, ids, "an object of attributes is required");
     if (ids && !tree_member(ids, "POSITION"))
         check_fails(check, ids, "\"POSITION\" is missing");
     if (code != 4 && code != 5)

@@ -183,10 +183,10 @@ static bool take_chunk(GltfFile *file, const char *place, int number, uint32_t t
     if (number == 0 && type != CHUNK_JSON)
         return frame_error(file, place,
                            "the first chunk's type is 0x%08x, JSON (0x4e4f534a) is "
-                           "wanted",
+                           "required",
                            type);
     if (number > 0 && type == CHUNK_JSON)
-        return frame_error(file, place, "a second JSON chunk; one is wanted");
+        return frame_error(file, place, "a second JSON chunk; one is required");
     if (type == CHUNK_BIN && number != 1)
         return frame_error(file, place, "a BIN chunk as number %d; it may only be the second",
                            number + 1);
@@ -217,7 +217,8 @@ static bool read_chunks(GltfFile *file, FileBytes bytes, size_t length)
             return frame_error(file, place, "the chunk has %u bytes, %zu are left", size,
                                length - at);
         if (size % 4)
-            return frame_error(file, place, "the chunk has %u bytes, a multiple of 4 is wanted",
+            return frame_error(file, place, "the chunk has %u bytes, a multiple of 4 is "
+                                            "required",
                                size);
         if (!take_chunk(file, place, number, type, (FileBytes){bytes.data + at, size}))
             return false;
@@ -232,16 +233,17 @@ static bool read_glb(GltfFile *file, FileBytes bytes)
     if (bytes.size < GLB_HEADER)
         return frame_error(file, "byte 0", "%zu bytes, a .glb's header has 12", bytes.size);
     if (memcmp(bytes.data, "glTF", 4) != 0)
-        return frame_error(file, "byte 0", "starts with 0x%08x, \"glTF\" is wanted",
+        return frame_error(file, "byte 0", "starts with 0x%08x, \"glTF\" is required",
                            u32_at(bytes.data));
     uint32_t version = u32_at(bytes.data + 4), length = u32_at(bytes.data + 8);
     if (version != 2)
-        return frame_error(file, "byte 4", "version %u of the container, 2 is wanted", version);
+        return frame_error(file, "byte 4", "version %u of the container, 2 is "
+                                           "required", version);
     if (length > bytes.size)
         return frame_error(file, "byte 8", "the length is %u, the file has %zu bytes", length,
                            bytes.size);
     if (length < GLB_HEADER + CHUNK_HEADER)
-        return frame_error(file, "byte 8", "the length is %u, at least 20 is wanted", length);
+        return frame_error(file, "byte 8", "the length is %u, at least 20 is required", length);
     if (length < bytes.size)
         problems_add(file->load->problems, SEVERITY_WARNING, file->path, "byte 8",
                      "the length is %u, the file has %zu bytes: the rest is skipped", length,
@@ -282,7 +284,7 @@ static void check_buffer_type(GltfFile *file, const GltfValue *uri, const char *
         strcmp(type, "application/gltf-buffer") != 0)
         file_warning(file, uri,
                      "the media type is \"%.60s\"; application/octet-stream or "
-                     "application/gltf-buffer is wanted",
+                     "application/gltf-buffer is required",
                      type);
 }
 

@@ -29,7 +29,8 @@ void variant_choose(GltfFile *file)
         if (!load_is_among(name, state->variants, state->variant_count)) continue;
         if (before)
             file_error(file, variants,
-                       "--variant chooses \"%.80s\" and \"%.80s\" of this file; one is wanted",
+                       "--variant chooses \"%.80s\" and \"%.80s\" of this file; one is "
+                       "required",
                        before, name);
         before = name;
         file->variant_id = i;

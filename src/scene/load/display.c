@@ -160,7 +160,7 @@ static void set_level(Loader *load, int display_id, const char *option, const ch
     if (end == value || (*end && !has_unit) || !(percent >= 0 && percent <= 1e4)) {
         option_error(load, option,
                      "\"%.100s\" is no percentage; a number from 0 to 10000 is "
-                     "wanted%s",
+                     "required%s",
                      value, "");
         return;
     }

@@ -32,7 +32,7 @@ static void read_color(GltfFile *file, const GltfValue *extension, float out[3])
     if (!(luminance > 0)) {
         file_error(file, tree_member(extension, "color"),
                    "the colour is black; a colour of "
-                   "positive luminance is wanted (luminance 0 makes it dark)");
+                   "positive luminance is required (luminance 0 makes it dark)");
         luminance = 1;
     }
     for (int i = 0; i < 3; i++) out[i] = color[i] / luminance;

@@ -66,7 +66,8 @@ static void claim_near(GltfFile *file, const GltfValue *node, const char *what, 
     double at[3];
     if (!load_is_within_reach(file->load, p, at))
         file_error(file, node,
-                   "its %s stands at (%g, %g, %g) in the world; numbers within %g m are wanted",
+                   "its %s stands at (%g, %g, %g) in the world; numbers within %g m are "
+                   "required",
                    what, at[0], at[1], at[2], (double)SCENE_MOST_M);
 }
 

@@ -134,7 +134,7 @@ static void add_cheek(Loader *load, const Face *face, int material_id, float dep
 static void build_hood(Loader *load, const SceneChange *change, const Face *face)
 {
     const char *fault = !(face->facing > FACING)
-                            ? "faces nowhere: it is a closed body, wanted a surface that a "
+                            ? "faces nowhere: it is a closed body, required: a surface that a "
                               "hood could stand over"
                         : fabsf(face->normal.y) > FLAT
                             ? "lies flat: no edge of it is the upper one, along which a hood "

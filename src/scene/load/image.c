@@ -88,7 +88,7 @@ static void check_type(GltfFile *file, const GltfValue *image, const char *decla
         file_warning(file, image, "the bytes are %s, EXT_texture_webp wants image/webp", found);
     if (is_webp && strcmp(found, "image/webp") == 0) return;
     if (found[0] && strcmp(found, "image/png") != 0 && strcmp(found, "image/jpeg") != 0)
-        file_warning(file, image, "%s needs an extension; image/png or image/jpeg is wanted",
+        file_warning(file, image, "%s needs an extension; image/png or image/jpeg is required",
                      found);
 }
 

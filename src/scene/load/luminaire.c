@@ -174,7 +174,7 @@ static void apply(Loader *load, const LampOption *option, const SceneOverride *o
     bool   is_found = false;
     if (!read_number(one->value, option->unit, option->low, option->high, &value)) {
         problems_add(load->problems, SEVERITY_ERROR, option->name, "",
-                     "\"%.100s\" is %s is wanted", one->value, option->wanted);
+                     "\"%.100s\" is %s is required", one->value, option->wanted);
         return;
     }
     if (option == &LEVEL && value > 0 && value < 1 && !strchr(one->value, '%'))

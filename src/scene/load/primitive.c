@@ -296,7 +296,7 @@ static bool stands_near(GltfFile *file, const GltfValue *primitive,
         if (load_is_within_reach(file->load, draft->positions[i], at)) continue;
         return file_error(file, primitive,
                           "vertex %u stands at (%g, %g, %g) in the world; numbers within %g m "
-                          "are wanted",
+                          "are required",
                           i, at[0], at[1], at[2], (double)SCENE_MOST_M);
     }
     return true;

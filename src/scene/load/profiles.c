@@ -86,7 +86,8 @@ static bool data_bytes(GltfFile *file, const GltfValue *uri, FileBytes *bytes)
     if (!data_uri_decode(uri->text, &file->load->scratch, bytes, &type, &err))
         return file_error(file, uri, "%s", err.text);
     if (strcmp(type, MEDIA_TYPE) != 0)
-        file_warning(file, uri, "the media type is \"%.60s\"; " MEDIA_TYPE " is wanted", type);
+        file_warning(file, uri, "the media type is \"%.60s\"; " MEDIA_TYPE " is "
+                                                                           "required", type);
     return true;
 }
 

@@ -354,7 +354,7 @@ static void report_unused_changes(Loader *load)
         int  count;
         if (change->kind == CHANGE_NODES && load->change_uses[i] > 1)
             problems_add(load->problems, SEVERITY_ERROR, change->file, change->place,
-                         "nodes of %d files are named \"%.100s\", wanted one",
+                         "nodes of %d files are named \"%.100s\", required: one",
                          load->change_uses[i], change->name);
         if (load->change_uses[i] > 0 || change->kind == CHANGE_MIRROR) continue;
         const char **names = names_for(load, change->kind, &count);

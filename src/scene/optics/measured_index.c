@@ -52,9 +52,9 @@ static bool read_curve(IndexFile *from, const GltfValue *list, Curve *out)
     for (int i = 0; i < list->count; i++) {
         if (!read_pair(&list->items[i], &nm[i], &value[i]))
             return fails(from, &list->items[i], "a pair of a wavelength in m, above 0, and a "
-                                                "number from 0 to 100 is wanted");
+                                                "number from 0 to 100 is required");
         if (i && !(nm[i] > nm[i - 1]))
-            return fails(from, &list->items[i], "wavelengths that rise are wanted");
+            return fails(from, &list->items[i], "wavelengths that rise are required");
     }
     curve_from_points(nm, value, list->count, out);
     from->beyond = fmax(from->beyond, curve_beyond(nm[0], nm[list->count - 1], lit));
@@ -67,9 +67,9 @@ static const GltfValue *array_of(IndexFile *from, const GltfValue *data, const c
     const GltfValue *list = tree_member(data, name);
     if (list && list->kind == GLTF_ARRAY && list->count > 0) return list;
     fails(from, list ? list : data,
-          name[0] == 'n' ? "\"n\" is wanted: an array of pairs" :
-          name[0] == 'k' ? "\"k\" is wanted: an array of pairs" :
-                           "\"data\" is wanted: an array of measurements");
+          name[0] == 'n' ? "\"n\" is required: an array of pairs" :
+          name[0] == 'k' ? "\"k\" is required: an array of pairs" :
+                           "\"data\" is required: an array of measurements");
     return NULL;
 }
 
@@ -78,14 +78,14 @@ static const GltfValue *measured_near_room(IndexFile *from, const GltfValue *roo
 {
     const GltfValue *table = tree_extension(root, "OpenMaterial_ior_data"), *best = NULL;
     if (!table) {
-        fails(from, root, "\"extensions\" with OpenMaterial_ior_data is wanted");
+        fails(from, root, "\"extensions\" with OpenMaterial_ior_data is required");
         return NULL;
     }
     const GltfValue *data = array_of(from, table, "data");
     for (int i = 0; data && i < data->count; i++) {
         const GltfValue *kelvin = tree_member(&data->items[i], "temperature");
         if (!kelvin || kelvin->kind != GLTF_NUMBER || !(kelvin->number > 0)) {
-            fails(from, &data->items[i], "\"temperature\" is wanted: a number above 0, in K");
+            fails(from, &data->items[i], "\"temperature\" is required: a number above 0, in K");
             return NULL;
         }
         if (!best || fabs(kelvin->number - ROOM_K) <
@@ -113,7 +113,7 @@ static void check_sum(IndexFile *from, const GltfValue *data, const OpticalConst
     for (int i = 0; i < CURVE_COUNT && from->ok; i++)
         if (!(table->n.value[i] + table->k.value[i] > 0))
             fails(from, data, "n and k are both 0 at a visible wavelength, one above 0 is "
-                              "wanted");
+                              "required");
 }
 
 /* NULL: reported, or it does not reach over what is seen. */
@@ -153,7 +153,8 @@ static void wear_table(GltfFile *file, const GltfValue *uri, const OpticalConsta
     for (int i = 0; i < CURVE_COUNT; i++) {
         if (table->n.value[i] >= 1) continue;
         file_error(file, uri,
-                   "n is %g at %d nm: a metal's (metallicFactor above 0); 1 or more is wanted "
+                   "n is %g at %d nm: a metal's (metallicFactor above 0); 1 or more is "
+                   "required "
                    "of what is none",
                    (double)table->n.value[i], CURVE_FIRST_NM + i);
         return;
