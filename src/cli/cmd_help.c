@@ -9,6 +9,7 @@
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/options/completion.h"
+#include "cli/options/guide_index.h"
 #include "cli/options/guides.h"
 #include "cli/options/man_page.h"
 #include "text/nearest_word.h"
@@ -48,6 +49,33 @@ void cmd_help_print(FILE *out)
     }
     print_to(out, "\nscenes/ of the examples: %s\n",
              find_scenes(scenes) ? scenes : "not installed (the package parhelion-scenes)");
+}
+
+#define HITS 5
+
+/* The sections that are about a word; false: no page has it. */
+static bool print_word(const char *word, const Cli *cli, bool *prints, Error *err)
+{
+    GuideHit hits[HITS];
+    int      count = guide_index_find(word, hits, HITS);
+    *prints = true;
+    if (!count) return false;
+    if (cli->json) {
+        json_t *list = json_array();
+        for (int i = 0; i < count; i++)
+            json_array_append_new(list, json_pack("{s:s, s:s%, s:s%}", "guide",
+                                                  hits[i].guide->name, "section",
+                                                  hits[i].heading, (size_t)hits[i].length,
+                                                  "line", hits[i].line,
+                                                  (size_t)hits[i].line_length));
+        *prints = cli_print_json(json_pack("{s:s, s:o}", "word", word, "pages", list), err);
+        return true;
+    }
+    print("%s is in these pages (parhelion help NAME shows one):\n\n", word);
+    for (int i = 0; i < count; i++)
+        print("  %-18s %.*s\n                     %.*s\n", hits[i].guide->name,
+              hits[i].length, hits[i].heading, hits[i].line_length, hits[i].line);
+    return true;
 }
 
 static bool unknown_name(const char *name, Error *err)
@@ -166,7 +194,9 @@ static bool help(const HelpWords *words, Arena *arena, Error *err)
     if (guide && cli->argument_count > 1)
         return error_set(err, ERROR_USAGE, "help %s: %s is one page", cli->arguments[1],
                          cli->arguments[0]);
-    return guide ? print_guide(guide, words, err) : unknown_name(cli->arguments[0], err);
+    if (guide) return print_guide(guide, words, err);
+    bool prints, is_word = print_word(cli->arguments[0], cli, &prints, err);
+    return is_word ? prints : unknown_name(cli->arguments[0], err);
 }
 
 static bool run_help(int argc, char **argv, Arena *arena, Error *err)

@@ -216,10 +216,40 @@ static const Option *find_option(const Parser *in, const char *name, size_t leng
     return place < 0 ? NULL : option_at(in, place);
 }
 
+/* What other renderers call an option, and its name here. */
+static const struct {
+    const char *theirs, *ours;
+} called[] = {
+    {"--max-depth", "--max-bounces"}, {"--maxdepth", "--max-bounces"},
+    {"--bounces", "--max-bounces"}, {"-ab", "--max-bounces"},
+    {"--nthreads", "--threads"}, {"--jobs", "--threads"}, {"--cores", "--threads"},
+    {"-j", "--threads"}, {"-t", "--threads"}, {"-n", "--threads"},
+    {"--output", "-o"}, {"--outfile", "-o"}, {"--out", "-o"},
+    {"--samples-per-pixel", "--spp"}, {"--sample-count", "--spp"}, {"-s", "--spp"},
+    {"--resolution", "--size"}, {"--width", "--size"}, {"--height", "--size"},
+    {"--film", "--size"}, {"--falsecolor", "--false-colour"},
+    {"--falsecolour", "--false-colour"}, {"--false-color", "--false-colour"},
+    {"--envmap", "--environment"}, {"--sky", "--environment"}, {"--hdri", "--environment"},
+    {"--origin", "--eye"}, {"--viewpoint", "--eye"}, {"--vp", "--eye"}, {"-vp", "--eye"},
+    {"--target", "--look-at"}, {"--lookat", "--look-at"}, {"-vd", "--look-at"},
+    {"--vfov", "--fov"}, {"-vv", "--fov"}, {"--date", "--when"}, {"--datetime", "--when"},
+    {"--location", "--where"}, {"--epw", "--weather"}, {"--denoiser", "--denoise"},
+    {"--cropwindow", "--crop"}, {"--region", "--crop"}, {"--ev", "--exposure"},
+    {"--tonemap", "--view"}, {"--ocio", "--config"}, {"--continue", "--resume"},
+    {"--interactive", "--tev"}, {"--preview", "--tev"}, {"--limits", "--profile"},
+    {"--standard", "--profile"},
+};
+
 static bool unknown_option(const Parser *in, const char *name, size_t length)
 {
     const char *names[NAMES_MAX];
     int         count = 0;
+    for (int i = 0; i < COUNT_OF(called); i++)
+        if (strlen(called[i].theirs) == length && !strncmp(called[i].theirs, name, length) &&
+            find_place(in, called[i].ours, strlen(called[i].ours)) >= 0)
+            return error_set(in->err, ERROR_USAGE, "unknown option %s — here it is called %s; "
+                             "`parhelion %s --help` lists what there is", called[i].theirs,
+                             called[i].ours, in->command->name);
     for (; count < in->command->option_count + in->common_count; count++)
         names[count] = option_at(in, count)->name;
     char        word[64];
