@@ -125,7 +125,8 @@ compare_frames()
 
 accept()
 {
-    [ -n "$1" ] || fail "accept: wanted a word on why, such as \`accept 'brighter cluster'\`"
+    [ -n "$1" ] ||
+        fail "accept: a word on why is required, such as \`accept 'brighter cluster'\`"
     echo "$(date -u +%Y-%m-%dT%H:%MZ) $1" >>ci/accepted
     echo "commit ci/accepted together with what changed the frames"
 }
@@ -145,5 +146,5 @@ today) render_today; end_rendering ;;
 compare) compare_frames ;;
 accept) accept "${2:-}" ;;
 all) render_reference; render_today; compare_frames ;;
-*) fail "$1: wanted reference, today, compare, accept WHY, or nothing" ;;
+*) fail "$1: required: reference, today, compare, accept WHY, or nothing" ;;
 esac

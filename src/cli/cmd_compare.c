@@ -364,8 +364,7 @@ static bool compare(const CompareRequest *request, Arena *arena, Error *err)
     bool both = is_folder(request->reference);
     if (is_folder(request->test) != both)
         return error_set(err, ERROR_USAGE, "%s is a folder and %s is not: required: two files "
-                                           "or "
-                         "two folders", both ? request->reference : request->test,
+                         "or two folders", both ? request->reference : request->test,
                          both ? request->test : request->reference);
     if (request->pairs_file && !both)
         return error_set(err, ERROR_USAGE, "--pairs %s goes with two folders: %s is none",

@@ -342,8 +342,7 @@ static void compare_tags(const CompareInput *reference, const CompareInput *test
                   "taken for sRGB");
     else
         lines_add(reasons, "what the %s states of its codes is not read (%s): required: sRGB, "
-                           "a "
-                  "profile of a matrix and curves, gAMA and cHRM",
+                           "a profile of a matrix and curves, gAMA and cHRM",
                   a->is_known ? "test" : "reference", a->is_known ? b->words : a->words);
 }
 

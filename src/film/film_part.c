@@ -357,8 +357,8 @@ bool film_part_open(const char *path, Arena *arena, FilmPartReader *out, Error *
                 (found ? describe(&from, found, arena, err)
                        : error_set(err, ERROR_INPUT,
                                    "carries no sums, only means: it cannot be merged — "
-                                   "required: a frame of `render --samples A:B` or `render --crop`, or "
-                                   "of `merge --part`"));
+                                   "required: a frame of `render --samples A:B`, `render "
+                                   "--crop` or `merge --part`"));
     if (done) *out = from;
     else exr_reader_destroy(from.file);
     return done;

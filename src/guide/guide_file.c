@@ -141,8 +141,7 @@ static bool check_head(const FileBytes *file, GuideHead *head, Error *err)
     memcpy(head, file->data, sizeof *head);
     if (head->version != GUIDE_VERSION || head->bins != GUIDE_BINS)
         return error_set(err, ERROR_INPUT, "field of version %u with %u bins, required: %u "
-                                           "with "
-                                           "%d", head->version, head->bins, GUIDE_VERSION,
+                         "with %d", head->version, head->bins, GUIDE_VERSION,
                          GUIDE_BINS);
     if (!head->cell_count || head->cell_count > GUIDE_CELLS_MAX ||
         head->node_count != 2 * head->cell_count - 1 ||

@@ -133,7 +133,7 @@ static bool set_range(const DevelopOptions *options, LayerView *view, Error *err
         return error_set(err, ERROR_USAGE, "--range: only false colours have a range");
     if (!(high > low) || (view->is_log && !(low > 0)))
         return error_set(err, ERROR_USAGE, "--range %g,%g: required: LOW,HIGH with LOW < "
-                                           "HIGH%s",
+                         "HIGH%s",
                          low, high, view->is_log ? " and LOW above 0" : "");
     view->low = (float)low;
     view->high = (float)high;

@@ -218,13 +218,11 @@ static bool check_statements(const FrameImage *frame, Error *err)
     if (colours && (colours->kind != EXR_CHROMATICITIES ||
                     !chromaticities_are_usable(colours->values)))
         return error_set(err, ERROR_INPUT, "chromaticities: required: x and y of red, green, "
-                                           "blue "
-                         "and white, of primaries that light can be mixed from");
+                         "blue and white, of primaries that light can be mixed from");
     if (!is_number) return error_set(err, ERROR_INPUT, "whiteLuminance is no number");
     return !white || (white->values[0] > 0 && isfinite(white->values[0])) ||
            error_set(err, ERROR_INPUT, "whiteLuminance is %g, required: the cd/m2 of white, "
-                                       "above "
-                     "0", white->values[0]);
+                                       "above 0", white->values[0]);
 }
 
 /* From stored values to cd/m2 of Rec.709. */

@@ -117,8 +117,7 @@ static bool parse_words(const char *words, int width, int height, FrameView *out
                       .width = width, .height = height};
     if (!strchr("val", in.type))
         return error_set(err, ERROR_INPUT, "VIEW=: -vt%c, required: -vta (angular fisheye), "
-                                           "-vtv "
-                         "(perspective) or -vtl (parallel)", in.type);
+                                           "-vtv (perspective) or -vtl (parallel)", in.type);
     if (!(view.half_width > 0) || !(view.half_height > 0))
         return error_set(err, ERROR_INPUT, "VIEW=: -vh %g -vv %g of -vt%c, required: %s", in.h,
                          in.v, in.type, in.type == 'a' ? "angles up to 360 degrees"
@@ -171,7 +170,7 @@ static bool read_number(const FrameImage *frame, const char *name, double most, 
     *out = a->kind == EXR_STRING ? (double)NAN : a->values[0];
     return (*out > 0 && *out < most) ||
            error_set(err, ERROR_INPUT, "%s is %g, required: a number between 0 and "
-                                       "%g", name, *out,
+                     "%g", name, *out,
                      most);
 }
 

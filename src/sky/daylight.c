@@ -226,8 +226,7 @@ static bool check_sun_up(const Daylight *out, Error *err)
     if (!needs_sun(&out->input) || out->metrics.sun_elevation_deg > lowest) return true;
     return error_set(err, ERROR_INPUT, "the sun stands %.2f degrees below the horizon "
                      "(azimuth %.2f): this sky model has no night, required: a time by day or "
-                     "the "
-                     "type \"sky\"", -out->metrics.sun_elevation_deg,
+                     "the type \"sky\"", -out->metrics.sun_elevation_deg,
                      out->metrics.sun_azimuth_deg);
 }
 
@@ -238,8 +237,7 @@ static bool build_cie(Daylight *out, Error *err)
     Curve irradiance;
     if (in->cie_type < 1 || in->cie_type > 16)
         return error_set(err, ERROR_INPUT, "CIE sky %d is unknown, required: 1 to 15, or 16 "
-                                           "(the "
-                         "traditional overcast sky)", in->cie_type);
+                                           "(the traditional overcast sky)", in->cie_type);
     if (!check_sun_up(out, err)) return false;
     Spectrl2 ground = ground_spectra(out);
     out->shape = sky_shape_cie(in->cie_type);

@@ -124,8 +124,7 @@ static bool check_values(const Points *points, const char *path, const char *pla
     return nm > 0 && nm < 1e6 && is_index ? true :
            error_at(err, ERROR_INPUT, path, place,
                     "wavelength %g nm with n %g and k %g: required: nm above 0, n and k from "
-                    "0 to "
-                    "%g, not both 0", nm, n, k, INDEX_MAX);
+                    "0 to %g, not both 0", nm, n, k, INDEX_MAX);
 }
 
 static bool add_row(Points *points, const char *path, const char *place, const double *number,
@@ -204,7 +203,7 @@ static bool read_points(const char *text, const char *path, Points *points, Erro
         } else if (!may_be_header || !is_header(line)) {
             line[strcspn(line, "\r\n")] = '\0';
             return error_at(err, ERROR_INPUT, path, place, "found \"%.60s\", required: "
-                                                           "%s%s", line,
+                            "%s%s", line,
                             names, comma_hint(line));
         }
         may_be_header = false;

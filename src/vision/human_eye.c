@@ -28,8 +28,7 @@ bool human_eye_parse(const char *text, HumanEye *out, Error *err)
          eye.age_years <= HUMAN_EYE_AGE_MAX && eye.pigment <= HUMAN_EYE_PIGMENT_MAX;
     if (!ok)
         return error_set(err, ERROR_USAGE, "%s: required: AGE or AGE,PIGMENT: %g to %g years, "
-                                           "0 "
-                         "(very dark) to %g (light blue)", text, HUMAN_EYE_AGE_MIN,
+                         "0 (very dark) to %g (light blue)", text, HUMAN_EYE_AGE_MIN,
                          HUMAN_EYE_AGE_MAX, HUMAN_EYE_PIGMENT_MAX);
     *out = eye;
     return true;

@@ -225,8 +225,7 @@ def check_refusals(work, *options):
         work.report.claim(done.returncode == status and part in done.stderr and
                           done.stderr.count("\n") == 1,
                           f"{changed}: status {done.returncode}, {done.stderr[:300]!r}, "
-                          f"required: "
-                          f"{part!r}")
+                          f"required: {part!r}")
         work.report.claim(contents(path) == checkpoint, f"{changed}: changed the checkpoint")
         return done.stderr
 

@@ -101,8 +101,7 @@ def check_malus(report, eye):
             wanted = malus(theta, phi, up, degrees)
             report.claim(abs(found - wanted) < 1e-4,
                          f"theta {theta}, phi {phi}, glasses at {degrees}: {found:.5f}, "
-                         f"required: "
-                         f"{wanted:.5f}")
+                         f"required: {wanted:.5f}")
     found = eye.seen(display_scene(), "--sunglasses", "-30:50") / eye.seen(display_scene())
     wanted = (1.02 - 0.98 * DEGREE) / 2  # crossed
     report.claim(abs(found - wanted) < 1e-4,

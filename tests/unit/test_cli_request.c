@@ -57,8 +57,7 @@ MEMORY_TEST(values_of_the_surroundings_are_checked)
          "--environment sky:clear: where does the sun stand? — add --when and --where, or "
          "--sun AZ,EL"},
         {{.environment = "constant:-1"},
-         "--environment constant:-1: required: a luminance in cd/m2, "
-         "0 to 1e+12"},
+         "--environment constant:-1: required: a luminance in cd/m2, 0 to 1e+12"},
         {{.environment = "constant:1e40"},
          "--environment constant:1e40: required: a luminance in cd/m2, "
          "0 to 1e+12"},
@@ -83,8 +82,7 @@ MEMORY_TEST(values_of_the_surroundings_are_checked)
          "--sun 200,45,8e94: required: auto, off, or AZ,EL,LUX with AZ -360 to 360 and "
          "EL -90 to 90 degrees and LUX 0 to 1e+09"},
         {{.has_forward = true, .forward = {0, 1, 0}},
-         "--forward 0,1,0: required: a vector that is "
-         "not vertical"},
+         "--forward 0,1,0: required: a vector that is not vertical"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Scene scene = {0};
@@ -171,7 +169,7 @@ MEMORY_TEST(what_makes_no_sky_is_refused_by_name)
         {{.environment = "constant:5", .ground = "sea"}, "only a clear sky"},
         {{.environment = "sky:clear", .sun = "0,9", .ground = "lava"}, "required: land, sea"},
         {{.environment = "sky:clear", .sun = "0,9", .ground = "cloud:x"}, "required: land, "
-                                                                          "sea"},
+        "sea"},
         {{.weather = "none.epw"}, "add --when"},
         {{.environment = "sky:clear", .sun = "0,9", .has_weather_offset = true},
          "add --weather"},

@@ -86,7 +86,7 @@ TEST(a_wide_mirror_shows_the_whole_sun)
     for (int i = -2; i <= 2; i++) {
         FalseSunSight sight = false_suns_at(&found.suns, sun_at(35 + i, i));
         if (!(fabs(sight.share - 1) < 0.03)) fail_msg("%d: share %g, required: "
-                                                      "1", i, sight.share);
+        "1", i, sight.share);
         assert_int_equal(sight.part_id, 0);
         /* The higher the sun, the higher its image stands. */
         double wanted = -sin(radians_from_degrees(20 - i));

@@ -35,13 +35,13 @@ FIXTURE_TEST(zemax_refusals)
 {
     static const Refusal rows[] = {
         {"SpectralContent RGB", "line 1: SpectralContent is 'RGB', required: Monochrome or "
-                                "XYZ"},
+        "XYZ"},
         {"ScatterType BSSRDF", "line 1: ScatterType is 'BSSRDF', required: BRDF"},
         {"Source", "line 1: the file ends after Source"},
         {"Symmetry Asymmetrical\n", "line 1: the file ends in its header, required: DataBegin"},
         {"Colour red\n", "line 1: 'Colour' is no entry of this format's header"},
         {"SampleRotation 0\n", "line 1: SampleRotation is 0, required: a whole number from 1 "
-                               "to"},
+        "to"},
         {"SampleRotation 1.5\n", "SampleRotation is 1.5, required: a whole number from 1 to"},
         {"Symmetry Asymmetrical\nMonochrome\n", "line 1: the header has no SpectralContent"},
         {"Symmetry PlaneSymmetrical\nSpectralContent Monochrome\nSampleRotation 1\n0\n"
@@ -75,7 +75,7 @@ FIXTURE_TEST(lighttools_refusals)
         {"Source Measured\n", "the file ends in its header, required: DataBegin"},
         {"DataBegin\n", "the header has no SpectralContent"},
         {LIGHTTOOLS "AOI 95\nTIS 0\n1\nDataEnd\n", "AOI is 95, required: 0 to below 90 "
-                                                   "degrees"},
+        "degrees"},
         {LIGHTTOOLS "Side Top\n", "Side is 'Top', required: Front or Back"},
         {LIGHTTOOLS "ScatterType BXDF\n", "ScatterType is 'BXDF', required: BRDF or BTDF"},
         {LIGHTTOOLS "TristimulusValue TrisW\n",
@@ -90,12 +90,12 @@ FIXTURE_TEST(fred_refusals)
 {
     static const Refusal rows[] = {
         {"type bsdf_data\nformat scale=0\n", "line 2: scale is '0', required: a number above "
-                                             "0"},
+        "0"},
         {"type psd_data\n", "'type psd_data' stands where 'type bsdf_data' is required"},
         {"type bsdf_data\n", "the file ends before the two angles of the light"},
         {"type bsdf_data\n30 400\n", "phi is 400, required: -360 to 360 degrees"},
         {"type bsdf_data\n30 0\n200 0 1\n", "line 3: theta is 200, required: -90 to 90 "
-                                            "degrees"},
+        "degrees"},
         {"type bsdf_data\n30 0\n20 -400 1\n", "phi is -400, required: -360 to 360 degrees"},
         {"type bsdf_data\n30 0\n20 0 inf\n", "'20 0 inf' is no row"},
     };
@@ -186,7 +186,7 @@ FIXTURE_TEST(speos_refusals)
         {SPEOS "900\n", "the length of the description is 900, more than the rest of the file"},
         {SPEOS_LIGHT "1\n500 50\n" SPEOS_ZERO, "the table at incidence 30 integrates to 0"},
         {SPEOS_LIGHT "2\n500 50\n400 50\n" SPEOS_ONE, "the spectrum has 400 nm, required: "
-                                                      "rising"},
+        "rising"},
         {SPEOS_LIGHT "1\n500 -5\n" SPEOS_ONE, "the spectrum is -5% at 500 nm, required: 0 or"},
         {SPEOS_LIGHT "2\n900 5\n950 5\n" SPEOS_ONE, "required: some of 360 to 830 nm"},
         {SPEOS_LIGHT "1\n500 50\n" SPEOS_ONE "more\n", "'more' follows the last table"},

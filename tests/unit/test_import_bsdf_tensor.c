@@ -199,7 +199,7 @@ FIXTURE_TEST(rgl_refusals)
         {{"theta_i", 2, SHAPE(2), LIST(0, 1)}, "has numbers of type 2, required: floats"},
         {{"theta_i", 10, SHAPE(2), LIST(0, INFINITY)}, "number 2 is not finite"},
         {{"phi_i", 10, SHAPE(3), LIST(0, 1, 2)}, "has the wrong shape, required: phi_i x "
-                                                 "theta_i"},
+        "theta_i"},
         {{"ndf", 10, SHAPE(1, 4), LIST(1, 1, 1, 1)}, "wrong shape, required: at least 2 x 2"},
         {{"sigma", 10, SHAPE(2, 2), LIST(0, 0, 0, 0)}, "is 0 at theta_i 0, required: above 0"},
         {{"vndf", 10, SHAPE(1, 2, 2, 2), LIST(1, 1, 1, -1, 1, 1, 1, 1)},
@@ -208,7 +208,7 @@ FIXTURE_TEST(rgl_refusals)
          "has a density of 0 everywhere"},
         {{"jacobian", 1, SHAPE(2), LIST(1, 1)}, "has the wrong shape, required: one number"},
         {{"wavelengths", 10, SHAPE(2), LIST(500, 600)}, "has the wrong shape, required: phi_i "
-                                                        "x"},
+        "x"},
         {{"wavelengths", 10, SHAPE(1), LIST(-5)}, "has -5 nm, required: rising wavelengths"},
         {{"spectra", 10, SHAPE(1, 2, 1, 1, 2), LIST(1, 1, 1, 1)}, "has the wrong shape"},
         {{"", 0, NULL, NULL}, NULL},

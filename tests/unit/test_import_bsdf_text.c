@@ -300,8 +300,7 @@ FIXTURE_TEST(mountain_errors_name_the_line)
                    "panel is opaque");
     assert_refused(f, "#format: theta phi BSDF\n#incident_angle 120 0\n10 2 3\n", i,
                    "line 3: the light comes from behind (intheta 120), required: the front: "
-                   "below "
-                   "90 degrees");
+                   "below 90 degrees");
     assert_refused(f, "#format: theta phi BSDF\n#incident_angle 20 0\n10 2\n", i,
                    "line 4: the file ends, required: the value");
 }

@@ -251,8 +251,7 @@ FIXTURE_TEST(xml_errors_name_the_line)
                    "TensorTree3 or TensorTree4");
     assert_refused(f, document(&f->arena, "Rows", "Reflection Front", tree_basis, "1"), i,
                    "line 8: ColumnAngleBasis is '', which is not defined, required: the name "
-                   "of "
-                   "an angle basis");
+                   "of an angle basis");
     fixture_write(f, "<WindowElement><Optical>", 24);
     f->set = import_set(&f->arena);
     assert_false(i->read(f->file, &f->options, &f->set, &f->err));

@@ -414,25 +414,21 @@ LAB_TEST(ies_is_refused_with_its_line)
                   "--area-mm W,H"},
                  {IES_HEAD "1 -1 1 4 2 1 2 1 1 0\n1 1 9\n" GAMMAS "0 45\n" PLANE_1 PLANE_1,
                   "lamp.ies: line 8: horizontal angles go from 0 to 45, required: 0, 0 to 90, "
-                  "0 "
-                  "to 180, 90 to 270 or 0 to 360 degrees"},
+                  "0 to 180, 90 to 270 or 0 to 360 degrees"},
                  {IES_HEAD "1 -1 1 4 1 1 2 1 1 0\n1 1 9\n0 30 20 90\n0\n" PLANE_1,
                   "lamp.ies: line 7: the vertical angle 20 follows 30, required: rising "
                   "angles"},
                  {IES_HEAD "1 -1 1 99999 1 1 2 1 1 0\n", "lamp.ies: line 5: the number of "
                                                          "vertical angles is '99999', "
-                                                         "required: a "
-                                                         "number from 2 to 4096"},
+                 "required: a number from 2 to 4096"},
                  {IES_HEAD "1 -1 1 4.5 1 1 2 1 1 0\n", "lamp.ies: line 5: the number of "
                                                        "vertical angles is 4.5, required: a "
-                                                       "whole "
-                                                       "number"},
+                 "whole number"},
                  {IES_HEAD "1 -1 1 4 1 1 2 1 1 0\n1 1 9\n" GAMMAS "0\n1 2 x\n",
                   "lamp.ies: line 9: an intensity is 'x', required: a number from 0 to 1e+09"},
                  {IES_HEAD "1 -1 1 2 1 1 2 1 1 0\n1 1 9\n90 180\n0\n0 5\n",
                   "lamp.ies: shines nothing within 90 degrees of gamma 0, required: a "
-                  "luminaire "
-                  "that lights in front of its face"}};
+                  "luminaire that lights in front of its face"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         lab_write(lab, "lamp.ies", cases[i].text);
         lab_refused(lab, cases[i].message);

@@ -32,8 +32,7 @@ LAB_TEST(cells_and_rows_that_do_not_fit)
          "white.csv: line 4: holds numbers again behind the end of the table"},
         {"theta,phi,X,Y,Z\n0,0,1e999,2,3\n",
          "white.csv: line 2: column 'X' holds '1e999', required: a number or a mark of what "
-         "was "
-         "not measured (---, NaN, or one given as --mask)"},
+         "was not measured (---, NaN, or one given as --mask)"},
         {"0,0,1,2,3\n10,0,1,2,3\n",
          "white.csv: line 1: begins numbers that no header names — name them with --columns "
          "theta,phi,..., or say --table theta-down or phi-down for a matrix"},
@@ -168,8 +167,7 @@ LAB_TEST(declarations_that_are_wrong)
            "v', a wavelength, incidence, ... or -");
     lab_declare(lab, "columns", "X,Y,Z");
     refuse(lab, "0,0,1,2,3\n", "--columns 'X,Y,Z' has no two angles, required: theta and phi, "
-                               "or "
-                               "horizontal and vertical");
+                               "or horizontal and vertical");
 }
 
 /* ---- nothing crashes --------------------------------------------------------------------- */
@@ -265,8 +263,7 @@ LAB_TEST(light_that_only_grazes)
     lab_write(lab, "sheet.txt", "type bsdf_data\nformat angles=deg bsdf=value scale=1\n89.5 0\n"
                                 "0 0 0.1\n20 90 0.1\n20 180 0.1\n20 270 0.1\n");
     lab_refused(lab, "sheet.txt: has light from 89.5 degrees and no file from less, required: "
-                     "one "
-                     "of 0 to 89 degrees");
+                     "one of 0 to 89 degrees");
 }
 
 TEST_PROGRAM(NULL, NULL)

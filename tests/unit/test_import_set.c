@@ -141,8 +141,7 @@ LAB_TEST(what_a_set_needs_is_said)
     lab->count = 0;
     lab_write(lab, "black.csv", TABLE);
     lab_refused(lab, "black.csv: is a black pattern alone, required: also red, green and "
-                     "blue, or "
-                     "white");
+                     "blue, or white");
     lab->count = 0;
     lab_write(lab, "white_x.csv", "theta,phi,X\n0,0,1\n9,0,1\n8,0,1\n");
     lab_refused(lab, "white_x.csv: is X of white 255, and no file has Y — give the missing "
@@ -157,8 +156,8 @@ LAB_TEST(what_a_set_needs_is_said)
     lab_write(lab, "i20_a90.csv", BRDF);
     lab_refused(lab, "no file has light from incidence 10, azimuth 90 degrees; a material that "
                      "depends on the azimuth is required at every incidence (2) and azimuth "
-                     "(2) "
-                     "of the light — or say --isotropic when the azimuth makes no difference");
+                     "(2) of the light — or say --isotropic when the azimuth makes no "
+                     "difference");
     lab->count = 0;
     lab_declare(lab, "unit", "signal");
     lab_write(lab, "i10.csv", BRDF);
@@ -196,8 +195,7 @@ LAB_TEST(wavelengths_that_nobody_sees_are_left_out)
     assert_true(lab_noted(lab, "2 of 3 wavelengths lie outside 360 to 830 nm"));
     lab_write(lab, "i10.csv", "theta,phi,1064nm\n0,0,3\n30,0,3\n9,9,3\n");
     lab_refused(lab, "i10.csv: has wavelengths from 1064 to 1064 nm, required: some of 360 to "
-                     "830 "
-                     "nm");
+                     "830 nm");
 }
 
 LAB_TEST(a_declared_symmetry_fills_what_was_not_measured)
@@ -434,13 +432,13 @@ LAB_TEST(spectra_go_into_the_set)
         {"nm,red,green\n400,1,2\n500,1,2\n", "s.csv: header line: has no columns of "
                                              "wavelength, red, green and blue"},
         {"nm,red,green,blue\n400,1,2,3\n390,1,2,3\n", "s.csv: line 3: wavelength 390 follows "
-                                                      "400, required: rising wavelengths"},
+        "400, required: rising wavelengths"},
         {"nm,red,green,blue\n400,1,2,3\n500,1,2\n", "s.csv: line 3: has not the 4 cells of the "
                                                     "header"},
         {"nm,red,green,blue\n400,1,2,3\n500,1,2,x\n", "s.csv: line 3: holds 'x', required: a "
                                                       "number"},
         {"nm,red,green,blue\n.4,1,2,3\n.5,1,2,3\n", "s.csv: line 2: has a wavelength of 0.4, "
-                                                    "required: nanometres"},
+        "required: nanometres"},
         {"nm,red,green,blue\n400,1,2,3\n", "s.csv: has 1 wavelengths, required: more"}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         lab_write(lab, "s.csv", wrong[i][0]);

@@ -210,7 +210,7 @@ ARENA_TEST(bad_tables_are_refused_by_line_and_words)
         {"level,L\n0,1\n128,30\n200,29.5\n255,100\n", "line 4", "29.5 cd/m2 at level 200 is"
          " less than the 30 of level 128 (line 3), required: luminance that does not fall"},
         {"level,L\n0,1\n128,-30\n255,100\n", "line 3", "-30 cd/m2, required: no luminance "
-                                                       "below"},
+        "below"},
         {"level,L\n-1,1\n128,30\n255,100\n", "line 2", "level -1 is below zero"},
         {"level,L\n255,100\n", "", "has 1 row, required: 2 or more"},
         {"level,L\n", "", "no rows"},

@@ -135,7 +135,7 @@ TEST(manifests_name_the_key)
         {DIVIDED("{\"layout\": \"delta\"}"),
          {"/subpixels/layout", "is 'delta', required: another word",
           "there are stripe, pentile"}},
-        {DIVIDED("{\"layout\": \"none\"}"), {"/subpixels/layout", "is \"none\"", "wanted"}},
+        {DIVIDED("{\"layout\": \"none\"}"), {"/subpixels/layout", "is 'none'", "required"}},
         {DIVIDED(STRIPE_OF("\"fill\": 0")), {"/subpixels/fill", "0", "0.01 to 1"}},
         {DIVIDED(STRIPE_OF("\"fill\": 1.5")), {"/subpixels/fill", "1.5", "0.01 to 1"}},
         {DIVIDED(STRIPE_OF("\"fill\": \"all\"")), {"/subpixels/fill", "is a text", "a number"}},

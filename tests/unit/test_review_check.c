@@ -94,8 +94,7 @@ TEST(displays_that_are_none_are_told)
         {"plain", "'plain' has no panel, required: a display: "},
         {"bare", "'bare' has no panel, required: a measured display"},
         {"screen", "'screen' is worn by several nodes, required: one of them: 'node:screen "
-                   "left', "
-                   "'node:screen right'"},
+                   "left', 'node:screen right'"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         Arena         arena = test_arena(state);

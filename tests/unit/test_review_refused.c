@@ -84,7 +84,7 @@ TEST(eyes_are_checked)
 {
     static const Wrong wrong[] = {
         {"'camera':1", "'camera':1.5", "/eyes/second/camera", "is 1.5, required: a whole "
-                                                              "number"},
+        "number"},
         {"'camera':1", "'camera':-1", "/eyes/second/camera", "required: a number from 0"},
         {"'camera':1", "'camera':null", "/eyes/second/camera",
          "is null, required: a camera's name or index"},
@@ -122,7 +122,7 @@ TEST(eyes_are_checked)
          "is 200, required: a number from 10 to 100"},
         {"'at':'symbols'", "'at':'symbol'", "/gaze/0/at", "did you mean symbols?"},
         {"'at':'symbols'", "'at':'symbols','direction':[0,0,1]", "/gaze/0", "has both, "
-                                                                            "required:"},
+        "required:"},
         {"'at':'symbols'", "'name':'x'", "/gaze/0", "has neither, required: one of 'at'"},
         {"'tall','driver'", "'tal','driver'", "/gaze/1/eyes/0",
          "is 'tal', required: a name of 'eyes': did you mean tall?"},
@@ -185,7 +185,7 @@ TEST(levels_are_checked)
         {"'*':0.04", "'*':'dim'", "/levels/night/*", "is a text, required: a number"},
         {"{'*':0.04,'cluster':0.1}", "{}", "/levels/night", "has 0 members, required: 1"},
         {"{'*':0.04,'cluster':0.1}", "0.04", "/levels/night", "is a number, required: an "
-                                                              "object"},
+        "object"},
         {"[0,3,4]", "[0,0,0]", "/levels/auto/sensor/normal", "is the zero vector"},
         {"[100,0.1]", "[0,0.1]", "/levels/auto/table_lx/1",
          "is at 0 lx behind 0 lx, required: more lx"},
@@ -237,7 +237,7 @@ TEST(conditions_are_checked)
         {"{'text':'dark-on-light'}", "{'txt':'dark-on-light'}", "/conditions/1/polarity/txt",
          "unknown symbol; did you mean text?"},
         {"{'text':'dark-on-light'}", "'dark'", "/conditions/1/polarity", "is 'dark', "
-                                                                         "required:"},
+        "required:"},
         {"'contents':{'cluster':'p.png'}", "'contents':{'cluster':'q.png'}",
          "/conditions/0/contents/cluster", "cannot be read"},
         {"'route':'r.csv',", "", "/conditions/2/when", "stands without 'route', required: "
@@ -308,7 +308,7 @@ TEST(sweeps_are_checked)
          "has both, required: one of 'sun' and 'year'"},
         {"'year':2026,", "", "/conditions/4/sweep", "has neither, required: one of"},
         {"'year':2026", "'year':2026.5", "/conditions/4/sweep/year", "required: a whole "
-                                                                     "number"},
+        "number"},
         {"'year':2026", "'year':26", "/conditions/4/sweep/year", "is 26, required:"},
         {"'where':[48,11]", "'where':[480,11]", "/conditions/4/sweep/where", "is no place"},
         {"'where':[48,11]", "'where':[48]", "/conditions/4/sweep/where", "is no place"},

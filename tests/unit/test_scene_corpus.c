@@ -115,7 +115,7 @@ static const struct {
     {"/MissingBin/BoxTextured.gltf", "cannot be opened: No such file"},
     {"/IncorrectVertexArrays/Cube.gltf", "takes bytes 504 to 936 of a buffer of 514"},
     {"/TestNoRootNode/NoScene.gltf", "is 0, but there are 0 in scenes"},
-    {"/tests/issue-416.gltf", "a version like \"2.0\" is wanted"},
+    {"/tests/issue-416.gltf", "a version like \"2.0\" is required"},
     {"/BoundsChecking/integer-out-of-bounds.gltf", "is 1e+300, an integer"},
     {"/BoundsChecking/invalid-buffer-index.gltf", "is 1, but there is 1 in buffers"},
     {"/BoundsChecking/invalid-buffer-view-index.gltf", "is 0, but there are 0 in buffers"},

@@ -361,7 +361,7 @@ ARENA_TEST(every_prefix_of_a_weather_file_is_read_or_refused_by_line)
         const char *name = in_folder("weather.epw");
         write_text(name, text);
         if (!weather_read(name, &scratch, &w, why()))
-            assert_true(why()->code == ERROR_INPUT && strstr(why()->text, "wanted"));
+            assert_true(why()->code == ERROR_INPUT && strstr(why()->text, "required"));
         unlink(name);
     }
 }

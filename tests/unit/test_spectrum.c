@@ -311,7 +311,7 @@ TEST(a_bad_curve_file_is_refused_with_its_line)
         {"", "no rows of nm,value"},
         {"nm,value\n", "no rows of nm,value"},
         {"nm,value\n400,1\n400,2\n", "line 3: wavelength 400 nm after 400 nm: required: "
-                                     "rising"},
+        "rising"},
         {"nm,value\nfour,1\n", "line 2: found \"four,1\", required: two numbers: nm,value"},
         {"400,1\n500\n", "line 2: found \"500\", required: two numbers"},
         {"400,1,\n500,1\n", "line 1: found \"400,1,\", required: two numbers"},

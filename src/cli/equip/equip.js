@@ -382,7 +382,7 @@ async function start(){
   base.rebuild=rebuild;
   try{await view.start();}
   catch(fault){
-    say('The model cannot be shown here: '+fault.message+'. A browser with WebGL is wanted.',
+    say('The model cannot be shown here: '+fault.message+'. A browser with WebGL is required.',
       true);
     return;
   }

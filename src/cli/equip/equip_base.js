@@ -48,7 +48,7 @@ function freeName(wish){
 function nameField(item,after){
   var field=make('input',{type:'text','aria-label':'Name',value:item.name});
   field.addEventListener('input',function(){
-    var name=field.value.trim(),bad=!name?'a name is wanted':isTaken(name,item)?
+    var name=field.value.trim(),bad=!name?'a name is required':isTaken(name,item)?
       'the model has that name already':'';
     field.setCustomValidity(bad);
     item.bad=bad&&'"'+name+'": '+bad;

@@ -391,8 +391,7 @@ static bool read_place(const JsonView *root, Equip *out, Error *err)
     return (fabs(where[0]) <= 90 && fabs(where[1]) <= 180) ||
            field_fails(&view, "where", err,
                        "is %g, %g: required: a latitude of -90 to 90 and a longitude of -180 "
-                       "to "
-                       "180 degrees",
+                       "to 180 degrees",
                        where[0], where[1]);
 }
 

@@ -59,7 +59,7 @@ bool cli_name_value(const char *option, const char *text, Arena *arena, const ch
     const char *equals = strchr(text, '=');
     if (!equals || equals == text || !equals[1])
         return error_set(err, ERROR_USAGE, "%s %s: required: NAME=VALUE, both not "
-                                           "empty", option,
+                         "empty", option,
                          text);
     *name = arena_string(arena, text, (size_t)(equals - text));
     *value = equals + 1;
@@ -86,7 +86,7 @@ static bool bad_value(const Parser *in, const Option *option, const char *text,
                       const char *wanted)
 {
     return error_set(in->err, ERROR_USAGE, "%s %s: required: %s "
-                                           "(%s)", option->name, text, wanted,
+                     "(%s)", option->name, text, wanted,
                      option->value);
 }
 

@@ -109,8 +109,8 @@ static bool set_cie(Change *change, const char *text, Error *err)
     if (!(number[0] >= 1 && number[0] <= 16 && floor(number[0]) == number[0]) ||
         (colon && !has_lux) || number[1] > SCENE_MOST_LX)
         return error_set(err, ERROR_USAGE,
-                         "--environment cie:%s: required: cie:N or cie:N:LUX with N "
-                         "1 to 15 (16: the traditional overcast sky) and LUX up to %g",
+                         "--environment cie:%s: required: cie:N or cie:N:LUX with N 1 to 15 "
+                         "(16: the traditional overcast sky) and LUX up to %g",
                          text, SCENE_MOST_LX);
     bool was_cie = change->environment->kind == ENVIRONMENT_CIE;
     become(change, ENVIRONMENT_CIE, DAYLIGHT_CIE);
@@ -133,8 +133,8 @@ static bool set_perez(Change *change, const char *text, Error *err)
     if (!cli_numbers(text, 2, w_m2) || w_m2[0] < 0 || !(w_m2[1] > 0) ||
         fmax(w_m2[0], w_m2[1]) > SCENE_MOST_W_M2)
         return error_set(err, ERROR_USAGE,
-                         "--environment perez:%s: required: perez:DIRECT,DIFFUSE, "
-                         "normal and horizontal irradiance in W/m2, up to %g",
+                         "--environment perez:%s: required: perez:DIRECT,DIFFUSE, normal and "
+                         "horizontal irradiance in W/m2, up to %g",
                          text, SCENE_MOST_W_M2);
     become_measured(change);
     change->environment->daylight.direct_w_m2 = w_m2[0];
@@ -151,8 +151,8 @@ static bool set_sky(Change *change, const char *text, Error *err)
     if (!strncmp(text, "perez:", 6)) return set_perez(change, text + 6, err);
     if (strcmp(text, "sky:clear"))
         return error_set(err, ERROR_USAGE, "--environment %s: required: sky:clear, "
-                                           "cie:N[:LUX], "
-                         "perez:DIRECT,DIFFUSE, hdri:FILE or constant:CD_M2", text);
+                         "cie:N[:LUX], perez:DIRECT,DIFFUSE, hdri:FILE or "
+                         "constant:CD_M2", text);
     become(change, ENVIRONMENT_SKY, DAYLIGHT_CLEAR);
     return true;
 }
@@ -308,8 +308,8 @@ static bool set_place(Change *change, const char *text, Error *err)
     if ((!cli_numbers(text, 3, place) && !cli_numbers(text, 2, place)) ||
         fabs(place[0]) > 90 || fabs(place[1]) > 360 || place[2] < -500 || place[2] > 60000)
         return error_set(err, ERROR_USAGE,
-                         "--where %s: required: LAT,LON or LAT,LON,ALT: -90 to 90 "
-                         "and -360 to 360 degrees, -500 to 60000 m",
+                         "--where %s: required: LAT,LON or LAT,LON,ALT: -90 to 90 and -360 to "
+                         "360 degrees, -500 to 60000 m",
                          text);
     change->environment->daylight.where = (SkyPlace){place[0], place[1], place[2]};
     return true;
@@ -420,8 +420,7 @@ static bool set_ground(Change *change, Error *err)
         return true;
     }
     return error_set(err, ERROR_USAGE, "--ground %s: required: land, sea, cloud or cloud:TOP "
-                                       "with "
-                     "the clouds' top 0 to 20000 m above the sea", text);
+                                       "with the clouds' top 0 to 20000 m above the sea", text);
 }
 
 /* ---- the sun ----------------------------------------------------------------------------- */

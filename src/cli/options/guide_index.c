@@ -12,7 +12,7 @@
 #define OF_A_GUIDE 2
 #define SAME_MAX 8
 
-/* Words of one meaning, apart by blanks; a hyphen stands for a blank inside of one. */
+/* SameWords of one meaning, apart by blanks; a hyphen stands for a blank inside of one. */
 static const char *const SYNONYMS[] = {
     "falsecolor falsecolour false-colour false-color pseudocolor heatmap",
     "lamp lamps light luminaire ies ldt photometry",
@@ -65,13 +65,13 @@ static bool begins(const char *text, const char *word, size_t length)
     return true;
 }
 
-typedef struct Words {
+typedef struct SameWords {
     const char *at[SAME_MAX];
     size_t      length[SAME_MAX];
     int         count;
-} Words;
+} SameWords;
 
-static void add_word(Words *words, const char *at, size_t length)
+static void add_word(SameWords *words, const char *at, size_t length)
 {
     if (words->count == SAME_MAX) return;
     words->at[words->count] = at;
@@ -79,9 +79,9 @@ static void add_word(Words *words, const char *at, size_t length)
 }
 
 /* The word, then those of its meanings. */
-static Words words_of(const char *word)
+static SameWords words_of(const char *word)
 {
-    Words  words = {.count = 0};
+    SameWords  words = {.count = 0};
     size_t length = strlen(word);
     add_word(&words, word, length);
     for (int i = 0; i < COUNT_OF(SYNONYMS); i++) {
@@ -100,7 +100,8 @@ static Words words_of(const char *word)
 
 /* How often words stand between two places; *first: where the first of them does. The word
  * itself counts three times as much as one of the same meaning. */
-static int count_of(const Words *words, const char *from, const char *to, const char **first)
+static int count_of(const SameWords *words, const char *from, const char *to,
+                    const char **first)
 {
     int score = 0;
     for (const char *at = from; at < to; at++) {
@@ -141,7 +142,7 @@ static void keep(GuideHit *hits, int *count, int most, GuideHit hit)
 }
 
 /* One section: from its heading to the next one. */
-static GuideHit section_of(const Words *words, const Guide *guide, const char *from,
+static GuideHit section_of(const SameWords *words, const Guide *guide, const char *from,
                            const char *to)
 {
     const char *in_heading = NULL, *in_text = NULL, *heading = from + strspn(from, "# ");
@@ -158,7 +159,7 @@ static GuideHit section_of(const Words *words, const Guide *guide, const char *f
 
 int guide_index_find(const char *word, GuideHit *hits, int most)
 {
-    Words words = words_of(word);
+    SameWords words = words_of(word);
     int   count = 0;
     for (int i = 0; i < guide_count; i++) {
         const char *from = guide_table[i].text;

@@ -39,8 +39,7 @@ static bool field_of_view(const EyeOption *option, const FrameImage *frame, doub
     double degrees = own->kind == EXR_STRING ? NAN : own->values[0];
     if (!(degrees > 0 && degrees < 180))
         return error_set(err, ERROR_INPUT, FIELD_OF_VIEW " is %g, required: degrees between 0 "
-                                                         "and "
-                         "180", degrees);
+                                                         "and 180", degrees);
     if (option->fov_deg > 0 && fabs(option->fov_deg - degrees) > 1e-3 * degrees)
         return error_set(err, ERROR_USAGE, "says itself that it is %g degrees high: leave out "
                          "--fov %g", degrees, option->fov_deg);

@@ -27,8 +27,7 @@ static bool find_parts(const char *table, PanelLevel *level, Error *err)
                    : PANEL_COARSE_EMISSION;
     if (!level->is_asked || !table || strcmp(table, "primaries") != 0) return true;
     return error_set(err, ERROR_USAGE, "--level is %ld, required: none: the table 'primaries' "
-                                       "is "
-                     "read from no tree", level->asked);
+                                       "is read from no tree", level->asked);
 }
 
 static bool export_from(const char *path, ExportRequest *request, Arena *arena, Error *err)

@@ -7,7 +7,7 @@
 static bool refuse(const char *path, const PanelLevel *level, int finest, Error *err)
 {
     return error_at(err, ERROR_USAGE, path, "", "--level is %ld, required: 0 to "
-                                                "%d", level->asked,
+                    "%d", level->asked,
                     finest);
 }
 

@@ -30,8 +30,7 @@ static bool read_sunglasses(const char *text, PolarisedEye *eye, Error *err)
     if (!is_read)
         return error_set(err, ERROR_USAGE,
                          "--sunglasses %.80s: required: DEG or DEG:EXTINCTION, degrees from "
-                         "-%d "
-                         "to %d and a ratio of at least 1",
+                         "-%d to %d and a ratio of at least 1",
                          text, MOST_DEGREES, MOST_DEGREES);
     double angle = radians_from_degrees(degrees);
     eye->has_glasses = true;

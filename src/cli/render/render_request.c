@@ -142,8 +142,7 @@ static bool parse_replay(const double replay[3], RenderOptions *options, Error *
         replay[1] >= options->height)
         return error_set(err, ERROR_USAGE,
                          "--replay %g,%g,%g: required: X,Y,SAMPLE with the pixel inside the "
-                         "frame "
-                         "of %dx%d pixels",
+                         "frame of %dx%d pixels",
                          replay[0], replay[1], replay[2], options->width, options->height);
     int x = (int)replay[0], y = (int)replay[1];
     options->crop = (FilmRect){x, y, x + 1, y + 1};
@@ -248,8 +247,7 @@ static bool check_outputs(const RenderRequest *request, Error *err)
         return error_set(err, ERROR_USAGE, "no output — add -o FRAME.exr");
     if (!ends_with(request->output, ".exr") && !render_output_is_radiance(request))
         return error_set(err, ERROR_USAGE, "-o %s: required: a name that ends in .exr, or in "
-                                           ".hdr "
-                         "for a Radiance picture", request->output);
+                                           ".hdr for a Radiance picture", request->output);
     return check_live(request, err);
 }
 

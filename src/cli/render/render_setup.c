@@ -66,8 +66,7 @@ bool render_check_size(const CameraChoice *choice, bool given, int size[2], Erro
     return !is_round || size[0] == size[1] ||
            error_set(err, ERROR_USAGE,
                      "--size %dx%d: a fisheye's picture is a square around its circle, "
-                     "required: "
-                     "%dx%d or another", size[0], size[1], size[1], size[1]);
+                     "required: %dx%d or another", size[0], size[1], size[1], size[1]);
 }
 
 #define DEFAULT_FOV_DEG 40

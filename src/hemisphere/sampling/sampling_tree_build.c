@@ -277,8 +277,8 @@ static bool check_integrals(const SamplingOptions *options, const float *integra
     for (uint32_t i = 0; i < count; i++) {
         if (!(integrals[i] >= 0 && isfinite(integrals[i])))
             return error_set(err, ERROR_INPUT,
-                             "the integral over leaf %u is %g, required: a finite "
-                             "value of at least 0",
+                             "the integral over leaf %u is %g, required: a finite value of at "
+                             "least 0",
                              i, (double)integrals[i]);
         sum += (double)integrals[i];
     }

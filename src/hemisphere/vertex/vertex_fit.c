@@ -215,7 +215,7 @@ static bool make_weights(const VertexSamples *samples, double *weight, Error *er
         float w = samples->weight ? samples->weight[s] : 1.0f;
         if (!(w >= 0) || !isfinite(w))
             return error_set(err, ERROR_INPUT, "sample %d has the weight %g, required: 0 or "
-                                               "more",
+                             "more",
                              s, (double)w);
         sum += (double)w;
     }

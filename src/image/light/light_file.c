@@ -121,8 +121,7 @@ static bool read_floats(FileBytes bytes, const char *name, Arena *arena, LightFi
     if (image.format != IMAGE_RGBA32F)
         return error_at(err, ERROR_INPUT, name, "",
                         "holds display codes, required: linear light — an OpenEXR or Radiance "
-                        "HDR "
-                        "picture");
+                        "HDR picture");
     *out = light_file_of_floats(&image, arena);
     return true;
 }

@@ -271,8 +271,7 @@ static bool find_symmetry(LuminaireScan *in, Luminaire *out)
     bool is_whole = first == 0 && last > 180; /* 345 or 360 */
     return out->mirror_deg[0] >= 0 || is_whole ||
            luminaire_scan_fail(in, "horizontal angles go from %g to %g, required: 0, 0 to 90, "
-                                   "0 "
-                               "to 180, 90 to 270 or 0 to 360 degrees", first, last);
+                                   "0 to 180, 90 to 270 or 0 to 360 degrees", first, last);
 }
 
 static bool read_type_c(LuminaireScan *in, const IesHead *head, double scale, Luminaire *out)
@@ -318,8 +317,7 @@ static bool read_tipped_angles(LuminaireScan *in, TippedTable *table)
     return v0 < 0 ||
            luminaire_scan_fail(in, "vertical angles of types A and B go from %g to %g: nothing "
                                "says whether the half below is dark or the same, required: "
-                               "-90 to "
-                               "90 degrees", v0, table->v[table->v_count - 1]);
+                               "-90 to 90 degrees", v0, table->v[table->v_count - 1]);
 }
 
 /* Row of the stored table that has H number i of all, and that H. */

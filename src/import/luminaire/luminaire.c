@@ -132,8 +132,7 @@ static bool note_flux(const Luminaire *in, const Plane *plane, int count, Import
     if (!(front > 0))
         return error_at(err, ERROR_INPUT, in->file, "",
                         "shines nothing within 90 degrees of gamma 0, required: a luminaire "
-                        "that "
-                        "lights in front of its face");
+                        "that lights in front of its face");
     import_note(set, "%s: the intensities add up to %.6g lm in front of the face", name, front);
     if (all > front * (1 + 1e-9))
         import_note(set, "%s: %.3g%% of the flux goes beyond 90 degrees and is left out", name,
@@ -230,7 +229,7 @@ bool luminaire_add(const Luminaire *in, const ImportOptions *options, ImportSet 
     double area_m2;
     if (most > IMPORT_ROWS_MAX)
         return error_at(err, ERROR_INPUT, in->file, "", "has %zu directions, required: at "
-                                                        "most %d",
+                        "most %d",
                         most, IMPORT_ROWS_MAX);
     if (!find_area(in, options, &area_m2, err) || !note_flux(in, plane, count, set, err))
         return false;
@@ -283,7 +282,7 @@ bool luminaire_web(const Luminaire *in, Arena *arena, IntensityWeb *out, Error *
     float *gamma = ARENA_NEW(arena, float, in->gammas);
     if (total > IMPORT_ROWS_MAX)
         return error_at(err, ERROR_INPUT, in->file, "", "has %zu directions, required: at "
-                                                        "most %d",
+                        "most %d",
                         total, IMPORT_ROWS_MAX);
     float *c = ARENA_NEW(arena, float, planes + 1), *relative = ARENA_NEW(arena, float, total);
     for (int k = 0; k < in->gammas; k++)

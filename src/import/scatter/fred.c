@@ -34,8 +34,7 @@ static bool read_format(Fred *in, char *line, Error *err)
                                  word + 6);
         } else {
             return scan_fail(&in->scan, err, "'%.40s' is no format that is known here, "
-                                             "required: "
-                             "angles=deg, bsdf=value, scale=NUMBER", word);
+                             "required: angles=deg, bsdf=value, scale=NUMBER", word);
         }
     }
     return true;
@@ -73,8 +72,7 @@ static bool start_light(Fred *in, const double *cell, ImportSet *set, Error *err
     if (!flush(in, set, err)) return false;
     if (!(lean >= 0 && lean < 90))
         return scan_fail(&in->scan, err, "the angle of incidence is %g, required: 0 to below "
-                                         "90 "
-                         "degrees", lean);
+                                         "90 degrees", lean);
     if (!(fabs(phi) <= 360))
         return scan_fail(&in->scan, err, "phi is %g, required: -360 to 360 degrees", phi);
     in->light = (ScatterLight){lean, phi + 180};
@@ -120,8 +118,7 @@ static bool read_row(Fred *in, const char *line, ImportSet *set, Error *err)
         if (count == 3) return put_row(in, cell, err);
     }
     return scan_fail(&in->scan, err, "'%.40s' is no row, required: theta, phi and value, or "
-                                     "the "
-                     "two angles of the light", line);
+                                     "the two angles of the light", line);
 }
 
 static bool read_lines(Fred *in, ImportSet *set, Error *err)

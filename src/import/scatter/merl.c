@@ -45,8 +45,7 @@ static bool open_merl(const char *file, Arena *arena, Merl *out, Error *err)
     size_t wanted = RGB_BANDS * out->cells * sizeof(double), left = scan.size - scan.at;
     if (wanted != left)
         return byte_scan_fail(&scan, err, "%zu bytes follow, required: %zu for %d x %d x %d "
-                                          "cells "
-                              "of three colours", left, wanted, out->half_thetas,
+                              "cells of three colours", left, wanted, out->half_thetas,
                               out->diff_thetas, out->diff_phis);
     out->value = byte_scan_take(&scan, left);
     for (size_t i = 0; i < RGB_BANDS * out->cells; i++)

@@ -87,7 +87,7 @@ static bool read_entry(Mountain *in, const char *line, ImportSet *set, Error *er
         in->has_theta = in->has_phi = true;
         if (sscanf(text, "%lf %lf", &in->theta, &in->phi) != 2)
             return scan_fail(&in->scan, err, "incident_angle is '%.40s', required: theta and "
-                                             "phi",
+                             "phi",
                              text);
     }
     return true;
@@ -106,12 +106,10 @@ static bool read_header(Mountain *in, ImportSet *set, Error *err)
                          in->has_theta ? "#inphi" : "#intheta");
     if (in->theta >= 90 && in->theta <= 180)
         return scan_fail(&in->scan, err, "the light comes from behind (intheta %g), required: "
-                                         "the "
-                         "front: below 90 degrees", in->theta);
+                                         "the front: below 90 degrees", in->theta);
     if (!(in->theta >= 0 && in->theta < 90) || !(fabs(in->phi) <= 360))
         return scan_fail(&in->scan, err, "the light comes from (%g, %g), required: theta 0 to "
-                                         "90 "
-                         "and phi -360 to 360 degrees", in->theta, in->phi);
+                                         "90 and phi -360 to 360 degrees", in->theta, in->phi);
     return true;
 }
 
@@ -126,8 +124,7 @@ static bool put_row(Mountain *in, ImportRows *rows, Error *err)
         if (!scan_number(&in->scan, "the value", &value[c], err)) return false;
     if (!(theta >= 0 && theta <= 180) || !(fabs(phi) <= 360))
         return scan_fail(&in->scan, err, "the direction is (%g, %g), required: theta 0 to 180 "
-                                         "and "
-                         "phi -360 to 360 degrees", theta, phi);
+                                         "and phi -360 to 360 degrees", theta, phi);
     double one = value[numbers == 3];
     if (theta > 90) {
         in->transmitted++;

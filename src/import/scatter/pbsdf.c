@@ -37,8 +37,7 @@ static bool read_angles(Pbsdf *in, int which, const char *name, Arena *arena, Er
     if (field->count < 2 || field->count > ANGLES_MAX ||
         field->count != field->shape[field->rank - 1])
         return error_at(err, ERROR_INPUT, in->file.file, name, "has the wrong shape, "
-                                                               "required: 1 "
-                        "x 2 to 4096 angles");
+                        "required: 1 x 2 to 4096 angles");
     in->count[which] = (int)field->count;
     in->angle[which] = ARENA_NEW(arena, double, field->count);
     for (size_t i = 0; i < field->count; i++)
@@ -54,8 +53,7 @@ static bool read_bands(Pbsdf *in, Arena *arena, float **nm, Error *err)
     if (!tensor_file_field(&in->file, "wvls", 1, &field, err)) return false;
     if (field->count < 1 || field->count > MEASUREMENT_WAVELENGTHS_MAX)
         return error_at(err, ERROR_INPUT, in->file.file, "wvls", "has %zu wavelengths, "
-                                                                 "required: "
-                        "1 to %d", field->count, MEASUREMENT_WAVELENGTHS_MAX);
+                        "required: 1 to %d", field->count, MEASUREMENT_WAVELENGTHS_MAX);
     in->channels = (int)field->count;
     *nm = ARENA_NEW(arena, float, field->count);
     for (size_t i = 0; i < field->count; i++) (*nm)[i] = (float)tensor_value(field, i);

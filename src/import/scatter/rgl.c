@@ -35,8 +35,7 @@ typedef struct Rgl {
 static bool wrong_shape(const Rgl *in, const TensorField *field, Error *err, const char *wanted)
 {
     return error_at(err, ERROR_INPUT, in->file.file, field->name, "has the wrong shape, "
-                                                                  "required: "
-                    "%s", wanted);
+                                                                  "required: %s", wanted);
 }
 
 static bool read_fields(Rgl *in, Error *err)
@@ -241,8 +240,7 @@ static bool add_light(const Rgl *in, int phi, int theta, const float *nm, Import
     light.sigma = bilinear(in->sigma, sqrt(lean * 2 / PI), (turn + PI) / (2 * PI));
     if (in->has_jacobian && !(light.sigma > 0))
         return error_at(err, ERROR_INPUT, in->file.file, "sigma", "is %g at theta_i %g, "
-                                                                  "required: "
-                        "above 0", light.sigma, lean);
+                        "required: above 0", light.sigma, lean);
     Arena   before = *set->arena;
     size_t  height = in->values->shape[3], width = in->values->shape[4];
     ImportRows rows = scatter_rows(set->arena, (int)(height * width), in->channels);
@@ -270,8 +268,7 @@ static bool name_bands(const Rgl *in, ImportSet *set, const float **nm, Error *e
         list[c] = (float)tensor_value(in->wavelengths, (size_t)c);
         if (!(list[c] > 0) || (c && !(list[c] > list[c - 1])))
             return error_at(err, ERROR_INPUT, in->file.file, "wavelengths", "has %g nm, "
-                                                                            "required: "
-                            "rising wavelengths", (double)list[c]);
+                            "required: rising wavelengths", (double)list[c]);
     }
     *nm = list;
     return true;

@@ -118,7 +118,7 @@ bool scan_count(WordScan *scan, const char *what, int most, int *out, Error *err
     if (!scan_number(scan, what, &value, err)) return false;
     if (!(value >= 1 && value <= most && value == floor(value)))
         return scan_fail(scan, err, "%s is %g, required: a whole number from 1 to "
-                                    "%d", what, value,
+                         "%d", what, value,
                          most);
     double words = (double)(scan->end - scan->next) / 2 + 1;
     if (value > words)

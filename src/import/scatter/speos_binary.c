@@ -106,7 +106,7 @@ static bool read_count(SpeosBinary *in, const char *what, int *out, Error *err)
     if (!read_uint(in, 4, what, &count, err)) return false;
     if (count < 1 || count > SPEOS_ANGLES_MAX)
         return byte_scan_fail(&in->scan, err, "%s is %u, required: 1 to "
-                                              "%d", what, (unsigned)count,
+                              "%d", what, (unsigned)count,
                               SPEOS_ANGLES_MAX);
     *out = (int)count;
     return true;
@@ -210,6 +210,5 @@ bool speos_binary_read(const char *file, Arena *arena, Speos *out, Error *err)
     size_t tail = (settings + 1) * sizeof(double) + 1;
     size_t left = in.scan.size - in.scan.at;
     return left == tail || byte_scan_fail(&in.scan, err, "%zu bytes follow the tables, "
-                                                         "required: "
-                                          "%zu", left, tail);
+                                                         "required: %zu", left, tail);
 }

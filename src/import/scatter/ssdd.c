@@ -95,8 +95,7 @@ static bool read_colour(Ssdd *in, const char *text, Error *err)
     int at = import_word_find(names, text);
     if (at < 0)
         return scan_fail(&in->scan, err, "COLOR_MODEL is '%.40s', required: monochrome, rgb, "
-                                         "xyz "
-                         "or spectrum", text);
+                                         "xyz or spectrum", text);
     in->colour = (SsddColour)(COLOUR_MONO + at);
     return true;
 }

@@ -43,7 +43,7 @@ static bool place_data(const ByteScan *scan, TensorField *field, uint64_t offset
     size_t each = type_size(field->type);
     if (!each)
         return byte_scan_fail(scan, err, "field '%s' has a type of number %d, required: 1 to "
-                                         "11",
+                              "11",
                               field->name, field->type);
     if (offset > scan->size)
         return byte_scan_fail(scan, err, "field '%s' begins behind the file's end",
@@ -71,7 +71,7 @@ static bool read_field(ByteScan *scan, Arena *arena, TensorField *field, Error *
                            .type = (int)type, .rank = (int)rank};
     if (field->rank > TENSOR_RANK_MAX)
         return byte_scan_fail(scan, err, "field '%.40s' has %d dimensions, required: at most "
-                                         "%d",
+                              "%d",
                               field->name, field->rank, TENSOR_RANK_MAX);
     for (int d = 0; d < field->rank; d++) {
         if (!byte_scan_uint(scan, 8, &side))

@@ -70,8 +70,7 @@ static bool read_grid(WordScan *text, int rank, TensorNode *node, Error *err)
     while (count > (size_t)1 << (rank * node->log2_side)) node->log2_side++;
     if (count != (size_t)1 << (rank * node->log2_side))
         return scan_fail(text, err, "a grid of the tensor tree has %zu numbers, required: a "
-                                    "power "
-                         "of %d", count, 1 << rank);
+                                    "power of %d", count, 1 << rank);
     node->value = ARENA_NEW(text->arena, double, count);
     for (size_t i = 0; i < count; i++)
         if (!scan_number(&inside, "a number of the tensor tree", &node->value[i], err))

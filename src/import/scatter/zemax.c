@@ -92,8 +92,8 @@ static bool check_header(const Zemax *in, Error *err)
     if (missing) return scan_fail(scan, err, "the header has no %s", missing);
     if (in->rotations > BLOCKS_MAX / in->incidences)
         return scan_fail(scan, err, "there are %d sample rotations at %d incidences, "
-                                    "required: at "
-                         "most %d blocks", in->rotations, in->incidences, BLOCKS_MAX);
+                         "required: at most %d "
+                         "blocks", in->rotations, in->incidences, BLOCKS_MAX);
     const double turn[] = {-360, 360}, lean[] = {0, 89.999};
     const double full[] = {0, 360}, half[] = {0, 180};
     return angles_check(scan->file, "SampleRotation", in->rotation, in->rotations, turn, err) &&
@@ -164,7 +164,7 @@ static bool read_data(Zemax *in, Error *err)
     }
     if (in->blocks != in->rotations * in->incidences)
         return scan_fail(&in->scan, err, "the file ends after %d blocks, required: "
-                                         "%d", in->blocks,
+                         "%d", in->blocks,
                          in->rotations * in->incidences);
     return is_ended || scan_fail(&in->scan, err, "the file ends without DataEnd");
 }

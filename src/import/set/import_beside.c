@@ -48,8 +48,7 @@ static bool check(const ImportSpecular *asked, const ImportSet *set, Error *err)
 {
     if (asked->file && asked->gloss.count)
         return error_set(err, ERROR_USAGE, "both a specular table and gloss are given, "
-                                           "required: "
-                         "one of them: the table says more");
+                                           "required: one of them: the table says more");
     if (!asked->file && asked->aperture_deg > 0)
         return error_set(err, ERROR_USAGE, "the aperture is a specular table's, required: "
                          "one (--specular)");

@@ -58,8 +58,7 @@ static bool keep_usable(ImportSet *set, Error *err)
     set->count = kept;
     return kept || error_at(err, ERROR_INPUT, first.file, "",
                             "has light from %g degrees and no file from less, required: one "
-                            "of 0 "
-                            "to %d degrees", first.incidence_deg, INCIDENCE_MAX_DEG);
+                            "of 0 to %d degrees", first.incidence_deg, INCIDENCE_MAX_DEG);
 }
 
 /* ---- white beside the primaries ---------------------------------------------------------- */

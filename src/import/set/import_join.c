@@ -168,8 +168,7 @@ static bool join_tables(ImportSet *set, const int *part, int count, ImportTable 
     if (2 * joined->rows < most)
         return error_at(err, ERROR_INPUT, set->table[sorted[count - 1]].file, "",
                         "and %s share %d of %d directions, required: the same directions in "
-                        "the "
-                        "files of one table", joined->file, joined->rows, most);
+                        "the files of one table", joined->file, joined->rows, most);
     if (joined->rows < most)
         import_note(set,
                     "%s: %d directions are not in every file of the table and are left out",

@@ -21,8 +21,7 @@ static bool bad_role(const char *text, Error *err)
 {
     return error_set(err, ERROR_USAGE,
                      "the role '%s' is unknown, required: red, green or blue with :LEVEL, "
-                     "black, "
-                     "white, brdf:INCIDENCE[:AZIMUTH[:WAVELENGTH]], dark, "
+                     "black, white, brdf:INCIDENCE[:AZIMUTH[:WAVELENGTH]], dark, "
                      "reference[:INCIDENCE] or skip",
                      text);
 }

@@ -165,8 +165,7 @@ static bool find_kind(TextReader *in)
     return has_polar != has_pair ||
            error_at(in->err, ERROR_INPUT, in->file, "header line",
                     "has %s, required: one pair of angles", has_polar ? "theta and phi and "
-                                                                        "also a "
-                    "horizontal and a vertical angle" : "no pair of angles");
+                    "also a horizontal and a vertical angle" : "no pair of angles");
 }
 
 static bool check_wavelength(TextReader *in)

@@ -168,8 +168,7 @@ static bool same_grid(const TextBlocks *blocks, const TextBlock *block, Error *e
     return same || error_at(err, ERROR_INPUT, blocks->text->file,
                             text_place(block->line, blocks->arena),
                             "begins a matrix over other angles than the one of %s, required: "
-                            "one "
-                            "grid in a file", text_place(first->line, blocks->arena));
+                            "one grid in a file", text_place(first->line, blocks->arena));
 }
 
 static bool add_quantities(const TextBlocks *blocks, NamedRows *out, Error *err)

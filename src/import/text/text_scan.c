@@ -72,8 +72,7 @@ static bool read_cell(const TextScan *scan, TextCell cell, double *out)
 static bool bad_cell(const TextScan *scan, TextCell cell, const char *column)
 {
     return bad_line(scan, "column '%s' holds '%.*s', required: a number or a mark of what was "
-                          "not "
-                    "measured (---, NaN, or one given as --mask)", column,
+                          "not measured (---, NaN, or one given as --mask)", column,
                     cell.length < 40 ? cell.length : 40, cell.text);
 }
 
@@ -296,7 +295,7 @@ static bool add_block_row(TextScan *scan)
     bool    has_final = scan->count == wanted + 1 && !scan->cell[wanted].length;
     if (scan->count != wanted && !has_final)
         return bad_line(scan, "has %d cells, required: %d as the head of the "
-                              "matrix", scan->count,
+                        "matrix", scan->count,
                         wanted);
     double *value = text_blocks_row(blocks, scan->at, scan->err);
     if (!value) return false;

@@ -223,8 +223,8 @@ static bool fill_table(TextReader *in, const TextChannels *channels, const RowGr
     if (table->rows < (is_helper ? 1 : DIRECTIONS_MIN))
         return error_at(in->err, ERROR_INPUT, in->file, row_place(in, group[0].row),
                         "begins a table of %d measured direction%s, required: an angular "
-                        "table of "
-                        "at least %d — leave the file out (--role FILE=skip) if it is none",
+                        "table of at least %d — leave the file out (--role FILE=skip) if it "
+                        "is none",
                         table->rows, table->rows == 1 ? "" : "s",
                         is_helper ? 1 : DIRECTIONS_MIN);
     return import_add(in->set, table, in->err);
@@ -287,9 +287,8 @@ static bool codes_role(TextReader *in, const RowGroup *group, Role *role)
     return lit <= 1 || is_white ||
            error_at(in->err, ERROR_INPUT, in->file, row_place(in, group->row),
                     "the codes %g, %g, %g are a mixture, required: one primary at a time, "
-                    "black "
-                    "or white — leave the file out (--role FILE=skip) if it is no table of one "
-                    "pattern",
+                    "black or white — leave the file out (--role FILE=skip) if it is no table "
+                    "of one pattern",
                     group->key[0], group->key[1], group->key[2]);
 }
 

@@ -437,8 +437,7 @@ static void judge_between(Judge *judge, const FitParts *parts)
     judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "between the samples near the mirror "
                      "direction the panel differs from the fitted haze by %.2g %% (light from "
                      "%.4g degrees), required: at most %.0f %%: measure the BRDF in finer "
-                     "steps "
-                     "there, or ask for a smaller bound (--max-error)",
+                     "steps there, or ask for a smaller bound (--max-error)",
                      100 * r->held_out[worst].between,
                      degrees_from_radians(set->incidence[worst % set->incidence_count]),
                      100 * JUDGE_HELD_OUT_CARE);

@@ -43,8 +43,7 @@ static void judge_step(Judge *judge, const Measurement *set, int p, int level)
     else if (power > JUDGE_POWER_MOST && high > JUDGE_BLACK_MOST * black)
         judge_reason_add(judge, JUDGE_CARE, "from %s %g to %g luminance rises with the power "
                          "%.3g of the level, required: at most %g: check the unit and the "
-                         "level "
-                         "of these tables", primary_names[p], m->level[level],
+                         "level of these tables", primary_names[p], m->level[level],
                          m->level[level + 1], power, JUDGE_POWER_MOST);
 }
 
@@ -59,8 +58,8 @@ static void judge_white(Judge *judge, const Measurement *set, double white)
         double one = added(set, p, set->primary[p].level_count - 1);
         if (one < JUDGE_PRIMARY_LEAST * white)
             judge_reason_add(judge, JUDGE_CARE, "%s has %.2g %% of white's luminance, "
-                                                "required: "
-                             "at least %g %%: check the units of the primaries' tables",
+                             "required: at least %g %%: check the units of the primaries' "
+                             "tables",
                              primary_names[p], 100 * one / white, 100 * JUDGE_PRIMARY_LEAST);
     }
 }

@@ -46,8 +46,7 @@ static bool check_version(const PanelBytes *bytes, const PanelHeader *header,
     if (header->version == wanted) return true;
     return error_at(bytes->err, ERROR_INPUT, bytes->name, "header",
                     "has version %u, required: %u for what the file holds; it is damaged: fit "
-                    "the "
-                    "panel again", header->version, wanted);
+                    "the panel again", header->version, wanted);
 }
 
 /* The angle is held in its range: what is stored rounds to float. */

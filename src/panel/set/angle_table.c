@@ -347,8 +347,7 @@ static bool reject_other_wavelengths(const CsvTable *csv, const float *wavelengt
         if (!is_wavelength_column(csv, c, wavelength_nm, count))
             return error_at(err, ERROR_INPUT, csv->file, "header line",
                             "column '%s' is no wavelength of the manifest, required: theta, "
-                            "phi "
-                            "and wavelengths_nm", name);
+                            "phi and wavelengths_nm", name);
     }
     return true;
 }

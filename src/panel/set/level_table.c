@@ -127,8 +127,7 @@ static bool find_columns(const CsvTable *csv, Columns *out, Error *err)
     if (out->at[PLACE_WHITE] < 0 && !has_primary(out, true))
         return error_at(err, ERROR_INPUT, csv->file, "header line",
                         "has no column of luminance, required: 'luminance' or 'white', or "
-                        "'red', "
-                        "'green' and 'blue' (cd/m2)");
+                        "'red', 'green' and 'blue' (cd/m2)");
     out->is_percent = strchr(csv->name[out->at[PLACE_LEVEL]], '%') != NULL;
     for (int p = PLACE_RED; p < PLACE_COUNT; p++)
         out->is_relative |= out->at[p] >= 0 && says_relative(csv->name[out->at[p]]);
@@ -210,8 +209,8 @@ static bool check_levels(const CsvTable *csv, const LevelRow *row, Error *err)
     for (int i = 1; i < csv->rows; i++)
         if (row[i].level == row[i - 1].level)
             return bad_row(csv, row[i].row, err, "level %g stands in line %d already, "
-                                                 "required: "
-                           "each level once", row[i].level, csv->line[row[i - 1].row]);
+                           "required: each level "
+                           "once", row[i].level, csv->line[row[i - 1].row]);
     return true;
 }
 
@@ -263,9 +262,8 @@ static bool take_luminance(const CsvTable *csv, const LevelRow *row, int column,
         if (out[top] - out[i] > noise_of(out[top], full, is_near))
             return bad_row(csv, row[i].row, err, "column '%s': %g cd/m2 at level %g is less "
                            "than the %g of level %g (line %d), required: luminance that does "
-                           "not "
-                           "fall by more than noise (%g %% of it; %g %% within %g %% of the "
-                           "level; %g %% of full level)",
+                           "not fall by more than noise (%g %% of it; %g %% within %g %% of "
+                           "the level; %g %% of full level)",
                            name, out[i], row[i].level, out[top], row[top].level,
                            csv->line[row[top].row], 100 * LEVEL_NOISE_SHARE,
                            100 * LEVEL_NOISE_NEAR, 100 * (LEVEL_NEAR - 1),
@@ -391,8 +389,7 @@ bool level_table_check_white(const LevelTable *table, double white_cd_m2, const 
     return error_at(err, ERROR_INPUT, table->file, where,
                     "full level has %g cd/m2, but the set's white on the axis %g (%s): %.3g %% "
                     "apart, required: within %g %%; do both belong to one panel, one "
-                    "backlight? "
-                    "(a column of relative luminance is named so: 'relative')",
+                    "backlight? (a column of relative luminance is named so: 'relative')",
                     full, white_cd_m2, source,
                     100 * fabs(full - white_cd_m2) / white_cd_m2, 100 * LEVEL_TABLE_FULL_MISS);
 }

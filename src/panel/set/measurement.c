@@ -144,8 +144,7 @@ static bool read_white(const JsonView *emission, Measurement *out, Error *err)
         if (json_object_get(emission->object, primary_names[p]))
             return error_at(err, ERROR_INPUT, emission->file, emission->path,
                             "has both 'white' and '%s', required: either the white table or "
-                            "the "
-                            "three primaries", primary_names[p]);
+                            "the three primaries", primary_names[p]);
     if (json_object_get(emission->object, "black"))
         return error_at(err, ERROR_INPUT, emission->file, emission->path,
                         "has both 'white' and 'black'; a white-only set has a black of 0, or "
@@ -311,8 +310,7 @@ static bool read_azimuths(const JsonView *view, const char *pattern, Measurement
     if (!strstr(pattern, "{azimuth}"))
         return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "files"),
                         "required: a pattern that holds {azimuth}, because incidence_phi_deg "
-                        "is "
-                        "there");
+                        "is there");
     out->azimuth_count = count;
     for (int i = 0; i < count; i++) out->azimuth[i] = radians_from_degrees(degrees[i]);
     return true;

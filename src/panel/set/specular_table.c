@@ -63,16 +63,13 @@ static bool check_row(const CsvTable *csv, const SpecularColumns *columns, int r
     double value = cell_of(csv, row, columns->value);
     if (!(degrees >= 0 && degrees < 90))
         return error_at(err, ERROR_INPUT, csv->file, place, "incidence is %g degrees, "
-                                                            "required: 0 "
-                        "to less than 90", degrees);
+                        "required: 0 to less than 90", degrees);
     if (!(nm >= 360 && nm <= 830))
         return error_at(err, ERROR_INPUT, csv->file, place, "wavelength is %g nm, required: "
-                                                            "360 "
-                        "to 830", nm);
+                                                            "360 to 830", nm);
     return (value >= 0 && value <= 1) ||
            error_at(err, ERROR_INPUT, csv->file, place, "reflectance is %g, required: 0 to 1 "
-                                                        "(a "
-                    "share, not per cent)", value);
+                                                        "(a share, not per cent)", value);
 }
 
 /* Sorted, each once; how many. */
@@ -192,8 +189,7 @@ bool specular_gloss_add(Gloss *gloss, double geometry_deg, double gu, Error *err
     for (int m = 0; m < GLOSS_METERS; m++) is_known |= meters[m].geometry_deg == geometry_deg;
     if (!is_known)
         return error_set(err, ERROR_INPUT, "a gloss meter's angle is %g degrees, required: "
-                                           "20, 60 "
-                         "or 85", geometry_deg);
+                                           "20, 60 or 85", geometry_deg);
     if (!(gu >= 0 && gu <= GLOSS_MOST))
         return error_set(err, ERROR_INPUT, "gloss is %g, required: 0 to %g gloss units", gu,
                          GLOSS_MOST);
@@ -204,8 +200,7 @@ bool specular_gloss_add(Gloss *gloss, double geometry_deg, double gu, Error *err
     for (int i = 0; i < gloss->count; i++)
         if (gloss->geometry_deg[i] == geometry_deg)
             return error_set(err, ERROR_INPUT, "gloss at %g degrees is told twice, required: "
-                                               "it "
-                             "once", geometry_deg);
+                                               "it once", geometry_deg);
     gloss->geometry_deg[gloss->count] = geometry_deg;
     gloss->gu[gloss->count++] = gu;
     return true;
@@ -297,8 +292,7 @@ bool specular_table_read(const JsonView *reflection, Arena *arena, const Specula
     if (has_table && has_gloss)
         return error_at(err, ERROR_INPUT, reflection->file, reflection->path,
                         "has both 'specular' and 'gloss', required: one of them: a specular "
-                        "table "
-                        "says more");
+                        "table says more");
     SpecularTable *table = ARENA_NEW(arena, SpecularTable, 1);
     if (has_table ? !read_specular(reflection, arena, table, err)
                   : !read_gloss(reflection, arena, table, err))

@@ -162,8 +162,7 @@ static bool csv_places(MapFile *file, const CsvTable *csv, Arena *arena, size_t 
     }
     if ((size_t)csv->rows == pixels_of(file)) return true;
     return error_at(err, ERROR_INPUT, csv->file, "", "has %d pixels of %d x %d, required: all "
-                                                     "of "
-                    "them", csv->rows, file->width, file->height);
+                    "of them", csv->rows, file->width, file->height);
 }
 
 static void csv_fill(const CsvTable *csv, const size_t *pixel, const char *begin,
@@ -258,8 +257,7 @@ static bool read_file(MapFile *file, Arena *arena, Error *err)
     if (!ok) return false;
     if (!file->white.channels)
         return error_at(err, ERROR_INPUT, file->path, "", "has no %s Y, required: X, Y and Z, "
-                                                          "or "
-                        "Y", is_exr ? "channel" : "column");
+                        "or Y", is_exr ? "channel" : "column");
     if (!check_values(file, &file->white, "white", err) ||
         !check_values(file, &file->black, "black", err))
         return false;
@@ -292,8 +290,8 @@ static bool join_black(const JsonView *view, MapFile *white, const MapFile *blac
                         "channels of black beside its own, required: X, Y and Z, or Y, alone");
     if (black->width != white->width || black->height != white->height)
         return error_at(err, ERROR_INPUT, black->path, "", "has %d x %d pixels, required: %d "
-                                                           "x %d "
-                        "as in '%s'", black->width, black->height, white->width, white->height,
+                        "x %d as in "
+                        "'%s'", black->width, black->height, white->width, white->height,
                         white->path);
     white->black = black->white; /* in a file of its own it has no other name */
     return true;

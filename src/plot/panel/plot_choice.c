@@ -15,8 +15,7 @@ static bool next_number(const char *option, const char *text, const char **at, d
     *out = strtod(*at, &after);
     if (after == *at || !(*out > 0 && *out <= LARGEST))
         return error_set(err, ERROR_USAGE, "%s is '%s', required: numbers above 0 and up to "
-                                           "1e7 "
-                         "with commas between", option, text);
+                                           "1e7 with commas between", option, text);
     *at = after;
     return true;
 }

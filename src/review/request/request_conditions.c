@@ -102,8 +102,7 @@ static bool read_range(const JsonView *view, const char *key, JsonRange bounds,
     if (fabs(steps - round(steps)) > WHOLE)
         return field_fails(view, key, err,
                            "does not come from %g to %g in steps of %g, required: a step such "
-                           "as "
-                           "%.6g", value[0], value[1], value[2], fitting_step(value));
+                           "as %.6g", value[0], value[1], value[2], fitting_step(value));
     *out = (ReviewRange){value[0], value[1], value[2], (int)round(steps) + 1};
     return true;
 }
@@ -145,8 +144,7 @@ static bool read_place(const JsonView *view, SkyPlace *out, bool *found, Error *
     if (count < 2 || fabs(value[0]) > 90 || fabs(value[1]) > 360)
         return field_fails(view, "where", err,
                            "is no place, required: [latitude -90 to 90, longitude -360 to "
-                           "360] in "
-                           "degrees north and east, and an altitude in m");
+                           "360] in degrees north and east, and an altitude in m");
     *out = (SkyPlace){value[0], value[1], value[2]};
     return true;
 }
@@ -253,8 +251,7 @@ static bool check_kind(const JsonView *environment, const ReviewCondition *condi
                         "stands beside a weather file, required: one of them");
     return condition->environment.kind == ENVIRONMENT_SKY ||
            field_fails(environment, "type", err,
-                       "is not 'sky', which is required: a route and a sweep move "
-                       "the "
+                       "is not 'sky', which is required: a route and a sweep move the "
                        "sun of a clear sky");
 }
 
@@ -402,8 +399,7 @@ static bool read_time(RequestReading *reading, const JsonView *view,
     return read_sweep(reading, &sweep, condition, err) &&
            (condition->kind != CONDITION_YEAR_SWEEP || !has(view, "heading_deg") ||
             field_fails(view, "heading_deg", err, "stands beside the sweep of a year, "
-                                                  "required: "
-                        "'headings_deg' in it"));
+                                                  "required: 'headings_deg' in it"));
 }
 
 /* ---- all of it --------------------------------------------------------------------------- */
@@ -427,8 +423,7 @@ static bool read_condition(RequestReading *reading, int i, Error *err)
     for (int k = 0; k < i; k++)
         if (!strcmp(request->conditions[k].name, condition->name))
             return field_fails(&view, "name", err, "is '%.60s' as that of condition %d, "
-                                                   "required: "
-                               "another name", condition->name, k);
+                               "required: another name", condition->name, k);
     return find_level(reading, &view, condition, err) &&
            find_with(reading, &view, condition, err) &&
            field_files(&view, "lights", &condition->lights, &condition->light_count, err) &&

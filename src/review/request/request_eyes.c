@@ -299,8 +299,7 @@ static bool read_rectangle(const JsonView *view, ReviewSymbol *symbol, Error *er
     if (!(uv[0] < uv[2] && uv[1] < uv[3]))
         return field_fails(view, "uv", err,
                            "is [%g, %g, %g, %g], required: [left, top, right, bottom] with "
-                           "left "
-                           "below right and top below bottom",
+                           "left below right and top below bottom",
                            uv[0], uv[1], uv[2], uv[3]);
     for (int i = 0; i < 4; i++) symbol->uv[i] = uv[i];
     return true;

@@ -86,7 +86,7 @@ bool field_numbers(const JsonView *view, const char *key, JsonRange range, doubl
     if (found) *found = list != NULL;
     if (json_is_array(list) && json_array_size(list) != (size_t)range.capacity)
         return field_fails(view, key, err, "has %zu values, required: "
-                                           "%d", json_array_size(list),
+                           "%d", json_array_size(list),
                            range.capacity);
     return json_view_numbers(view, key, range, out, &length, err);
 }
@@ -217,14 +217,14 @@ static bool resolve(const JsonView *view, const char *place, const char *uri, co
     size_t scheme = uri_scheme_length(uri);
     if (scheme)
         return field_fails(view, place, err, "has the scheme '%.*s:', required: a relative "
-                                             "path",
+                           "path",
                            (int)(scheme < 40 ? scheme : 40), uri);
     if (!uri_decode(uri, view->arena, &relative, &why))
         return field_fails(view, place, err, "%s", why.text);
     if (!json_view_file(view, place, relative, out, err)) return false;
     return file_exists(*out) ||
            field_fails(view, place, err, "names '%.200s', which cannot be read; required: a "
-                                         "file",
+                       "file",
                        *out);
 }
 

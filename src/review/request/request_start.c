@@ -34,8 +34,7 @@ static const char *uri_of(const char *from, const char *file, const ReviewStart 
     if (!uri_may_be_named(start->output, uri, reach, *arena)) {
         error_at(err, ERROR_INPUT, file, "",
                  "lies outside the parent of the new file's folder, required: the new file in "
-                 "the "
-                 "scene's folder or one beside it (beside it not in \"/\" and the home "
+                 "the scene's folder or one beside it (beside it not in \"/\" and the home "
                  "folder), or --root");
         return NULL;
     }

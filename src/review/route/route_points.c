@@ -189,7 +189,7 @@ static bool read_header(CsvRoute *in, Error *err)
     in->columns = cut(line, cell);
     if (in->columns > LINE_CELLS_MAX)
         return fails(in->points, in->line, err, "has %d columns, required: "
-                                                "time,lat,lon,heading",
+                     "time,lat,lon,heading",
                      in->columns);
     for (int i = 0; i < in->columns; i++) {
         int column = column_of(cell[i]);
@@ -217,7 +217,7 @@ static bool read_row(CsvRoute *in, char *line, Error *err)
     int         cells = cut(line, cell);
     if (cells != in->columns)
         return fails(in->points, in->line, err, "has %d cells, required: the header's "
-                                                "%d", cells,
+                     "%d", cells,
                      in->columns);
     for (int i = 0; i < cells; i++) text[in->column[i]] = cell[i];
     return route_points_add(in->points,

@@ -214,8 +214,7 @@ static void change_nodes(GltfFile *file, const SceneChange *change)
     if (has_turns(change) && !(surface.low.x <= surface.high.x)) {
         problems_add(file->load->problems, SEVERITY_ERROR, change->file, change->place,
                      "node \"%.100s\" of %.200s has no surface to turn about: required: one "
-                     "with "
-                     "triangles", change->name, file->path);
+                     "with triangles", change->name, file->path);
         return;
     }
     Transform move = move_of(&surface, change, &file->world_from_node[top],

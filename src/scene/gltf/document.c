@@ -218,7 +218,7 @@ static bool read_chunks(GltfFile *file, FileBytes bytes, size_t length)
                                length - at);
         if (size % 4)
             return frame_error(file, place, "the chunk has %u bytes, a multiple of 4 is "
-                                            "required",
+                               "required",
                                size);
         if (!take_chunk(file, place, number, type, (FileBytes){bytes.data + at, size}))
             return false;

@@ -154,8 +154,7 @@ static void wear_table(GltfFile *file, const GltfValue *uri, const OpticalConsta
         if (table->n.value[i] >= 1) continue;
         file_error(file, uri,
                    "n is %g at %d nm: a metal's (metallicFactor above 0); 1 or more is "
-                   "required "
-                   "of what is none",
+                   "required of what is none",
                    (double)table->n.value[i], CURVE_FIRST_NM + i);
         return;
     }
