@@ -181,7 +181,7 @@ static const char *mean_sentence(const CompareOptions *options, const Comparison
                    (out->same || s->verdict == STATISTIC_DIFFERENT);
     if (!out->has_pixels || out->channels.differing == 0) return "";
     if (!out->has_stat)
-        return "Whether the mean moved or only the noise cannot be told: no noise is stated.";
+        return "Whether the mean moved or only the noise is not known: no noise is stated.";
     if (s->verdict == STATISTIC_EQUAL) return "The light is equal in every pixel.";
     if (is_said && s->verdict == STATISTIC_SAME) return "";
     if (s->verdict == STATISTIC_SAME)

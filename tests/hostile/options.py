@@ -107,7 +107,7 @@ def check_both(report, program, row):
 
 
 def check_overrides(report, program):
-    """Of what one place is told twice, or is undone by what is said of all."""
+    """Of what one place is stated twice, or is undone by what is said of all."""
     line = ["render", "a.gltf", "-o", "x.exr"]
     for option in ("--content", "--panel", "--display-level", "--light", "--light-level",
                    "--light-cct"):

@@ -106,7 +106,7 @@ def check_hidden(report, reviews):
         summary = file.read()
     report.claim("Cannot be judged" in summary and "0.00 : 1" not in summary and
                  "0 : 1" not in re.sub("<svg.*?</svg>", "", summary, flags=re.S) and
-                 "What mends it" not in summary, "hidden: the summary")
+                 "Remedy" not in summary, "hidden: the summary")
     alone = asked(sensitivity={"peak": {"brightness": 0.5, "display": "*", "range": [1, 2]}})
     del alone["symbols"]["letter"]
     done = reviews.run(alone, "--mend", "peak")

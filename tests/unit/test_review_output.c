@@ -213,7 +213,8 @@ TEST(json_is_read_back)
 TEST(a_precision_that_was_not_reached_is_named)
 {
     ReviewCase c = {.precision_asked = 0.01, .precision_reached = 0.0234};
-    assert_string_equal(words_precision(&c, &arena), "; known within 2.3 %, 1.0 % was asked");
+    assert_string_equal(words_precision(&c, &arena),
+                        "; known within 2.3 %, 1.0 % was required");
     c.precision_reached = 0.01;
     assert_string_equal(words_precision(&c, &arena), "");
     c.precision_asked = c.precision_reached = (double)NAN;

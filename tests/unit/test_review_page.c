@@ -298,7 +298,7 @@ TEST(the_first_screen_says_it_all)
     assert_int_equal(worst->verdict, VERDICT_FAIL);
     const char *parts[] = {"<b>Fails</b>", worst->symbol, worst->eye, worst->condition,
                            words_judged(worst, &arena), "62 %", "→ sky",
-                           "✗", "When", "What mends it"};
+                           "✗", "When", "Remedy"};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         if (!strstr(text.data, parts[i])) fail_msg("no %s in %s", parts[i], text.data);
     assert_int_equal(count_of(page, "not read in the standard"), 3); /* three limits */

@@ -223,7 +223,7 @@ static void print_causes(const ReviewCase *c, Arena scratch)
 {
     bool has_contrast = c->display != NULL;
     if (!c->cause_count) return;
-    print("\n   share     cd/m2   95 %% interval     %s  by way of\n",
+    print("\n   share     cd/m2   95 %% interval     %s  via\n",
           has_contrast ? "without it " : "");
     for (int i = 0; i < c->cause_count; i++) print_cause(&c->causes[i], has_contrast, scratch);
 }

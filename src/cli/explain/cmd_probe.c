@@ -367,7 +367,7 @@ static bool parse(int argc, char **argv, Arena *arena, ProbeWords *out, Error *e
         {"--max-bounces", OPTION_INTEGER, "N",
          "0 emission only, 1 adds direct light (default 64)", &out->max_bounces, .low = 0,
          .high = 100000},
-        {"--ways", OPTION_INTEGER, "N", "that are told by themselves, at most (default 10)",
+        {"--ways", OPTION_INTEGER, "N", "that are listed by themselves, at most (default 10)",
          &out->ways, .low = 1, .high = 1000},
         {"--gltf", OPTION_TEXT, "FILE.gltf|.glb",
          "the ways as lines in the colours of their lights, to be opened beside the scene",

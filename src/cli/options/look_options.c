@@ -16,7 +16,7 @@ bool eye_option_check(EyeOption *option, Error *err)
 {
     if (!option->words)
         return option->fov_deg == 0 ||
-               error_set(err, ERROR_USAGE, "--fov: only --eye asks how wide the view is");
+               error_set(err, ERROR_USAGE, "--fov: is the width of --eye's view: give both");
     return human_eye_parse(option->words, &option->eye, err) || error_prefix(err, "--eye");
 }
 

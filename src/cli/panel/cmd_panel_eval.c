@@ -315,8 +315,8 @@ static bool check_columns(const CsvTable *csv, const EvalRequest *request, Error
         has_incidence |= !strcmp(name, "incidence");
         if (is_brdf ? panel_question_is_of_emission(name) : panel_question_is_of_brdf(name))
             return error_at(err, ERROR_INPUT, csv->file, "header line", "column '%s' is of "
-                            "%s", name, is_brdf ? "an emission, and --brdf asks for reflection"
-                                                : "a reflection, which --brdf asks for");
+                            "%s", name, is_brdf ? "an emission, and --brdf requests reflection"
+                                                : "a reflection, which --brdf requests");
     }
     return !is_brdf || has_incidence ||
            error_at(err, ERROR_INPUT, csv->file, "header line", "has no column 'incidence', "
@@ -414,7 +414,7 @@ static bool check_request(const EvalRequest *request, const Cli *cli, Error *err
         return error_set(err, ERROR_USAGE, "--batch and --grid exclude each other");
     if (request->grid && !panel_grid_parse(request->grid, &grid, err)) return false;
     if (!q->is_brdf && (request->has_incidence || q->wavelength_nm > 0))
-        return error_set(err, ERROR_USAGE, "%s is of a reflection, which --brdf asks for",
+        return error_set(err, ERROR_USAGE, "%s is of a reflection, which --brdf requests",
                          request->has_incidence ? "--incidence" : "--wavelength");
     if (request->batch) return true;
     if (!request->grid && !request->has_theta)

@@ -56,7 +56,7 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
          "room for)", &out->keep, 1e-5, 1},
         {"--max-error", OPTION_NUMBER, "R",
          "relative error allowed at every sample besides its noise (default: 0.0025 for "
-         "emission, 0.02 for reflection, or what the noise asks for)", &out->max_error, 1e-5,
+         "emission, 0.02 for reflection, or what the noise needs)", &out->max_error, 1e-5,
          1},
         {"--error-floor", OPTION_NUMBER, "PERCENT",
          "of an emission table's largest value: errors of what is less are relative to it "

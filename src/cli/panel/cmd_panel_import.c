@@ -136,7 +136,7 @@ static int list_options(Words *words, Option *option, Arena *arena)
         {"--role", OPTION_TEXTS, "PATTERN=ROLE", "what files are: red:255, black, white, "
          "brdf:INCIDENCE[:AZIMUTH[:NM]], dark, reference[:INCIDENCE], skip", &words->roles},
         {"--skip", OPTION_TEXTS, "PATTERN", "files to leave out", &words->skip},
-        {"--format", OPTION_TEXT, "NAME", "the files' format (default: told by each file)",
+        {"--format", OPTION_TEXT, "NAME", "the files' format (default: found from each file)",
          &words->format},
         {"--wavelength", OPTION_NUMBER, "NM", "of reflection files that do not say theirs",
          &words->wavelength_nm, 360, 830},

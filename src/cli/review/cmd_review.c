@@ -299,7 +299,7 @@ static bool make_later(const ReviewRun *run, ReviewFolder *folder, ReviewOutcome
     const Later later[] = {
         {make_variants, "variants", request->variant_count > 0},
         {make_sensitivities, "sensitivity", request->parameter_count > 0 && !folder->is_alone},
-        {make_mend, "what mends it", folder->mend != NULL},
+        {make_mend, "remedy", folder->mend != NULL},
         {make_frames, "pictures", request->frames.worst > 0}};
     if (!review_folder_write_tables(folder, outcome, arena, err)) return false;
     for (int i = -1; i < COUNT_OF(later); i++) {

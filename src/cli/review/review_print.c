@@ -93,7 +93,7 @@ static void print_variant(const ReviewVariantFound *v, Arena scratch)
 
 static void print_mend(const ReviewMend *m, Arena *scratch)
 {
-    print("%-16s %s\n", m->is_found ? "mended" : "not mended", words_mend(m, scratch));
+    print("%-16s %s\n", m->is_found ? "remedy" : "no remedy", words_mend(m, scratch));
 }
 
 /* Dots that go on from the line before are left out. */

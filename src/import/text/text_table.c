@@ -306,7 +306,7 @@ static void light_of(const TextReader *in, const RowGroup *group, ImportTable *t
         azimuth = fmod(in->zero_deg + in->sense * raw + 720, 360);
     } else {
         import_note(in->set, "reflection azimuths are taken to count from the mirror "
-                             "direction: no azimuth of the light is told (--light-azimuth)");
+                             "direction: no azimuth of the light is stated (--light-azimuth)");
     }
     if (incidence < 0) azimuth += 180;
     table->is_any_light = !has_column && !in->role.has_incidence;

@@ -291,14 +291,15 @@ static void judge_held_out(Judge *judge, const FitParts *parts)
     double      incidence = set->incidence[worst % set->incidence_count];
     double      degrees = degrees_from_radians(incidence);
     PeakSpacing spacing = peak_window_spacing(&r->parts.haze[worst], incidence, *judge->arena);
+    double      widest = degrees_from_radians(spacing.widest);
     judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "every second ring or azimuth left out "
-                     "near the mirror direction is missed by %.2g %% (light from %.4g degrees, "
-                     "theta %.4g, phi %.4g): with all of them, %.2g degrees apart, the panel "
-                     "may miss by %.2g %% between them, required: at most %.0f %%: measure the "
-                     "BRDF every %.1g degrees there", 100 * most->error, degrees,
+                     "near the mirror direction is missed by %s %% (light from %.4g degrees, "
+                     "theta %.4g, phi %.4g): with all of them, %s degrees apart, the panel may "
+                     "miss by %s %% between them, required <= %.0f %%: measure the BRDF every "
+                     "%s degrees there", judge_rounded(judge, 100 * most->error), degrees,
                      degrees_from_radians(most->theta), degrees_from_radians(most->phi),
-                     degrees_from_radians(spacing.widest), 100 * most->estimate,
-                     100 * JUDGE_HELD_OUT_CARE, 0.5 * degrees_from_radians(spacing.widest));
+                     judge_rounded(judge, widest), judge_rounded(judge, 100 * most->estimate),
+                     100 * JUDGE_HELD_OUT_CARE, judge_rounded(judge, 0.5 * widest));
     json_object_set_new(judge->figures, "held_out_error", json_real(most->error));
 }
 
@@ -313,15 +314,16 @@ static void judge_gaps(Judge *judge, const char *key, const char *what,
                         json_pack("{s:f, s:f}", "light", gaps->light, "worst",
                                   gaps->worst));
     if (!(fmax(light, worst) > 1)) return;
-    judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "%s: no sample lies within %.2g degrees "
-                     "of theta %.4g, phi %.4g, and values around it change so much that the "
-                     "panel may miss by %.2g %% there, required <= %.0f %%, and by %.2g %% of "
-                     "the light over all gaps, required <= %.0f %% (as samples are missed that "
-                     "the others predict): measure every %.2g degrees there", what,
-                     degrees_from_radians(gaps->gap), degrees_from_radians(gaps->theta), phi,
-                     100 * gaps->worst, 100 * JUDGE_GAP_CARE, 100 * gaps->light,
-                     100 * JUDGE_HELD_OUT_CARE,
-                     degrees_from_radians(scatter_gaps_step(gaps, most)));
+    judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "%s: no sample lies within %s degrees of "
+                     "theta %.4g, phi %.4g, and values around it change so much that the panel "
+                     "may miss by %s %% there, required <= %.0f %%, and by %s %% of the light "
+                     "over all gaps, required <= %.0f %% (as samples are missed that the others "
+                     "predict): measure every %s degrees there", what,
+                     judge_rounded(judge, degrees_from_radians(gaps->gap)),
+                     degrees_from_radians(gaps->theta), phi,
+                     judge_rounded(judge, 100 * gaps->worst), 100 * JUDGE_GAP_CARE,
+                     judge_rounded(judge, 100 * gaps->light), 100 * JUDGE_HELD_OUT_CARE,
+                     judge_rounded(judge, degrees_from_radians(scatter_gaps_step(gaps, most))));
 }
 
 /* Of tables that are no grid: the one that may be missed most. */
@@ -402,10 +404,12 @@ static void judge_left_out(Judge *judge, const EmissionTree *tree)
     json_object_set_new(judge->figures, "azimuth_left_out_missed", json_real(f->missed));
     if (!(estimate > JUDGE_HELD_OUT_CARE)) return;
     judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "emission: each azimuth left out, its "
-                     "neighbours miss %.2g %% of its light: with all of them, up to %.3g "
-                     "degrees apart, the panel may miss by %.2g %% between them, required <= "
-                     "%.0f %%: measure every %.3g degrees or closer", 100 * f->missed, apart,
-                     100 * estimate, 100 * JUDGE_HELD_OUT_CARE, 0.5 * apart);
+                     "neighbours miss %s %% of its light: with all of them, up to %.3g degrees "
+                     "apart, the panel may miss by %s %% between them, required <= %.0f %%: "
+                     "measure every %.3g degrees or closer",
+                     judge_rounded(judge, 100 * f->missed), apart,
+                     judge_rounded(judge, 100 * estimate), 100 * JUDGE_HELD_OUT_CARE,
+                     0.5 * apart);
 }
 
 /* A peak or a hole that one sample of a grid shows. */
@@ -418,11 +422,12 @@ static void judge_peak(Judge *judge, const EmissionTree *tree)
     if (!(p->estimate > JUDGE_GAP_CARE)) return;
     judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "emission: one sample alone shows a peak "
                      "or a hole at theta %.4g, phi %.4g: its neighbours, %.3g degrees of %s "
-                     "apart, miss it by %.2g %%, and between them the panel may miss by "
-                     "%.2g %%, required <= %.0f %%: measure every %.2g degrees there",
+                     "apart, miss it by %s %%, and between them the panel may miss by %s %%, "
+                     "required <= %.0f %%: measure every %.3g degrees there",
                      degrees_from_radians(p->theta), degrees_from_radians(p->phi), step,
-                     p->is_azimuth ? "azimuth" : "theta", 100 * p->missed, 100 * p->estimate,
-                     100 * JUDGE_GAP_CARE, 0.5 * step);
+                     p->is_azimuth ? "azimuth" : "theta", judge_rounded(judge, 100 * p->missed),
+                     judge_rounded(judge, 100 * p->estimate), 100 * JUDGE_GAP_CARE,
+                     0.5 * step);
 }
 
 /* Compares the panel with the fitted haze between the tables' rows. */

@@ -24,6 +24,9 @@ typedef struct Judge {
 void judge_reason_add(Judge *judge, JudgeGrade grade, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* A figure for a sentence: two digits, or all before the point. */
+const char *judge_rounded(const Judge *judge, double value);
+
 /* The grade of a value that should be small. */
 JudgeGrade judge_reason_grade(double value, double care, double unusable);
 

@@ -199,7 +199,7 @@ bool specular_gloss_add(Gloss *gloss, double geometry_deg, double gu, Error *err
                          "has %.4g gloss units", gu, geometry_deg, mirror);
     for (int i = 0; i < gloss->count; i++)
         if (gloss->geometry_deg[i] == geometry_deg)
-            return error_set(err, ERROR_INPUT, "gloss at %g degrees is told twice, required: "
+            return error_set(err, ERROR_INPUT, "gloss at %g degrees is stated twice, required: "
                                                "it once", geometry_deg);
     gloss->geometry_deg[gloss->count] = geometry_deg;
     gloss->gu[gloss->count++] = gu;

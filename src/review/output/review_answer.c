@@ -61,7 +61,7 @@ const char *review_summary_name(const Review *review, const char *symbol, Arena 
 /* Words before the worst case; "": none. */
 static const char *answer_words(const Review *review, const ReviewCase *worst)
 {
-    if (!review_case_counts(worst)) return "nothing that must be read was asked; ";
+    if (!review_case_counts(worst)) return "nothing is required to be read; ";
     if (!review->pass) return worst->verdict == VERDICT_PASS ? "the worst is " : "";
     return worst->verdict == VERDICT_PASS ? "closest to its limit is "
                                           : "nothing fails; the worst is ";
@@ -76,7 +76,7 @@ static void add_line(Text *html, const Review *review, const ReviewCase *worst, 
     text_format(html, "<div class=\"verdict%s\"><h1><b>%s</b>: ", CLASSES[verdict],
                 words_verdict(verdict));
     if (!worst) {
-        text_add(html, "nothing was asked, so nothing can fail.</h1></div>\n");
+        text_add(html, "nothing is required, so nothing can fail.</h1></div>\n");
         return;
     }
     text_add(html, answer_words(review, worst));

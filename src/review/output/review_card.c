@@ -130,7 +130,7 @@ static void add_limit(Text *html, const LimitVerdict *l, Arena *arena)
     text_add(html, "<td>");
     review_bar_add_margin(html, l);
     text_add(html, "</td>");
-    if (l->is_advice) page_cell(html, "sub", passes ? "kept" : "advice, not asked");
+    if (l->is_advice) page_cell(html, "sub", passes ? "kept" : "advice, not required");
     else page_cell(html, words_class(l->verdict), words_verdict(l->verdict));
     page_row_end(html);
 }

@@ -132,7 +132,7 @@ static const CaseRemedy *next_mend(const ReviewCase *c, const bool *is_listed)
 
 static void add_mend(ReviewFacts *facts, int *listed, bool mends, const char *words)
 {
-    const char *name = *listed ? "… or" : mends ? "What mends it" : "What helps";
+    const char *name = *listed ? "… or" : mends ? "Remedy" : "What helps";
     add(facts, name, words);
     ++*listed;
 }

@@ -9,7 +9,7 @@
 #include "base/arena.h"
 #include "review/verdict.h"
 
-/* "What mends it": "the display 1.54 times as bright: 2.05 : 1, required >= 2 : 1: passes". */
+/* "Remedy": "the display 1.54 times as bright: 2.05 : 1, required >= 2 : 1: passes". */
 typedef struct ReviewFact {
     const char *name, *value;
 } ReviewFact;

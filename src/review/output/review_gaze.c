@@ -222,7 +222,7 @@ void review_gaze_add_false_suns(Text *html, const Review *review, Arena *arena)
     page_more_begin(html, arena_format(arena, "Where glass, chrome and the fronts of displays "
                                               "throw the sun itself into an eye: %d",
                                        review->false_sun_count));
-    page_element(html, "p class=\"sub\"", "In a clear sky, asked minute by minute.");
+    page_element(html, "p class=\"sub\"", "In a clear sky, evaluated minute by minute.");
     page_table_begin(html, "", "", COLUMNS, sizeof COLUMNS / sizeof *COLUMNS);
     for (int i = 0; i < review->false_sun_count; i++)
         add_false_sun(html, &review->false_suns[i], arena);

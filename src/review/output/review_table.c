@@ -296,7 +296,7 @@ void review_table_add_limits(Text *html, const Review *review, Arena *arena)
     for (int i = 0; i < review_case_count(review); i++)
         gather_limits(&rows, review_case_at(review, i), arena);
     if (rows.count == 0) {
-        page_element(html, "p", "No limit was asked: nothing could fail.");
+        page_element(html, "p", "No limit applies: nothing can fail.");
         return;
     }
     page_table_begin(html, "", "", COLUMNS, 4);

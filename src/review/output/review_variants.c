@@ -565,8 +565,8 @@ static void add_mends(Text *html, const Review *review, Arena *arena)
 {
     for (int i = 0; i < review->mend_count; i++) {
         const ReviewMend *mend = &review->mends[i];
-        page_element(html, "h3", mend->is_found ? "The smallest change that mends it"
-                                                : "No change that mends it");
+        page_element(html, "h3", mend->is_found ? "The smallest change that passes"
+                                                : "No change passes");
         page_element(html, "p class=\"reason\"", words_mend(mend, arena));
         add_trials(html, mend, arena);
     }

@@ -376,7 +376,7 @@ const char *words_hiders(const ReviewCase *c, Arena *arena)
 const char *words_precision(const ReviewCase *c, Arena *arena)
 {
     if (!(c->precision_reached > c->precision_asked)) return "";
-    return arena_format(arena, "; known within %s, %s was asked",
+    return arena_format(arena, "; known within %s, %s was required",
                         words_share(c->precision_reached, arena),
                         words_share(c->precision_asked, arena));
 }
@@ -560,7 +560,7 @@ const char *words_mend(const ReviewMend *m, Arena *arena)
     const char *value = value_words(m, m->value, arena);
     if (!m->is_found && (!at || isnan(at->margin)))
         return arena_format(arena, "%s: no value that was tried makes everything pass: no "
-                            "margin is known, what is asked cannot be judged", m->name);
+                            "margin is known, what is required cannot be judged", m->name);
     if (!m->is_found)
         return arena_format(arena, "%s: no value that was tried makes everything pass; nearest "
                             "came %s: least margin %s%s%s", m->name, value, margin,

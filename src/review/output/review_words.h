@@ -149,7 +149,7 @@ const char *words_reason(const ReviewCase *c, Arena *arena);
 /* The same without what a panel says of itself at length. */
 const char *words_headline(const ReviewCase *c, Arena *arena);
 
-/* "; known within 2.3 %, 1.0 % was asked", behind the figures of a case; "" where that was
+/* "; known within 2.3 %, 1.0 % was required", behind the figures of a case; "" where that was
  * reached. */
 const char *words_precision(const ReviewCase *c, Arena *arena);
 

@@ -416,7 +416,7 @@ static void add_notes(const ReviewRequest *request, Review *review, Arena *arena
     if (has_sweeps(request)) {
         add_note(review, &notes,
                  "Sweeps: skies are clear, or those of a weather file where one is named; "
-                 "light that comes by a second surface, glints by way of chrome or glass "
+                 "light that comes by a second surface, glints via chrome or glass "
                  "among it, is a mean over about 3 degrees of the sun's place. Of a symbol's "
                  "parts the direct sun tells the worst; all other light of a step is the "
                  "symbol's mean. The worst case of each sweep is traced by itself.");
