@@ -323,7 +323,8 @@ static void judge_gaps(Judge *judge, const char *key, const char *what,
                      degrees_from_radians(gaps->theta), phi,
                      judge_rounded(judge, 100 * gaps->worst), 100 * JUDGE_GAP_CARE,
                      judge_rounded(judge, 100 * gaps->light), 100 * JUDGE_HELD_OUT_CARE,
-                     judge_rounded(judge, degrees_from_radians(scatter_gaps_step(gaps, most))));
+                     judge_rounded(judge,
+                                   degrees_from_radians(scatter_gaps_step(gaps, most))));
 }
 
 /* Of tables that are no grid: the one that may be missed most. */
