@@ -317,7 +317,7 @@ static void judge_gaps(Judge *judge, const char *key, const char *what,
     judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "%s: no sample lies within %s degrees of "
                      "theta %.4g, phi %.4g, and values around it change so much that the panel "
                      "may miss by %s %% there, required <= %.0f %%, and by %s %% of the light "
-                     "over all gaps, required <= %.0f %% (as samples are missed that the others "
+                     "over all gaps, required <= %.0f %% (as samples are missed that others "
                      "predict): measure every %s degrees there", what,
                      judge_rounded(judge, degrees_from_radians(gaps->gap)),
                      degrees_from_radians(gaps->theta), phi,
