@@ -305,7 +305,7 @@ def sheet_for(item):
     lamp, mesh = item.data, bpy.data.meshes.new(item.name)
     if lamp.spread < math.pi - 1e-4:
         raise Wrong(f'area lamp "{item.name}": its spread is {math.degrees(lamp.spread):g} '
-                    f'degrees, required 180: what glows has no other')
+                    f'degrees, required: 180: what glows has no other')
     corners = outline_of(lamp)
     mesh.from_pydata(corners, [], [tuple(range(len(corners)))])
     material = bpy.data.materials.new(f"{item.name} (area lamp)")

@@ -66,7 +66,7 @@ bool job_check_words(const SharedJob *job, Arena scratch, Error *err)
     if (i >= job->word_count) return true;
     return error_at(err, ERROR_INPUT, job_file(job, JOB_MANIFEST, &scratch),
                     arena_format(&scratch, "/words/%d", i),
-                    "is '%.200s', required words that `--slurm` lets through", job->words[i]);
+                    "is '%.200s', required: words that `--slurm` lets through", job->words[i]);
 }
 
 bool job_enter(const SharedJob *job, Arena scratch, Error *err)

@@ -247,12 +247,12 @@ static bool check_bands(const ImportRequest *request, Arena *arena, Error *err)
     bool has_peaks = nm[0] > 0;
     if (request->primaries && (request->backlight || has_peaks))
         return error_set(err, ERROR_USAGE, "both spectra of the primaries and a backlight or "
-                         "peaks are given, required is one of them: spectra say more");
+                         "peaks are given, required: one of them: spectra say more");
     if (request->backlight && !primary_backlight_named(request->backlight))
-        return error_set(err, ERROR_USAGE, "the backlight is '%s', required is one of %s",
+        return error_set(err, ERROR_USAGE, "the backlight is '%s', required: one of %s",
                          request->backlight, primary_backlight_names(arena));
     return !has_peaks || (nm[0] > nm[1] && nm[1] > nm[2]) ||
-           error_set(err, ERROR_USAGE, "the peaks are %g, %g, %g nm, required are those of "
+           error_set(err, ERROR_USAGE, "the peaks are %g, %g, %g nm, required: those of "
                      "red, green and blue, which fall", nm[0], nm[1], nm[2]);
 }
 

@@ -39,7 +39,7 @@ static bool refuse(const char *text, const char *at, const char *file, const cha
     for (; text < at; text++) line += *text == '\n';
     snprintf(place, sizeof place, "line %ld", line);
     return error_at(err, ERROR_INPUT, file, place,
-                    "more than %d %s, required at most that many", most, what);
+                    "more than %d %s, required: at most that many", most, what);
 }
 
 bool xml_tags_check(const char *text, const char *file, Error *err)

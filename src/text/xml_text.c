@@ -121,7 +121,7 @@ static bool decode(const XmlBytes *in, Arena *arena, const char **out, Error *er
             snprintf(place, sizeof place, "line %ld", line);
             return error_at(err, ERROR_INPUT, in->file, place,
                             taken && !is_wide(in->encoding) && !in->data[at]
-                                ? "has zero bytes (at byte %zu), required %s"
+                                ? "has zero bytes (at byte %zu), required: %s"
                                 : "holds bytes (at byte %zu) that are no %s",
                             at, encoding_names[in->encoding]);
         }
@@ -197,7 +197,7 @@ bool xml_text_read(const char *file, const FileBytes *bytes, Arena *arena, const
     char     text[DECLARATION_BYTES];
     XmlBytes in = find_encoding(file, bytes);
     if (in.encoding == XML_UTF32)
-        return error_at(err, ERROR_INPUT, file, "line 1", "is UTF-32, required UTF-8, UTF-16, "
+        return error_at(err, ERROR_INPUT, file, "line 1", "is UTF-32, required: UTF-8, UTF-16, "
                         "ISO-8859-1, US-ASCII or windows-1252");
     declaration_of(&in, text, sizeof text);
     const char *declared = declared_in(text);

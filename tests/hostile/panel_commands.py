@@ -263,7 +263,8 @@ def check_traits(report, commands, panel):
         report.claim(exported.get(key) == value, f"export says {exported.get(key)} of {key}")
     for key, wrong, place, words in (
             ("polarisation", {"degree": 2, "azimuth_deg": 0}, "/polarisation/degree", "0 to 1"),
-            ("subpixels", {"layout": "delta"}, "/subpixels/layout", '"stripe" or "pentile"')):
+            ("subpixels", {"layout": "delta"}, "/subpixels/layout",
+             "there are stripe, pentile")):
         write_json(path, {**manifest, key: wrong})
         fails(report, commands.run("fit", path, "-o", panel, "--quiet"), 3, "TRAITS.json",
               place, words)

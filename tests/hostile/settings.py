@@ -128,7 +128,7 @@ def check_scene_levels(bench):
         display = {"level": level} if most is None else {"level": level, "max_level": most}
         cockpit(**display).write(path)
         said = bench.check("l.gltf")
-        wanted = f"required a level from 0 to {most or 1:g}"
+        wanted = f"required: a level from 0 to {most or 1:g}"
         bench.report.claim(not said if is_right else len(said) == 1 and wanted in said[0] and
                            "PARHELION_display/level" in said[0], f"{display}: {said}")
 

@@ -147,7 +147,7 @@ def check_first(report, project):
     project.claim_workflow("nothing accepted", STEP, 3,
                            ["no commit has ci/accepted", "accept WHY"])
     done = project.script("accept")
-    report.claim(done.returncode == 3 and "required: a word on why" in done.stderr, str(done))
+    report.claim(done.returncode == 3 and "a word on why is required" in done.stderr, str(done))
     report.claim(project.script("accept", "the first").returncode == 0, "accept fails")
     project.commit("accepted")
     project.claim_workflow("first", words=["equal in every pixel", "same: 2 of 2"])

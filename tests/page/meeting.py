@@ -139,7 +139,7 @@ def check_reader(report, page, index, review):
     report.claim(len(cases) >= 1, f"{index}: {worst[0]!r} is no case")
     wanted = {"pass": ("Light from",),
               "cannot be judged": ("Not judged", "Why", "To judge it")}
-    fails = ("Light from", "What (?:mends it|helps)")
+    fails = ("Light from", "(?:Remedy|What helps)")
     for name in ("When", "Rests on") + wanted.get(review["verdict"], fails):
         report.claim(re.search(rf"^{name}\n(.+)", words, re.M), f"{index}: no '{name}' in "
                      f"the first screen")

@@ -421,17 +421,18 @@ static const struct {
     {"\"model\"", "\"modle\"", "/modle", "the nearest known one is 'model'"},
     {"\"width_m\": 0.3", "\"width_mm\": 300", "/displays/0/width_mm", "'width_m'"},
     {"\"width_m\": 0.3", "\"width_m\": 0", "/displays/0/width_m", "from 0.001 to 100"},
-    {"\"width_m\": 0.3", "\"width_m\": 1.75", "/displays/0/width_m", "required 0.005 to 1.5 m"},
-    {"\"level\": 0.5", "\"level\": 50", "/displays/0/level", "required a level from 0 to 1"},
+    {"\"width_m\": 0.3", "\"width_m\": 1.75", "/displays/0/width_m",
+     "required: 0.005 to 1.5 m"},
+    {"\"level\": 0.5", "\"level\": 50", "/displays/0/level", "required: a level from 0 to 1"},
     {"\"level\": 0.5", "\"symbols\": [{\"name\": \"a\", \"uv\": [0.3, 0, 0.2, 1]}]",
-     "/displays/0/symbols/0/uv", "required left < right"},
+     "/displays/0/symbols/0/uv", "required: left < right"},
     {"\"level\": 0.5", "\"symbols\": [{\"name\": \"a\", \"uv\": [0, 0, 1, 1]}, {\"name\": "
      "\"a\", \"uv\": [0, 0, 1, 1]}]", "/displays/0/symbols/1/name", "is 'a' once more"},
     {"\"level\": 0.5", "\"mesh\": {\"positions_m\": [0, 0, 0, 1], \"uv\": [0, 0], "
-     "\"triangles\": [0, 0, 0]}", "/displays/0/mesh/positions_m", "required a multiple of 3"},
+     "\"triangles\": [0, 0, 0]}", "/displays/0/mesh/positions_m", "required: a multiple of 3"},
     {"\"level\": 0.5", "\"mesh\": {\"positions_m\": [0, 0, 0, 1, 0, 0, 0, 1, 0], "
      "\"uv\": [0, 0], \"triangles\": [0, 1, 2]}", "/displays/0/mesh/uv",
-     "required one of each of 3"},
+     "required: one of each of 3"},
     {"\"level\": 0.5", "\"mesh\": {\"positions_m\": [0, 0, 0, 1, 0, 0, 0, 1, 0], "
      "\"uv\": [0, 0, 1, 0, 0, 1], \"triangles\": [0, 1, 3]}", "/displays/0/mesh/triangles",
      "below 3"},

@@ -124,7 +124,7 @@ ARENA_TEST(tags_of_xml_are_counted)
             const char *text = repeated(rows[i].begin, rows[i].each, rows[i].end, count,
                                         &scratch);
             if (xml_tags_check(text, "a.xml", &why) != fits) fail_msg("row %d, %d", i, count);
-            if (!fits) assert_error_has(&why, "required at most that many");
+            if (!fits) assert_error_has(&why, "required: at most that many");
         }
     Error why = {0};
     assert_true(xml_tags_check("<a b=\"", "a.xml", &why));

@@ -171,7 +171,7 @@ HEMISPHERE_TEST(options_out_of_range_are_refused_in_words)
                  "leaf 7, component 0 is nan");
     options.keep_share = 0;
     assert_fails(haar_tree_build(&options, source, &f->arena, &blob, NULL, &err),
-                 "keep share is 0, required above 0 to 1");
+                 "keep share is 0, required: above 0 to 1");
     options.shape.components = 0;
     assert_fails(haar_tree_build(&options, source, &f->arena, &blob, NULL, &err),
                  "components are 0");

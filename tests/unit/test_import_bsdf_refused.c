@@ -247,7 +247,7 @@ FIXTURE_TEST(xml_refusals)
     };
     CHECK(importer_window, rows);
     assert_false(fixture_read(f, "<WindowElement\0/>", 17, "window"));
-    assert_string_equal(f->err.text, "has zero bytes (at byte 14), required UTF-8");
+    assert_string_equal(f->err.text, "has zero bytes (at byte 14), required: UTF-8");
 }
 
 TEST_PROGRAM(NULL, NULL)

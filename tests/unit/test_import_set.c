@@ -328,7 +328,7 @@ LAB_TEST(a_gamma_table_that_does_not_fit_is_refused)
 {
     lab_write(lab, "white.csv", WHITE);
     lab_declare(lab, "level_max", "1023"); /* of the table as of the patterns */
-    levels_refused(lab, "level,L\n0,1\n255,100\n", "line 3", "required rows up to the highest "
+    levels_refused(lab, "level,L\n0,1\n255,100\n", "line 3", "required: rows up to the highest "
                    "code, 1023 as stated");
     lab_declare(lab, "level_max", "255");
     levels_refused(lab, "level,L\n0,1\n255,106\n", "line 3",

@@ -183,10 +183,10 @@ ARENA_TEST(a_table_that_cannot_be_is_doubted)
 {
     static const struct { const char *text, *doubt; } cases[] = {
         {IES_LAMP("1000", "1 4 1 1 2 0 0 0\n1 1 9\n10 30 60 90\n0\n400 300 100 0\n"),
-         "vertical angles begin at 10 degrees, required 0 or 90: dark is assumed below, and so "
-         "along its axis"},
+         "vertical angles begin at 10 degrees, required: 0 or 90: dark is assumed below, and "
+         "so along its axis"},
         {IES_LAMP("1000", "1 3 1 1 2 0 0 0\n1 1 9\n0 30 60\n0\n400 300 100\n"),
-         "vertical angles end at 60 degrees with 100 cd, required 90 or 180"},
+         "vertical angles end at 60 degrees with 100 cd, required: 90 or 180"},
         {IES_LAMP("1000", "1 3 2 1 2 0 0 0\n1 1 9\n0 60 90\n0 90\n300 9 0\n200 9 0\n"),
          "planes have 200 to 300 cd at 0 degrees, which is one direction"},
         {IES_LAMP("1000", "1 3 2 1 2 0 0 0\n1 1 9\n0 90 180\n0 90\n3 1 3\n3 1 1\n"),
@@ -438,9 +438,9 @@ ARENA_TEST(primaries_hold_light_and_all_that_is_seen)
     static const struct { const char *rows, *message; } cases[] = {
         {"380,0,0,0,0\n450,0,0,1,0\n550,0,1,-.01,0\n620,1,0,0,0\n700,0,0,0,0\n", NULL},
         {"380,0,0,0,0\n450,0,0,1,0\n550,0,1,-.5,0\n620,1,0,0,0\n700,0,0,0,0\n",
-         "column 'blue' holds -0.5, required 0 or more"},
+         "column 'blue' holds -0.5, required: 0 or more"},
         {"380,0,0,0,0\n450,0,0,1,0\n550,0,1,0,0\n620,1,0,0,0\n",
-         "column 'red' goes from 380 to 620 nm and ends in light, required 400 to 700 nm"}};
+         "column 'red' goes from 380 to 620 nm and ends in light, required: 400 to 700 nm"}};
     static float spectrum[3][SPECTRAL_COUNT];
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const char *name = in_folder("primaries.csv");

@@ -79,7 +79,7 @@ ARENA_TEST(codes_of_more_bits_and_relative_luminance_are_one_table)
     const char *path = in_folder("levels.csv");
     write_text(path, "code,L\n0,1\n128,3\n255,101\n");
     assert_fails_as(level_table_read(path, 1023, &arena, &table, &err), ERROR_INPUT,
-                    "the highest level is 255, required rows up to the highest code, 1023");
+                    "the highest level is 255, required: rows up to the highest code, 1023");
 }
 
 /* The curve of a panel at a code, as it is interpolated; cd/m2. */

@@ -148,7 +148,7 @@ TEST(a_panel_without_spectra_has_its_colours_and_says_what_was_assumed)
 TEST(stated_bands_are_held_against_the_colours)
 {
     static const struct { const char *more, *words; } bad[] = {
-        {", \"backlight\": \"tube\"", "is \"tube\", required is one of wled-ysf, wled-ksf"},
+        {", \"backlight\": \"tube\"", "is \"tube\", required: one of wled-ysf, wled-ksf"},
         {", \"peaks_nm\": [620, 530]", "three wavelengths that fall"},
         {", \"peaks_nm\": [450, 530, 620]", "three wavelengths that fall"},
     };

@@ -138,8 +138,8 @@ TEST(a_page_of_nothing_says_so)
     const char *page = page_of(&(ReviewPage){.review = &none});
     assert_well_formed(page);
     assert_self_contained(page);
-    assert_non_null(strstr(page, "<b>Passes</b>: nothing was asked"));
-    assert_non_null(strstr(page, "No limit was asked"));
+    assert_non_null(strstr(page, "<b>Passes</b>: nothing is required"));
+    assert_non_null(strstr(page, "No limit applies"));
 }
 
 TEST(a_page_holds_every_case)

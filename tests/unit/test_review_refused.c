@@ -178,10 +178,10 @@ TEST(files_are_checked)
 TEST(levels_are_checked)
 {
     static const Wrong wrong[] = {
-        {"'*':0.04", "'*':-1", "/levels/night/*", "is -1, required a level from 0 to 1"},
-        {"'*':0.04", "'*':25", "/levels/night/*", "is 25, required a level from 0 to 1"},
+        {"'*':0.04", "'*':-1", "/levels/night/*", "is -1, required: a level from 0 to 1"},
+        {"'*':0.04", "'*':25", "/levels/night/*", "is 25, required: a level from 0 to 1"},
         {"[10000,1]", "[10000,1.5]", "/levels/auto/table_lx/2/1",
-         "required a level from 0 to 1"},
+         "required: a level from 0 to 1"},
         {"'*':0.04", "'*':'dim'", "/levels/night/*", "is a text, required: a number"},
         {"{'*':0.04,'cluster':0.1}", "{}", "/levels/night", "has 0 members, required: 1"},
         {"{'*':0.04,'cluster':0.1}", "0.04", "/levels/night", "is a number, required: an "

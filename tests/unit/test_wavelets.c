@@ -153,7 +153,7 @@ MEMORY_TEST(what_cannot_be_is_refused_in_words)
     options = USUAL;
     options.keep = 1e-4;
     assert_fails(wavelet_study(set, &options, arena, &study, &err),
-                 "--keep is 0.0001, required at least");
+                 "--keep is 0.0001, required: at least");
     memset((float *)(uintptr_t)set->white.value, 0, 12 * (size_t)set->white.rows);
     assert_fails(wavelet_study(set, &USUAL, arena, &study, &err), "table white is dark");
     set->is_white_only = false;

@@ -64,7 +64,7 @@ static bool read_level(const JsonView *view, EquipDisplay *out, Error *err)
            json_view_number(view, "level", 0, LEVEL_MAX, &out->level, err) &&
            (out->level <= out->max_level ||
             field_fails(view, "level", err,
-                        "is %g, required a level from 0 to %g: 1 is as measured, 0.25 a "
+                        "is %g, required: a level from 0 to %g: 1 is as measured, 0.25 a "
                         "quarter of it; \"max_level\" beside it allows a panel driven above "
                         "that",
                         out->level, out->max_level));
@@ -75,7 +75,7 @@ static bool check_side(const JsonView *view, const EquipDisplay *display, const 
 {
     return display->any_size || display_side_is_plausible(m) ||
            field_fails(view, key, err,
-                       "is %.4g m, required %g to %g m: is the model in metres? If it is "
+                       "is %.4g m, required: %g to %g m: is the model in metres? If it is "
                        "meant: \"any_size\": true beside it",
                        m, DISPLAY_LEAST_M, DISPLAY_MOST_M);
 }
@@ -109,7 +109,7 @@ static bool read_symbol(const JsonView *view, int i, EquipSymbol *out, Error *er
         return false;
     return (out->uv[0] < out->uv[2] && out->uv[1] < out->uv[3]) ||
            field_fails(&item, "uv", err,
-                       "is [%g, %g, %g, %g], required left < right and top < bottom",
+                       "is [%g, %g, %g, %g], required: left < right and top < bottom",
                        out->uv[0], out->uv[1], out->uv[2], out->uv[3]);
 }
 
@@ -126,7 +126,7 @@ static bool read_symbols(const JsonView *view, EquipDisplay *out, Error *err)
         for (int k = 0; k < i; k++)
             if (!strcmp(symbols[k].name, symbols[i].name))
                 return field_fails(view, arena_format(view->arena, "symbols/%d/name", i), err,
-                                   "is '%.60s' once more, required a new name",
+                                   "is '%.60s' once more, required: a new name",
                                    symbols[i].name);
     }
     out->symbols = symbols;
@@ -150,7 +150,7 @@ static bool read_column(const JsonView *view, const MeshColumn *c, Error *err)
         !json_view_numbers(view, c->key, c->range, list, c->count, err))
         return false;
     if (*c->count % c->each)
-        return field_fails(view, c->key, err, "has %d numbers, required a multiple of %d",
+        return field_fails(view, c->key, err, "has %d numbers, required: a multiple of %d",
                            *c->count, c->each);
     *c->count /= c->each;
     return true;
@@ -160,13 +160,13 @@ static bool check_mesh(const JsonView *view, const EquipMesh *mesh, int uv_count
 {
     if (uv_count != mesh->vertex_count)
         return field_fails(view, "uv", err,
-                           "has %d pairs, required one of each of %d positions", uv_count,
+                           "has %d pairs, required: one of each of %d positions", uv_count,
                            mesh->vertex_count);
     for (int i = 0; i < 3 * mesh->triangle_count; i++) {
         double vertex = mesh->triangles[i];
         if (vertex != floor(vertex) || vertex >= mesh->vertex_count)
             return field_fails(view, "triangles", err,
-                               "holds %g, required whole numbers below %d", vertex,
+                               "holds %g, required: whole numbers below %d", vertex,
                                mesh->vertex_count);
     }
     return true;

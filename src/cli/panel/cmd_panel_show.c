@@ -95,7 +95,7 @@ static bool check_shape(const ShowWords *words, const double mm[2], const Image 
     double shape = (double)picture->width / picture->height, display = mm[0] / mm[1];
     if (words->has_size_mm || fabs(shape / display - 1) <= ASPECT_OFF) return true;
     return error_at(err, ERROR_INPUT, words->content, "",
-                    "has %d x %d pixels (%.4g : 1), required the shape of the panel's %g x %g "
+                    "has %d x %d pixels (%.4g : 1), required: the shape of the panel's %g x %g "
                     "mm (%.4g : 1) — fit the picture, or name the size that it fills by "
                     "--size-mm W,H", picture->width, picture->height, shape, mm[0], mm[1],
                     display);

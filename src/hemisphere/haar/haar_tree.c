@@ -291,20 +291,20 @@ static bool check_options(const HaarTreeOptions *options, const float *leaves, E
 {
     const HaarShape *shape = &options->shape;
     if (shape->level < 0 || shape->level > GEODESIC_MAX_LEVEL)
-        return error_set(err, ERROR_INPUT, "tree level is %d, required 0 to %d", shape->level,
+        return error_set(err, ERROR_INPUT, "tree level is %d, required: 0 to %d", shape->level,
                          GEODESIC_MAX_LEVEL);
     if (shape->octants != 2 && shape->octants != 4)
-        return error_set(err, ERROR_INPUT, "octants are %d, required 2 or 4", shape->octants);
+        return error_set(err, ERROR_INPUT, "octants are %d, required: 2 or 4", shape->octants);
     if (shape->components < 1 || shape->components > TREE_MAX_COMPONENTS)
-        return error_set(err, ERROR_INPUT, "components are %d, required 1 to %d",
+        return error_set(err, ERROR_INPUT, "components are %d, required: 1 to %d",
                          shape->components, TREE_MAX_COMPONENTS);
     if (!(options->keep_share > 0 && options->keep_share <= 1))
-        return error_set(err, ERROR_INPUT, "keep share is %g, required above 0 to 1",
+        return error_set(err, ERROR_INPUT, "keep share is %g, required: above 0 to 1",
                          (double)options->keep_share);
     size_t count = (size_t)haar_leaf_count(shape) * (size_t)shape->components;
     for (size_t i = 0; i < count; i++)
         if (!isfinite(leaves[i]))
-            return error_set(err, ERROR_INPUT, "leaf %zu, component %zu is %g, required a "
+            return error_set(err, ERROR_INPUT, "leaf %zu, component %zu is %g, required: a "
                              "finite value", i / (size_t)shape->components,
                              i % (size_t)shape->components, (double)leaves[i]);
     return true;

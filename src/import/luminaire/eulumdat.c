@@ -178,7 +178,7 @@ static bool check_symmetry(LuminaireScan *in, const EulumdatHead *head, const Lu
     const double *wanted = ends[head->symmetry];
     double first = out->c_deg[0], last = out->c_deg[out->planes - 1];
     return head->symmetry < 2 || (first == wanted[0] && last == wanted[1]) ||
-           luminaire_scan_fail(in, "C-planes of symmetry %d go from %g to %g, required %g to "
+           luminaire_scan_fail(in, "C-planes of symmetry %d go from %g to %g, required: %g to "
                                "%g degrees", head->symmetry, first, last, wanted[0], wanted[1]);
 }
 
@@ -210,7 +210,7 @@ static bool check_end(LuminaireScan *in, Luminaire *out)
         if (!rest.length) continue;
         if (strchr("0123456789+-.,", *rest.text))
             return luminaire_scan_fail(in, "'%.*s' is left over behind the table of %d x %d "
-                                       "intensities, required nothing more", shown, rest.text,
+                                       "intensities, required: nothing more", shown, rest.text,
                                        out->planes, out->gammas);
         luminaire_doubt(out, in->arena, "line %d: the text behind its table is left out "
                         "('%.*s')", in->line + 1, shown, rest.text);

@@ -65,7 +65,7 @@ static bool check_end(LuminaireScan *in, const char *table, Luminaire *out)
     if (!find_word(in, &word)) return true;
     int shown = word.length < 40 ? word.length : 40;
     if (!isalpha((unsigned char)*word.text) && *word.text != '[')
-        return luminaire_scan_fail(in, "'%.*s' is left over behind %s, required nothing more",
+        return luminaire_scan_fail(in, "'%.*s' is left over behind %s, required: nothing more",
                                    shown, word.text, table);
     if (out)
         luminaire_doubt(out, in->arena, "line %d: the text behind %s is left out ('%.*s')",
@@ -108,7 +108,7 @@ static bool hint_at_comma(const LuminaireScan *in)
         if (!has_decimal_comma(in->text.line[i], &word)) continue;
         size_t length = strlen(in->err->text);
         snprintf(in->err->text + length, sizeof in->err->text - length,
-                 " — line %d has '%.*s': if that is a decimal comma, required is a point",
+                 " — line %d has '%.*s': if that is a decimal comma, required: a point",
                  i + 1, word.length < 40 ? word.length : 40, word.text);
         return false;
     }
@@ -195,7 +195,7 @@ static bool read_factors(LuminaireScan *in, LuminaireTilt *out)
         if (!next_number(in, "a tilt factor", 0, 1e3, &tilt.factor[i])) return false;
     double first = tilt.angle_deg[0], last = tilt.angle_deg[tilt.count - 1];
     if (first != 0 || (last != 90 && last != 180))
-        return luminaire_scan_fail(in, "the tilt angles go from %g to %g, required 0 to 90 or "
+        return luminaire_scan_fail(in, "the tilt angles go from %g to %g, required: 0 to 90 or "
                                    "0 to 180 degrees", first, last);
     *out = tilt;
     return true;
@@ -231,7 +231,7 @@ typedef struct IesHead {
 static bool check_lumens(LuminaireScan *in, const IesHead *head)
 {
     return head->lumens >= 0 || head->lumens == -1 ||
-           luminaire_scan_fail(in, "the lumens a lamp are %g, required 0 or more, or -1 "
+           luminaire_scan_fail(in, "the lumens a lamp are %g, required: 0 or more, or -1 "
                                "(absolute)", head->lumens);
 }
 

@@ -56,12 +56,12 @@ static void check_gammas(const Doubting *doubting)
     double first = in->gamma_deg[0], last = in->gamma_deg[in->gammas - 1];
     if (!is_at(first, 0, 90))
         luminaire_doubt(doubting->of, doubting->arena, "its vertical angles begin at %g "
-                        "degrees, required 0 or 90: dark is assumed below, and so %s", first,
+                        "degrees, required: 0 or 90: dark is assumed below, and so %s", first,
                         first < 90 ? "along its axis" : "at the horizon");
     double most = most_at_gamma(in, in->gammas - 1);
     if (!is_at(last, 90, 180) && most > 0)
         luminaire_doubt(doubting->of, doubting->arena, "its vertical angles end at %g degrees "
-                        "with %g cd, required 90 or 180: dark is assumed beyond", last, most);
+                        "with %g cd, required: 90 or 180: dark is assumed beyond", last, most);
 }
 
 /* The planes of a whole turn: the step from the last to the first is no wider than others. */
@@ -92,7 +92,7 @@ static void check_tipped(const Doubting *doubting)
     bool has_axis = c[0] <= 0 && c[1] >= 0 && g[0] <= 0 && g[1] >= 0, is_a = in->type == WEB_A;
     if (most > 0 || !has_axis)
         luminaire_doubt(doubting->of, doubting->arena, "its angles go from V %g to %g and H %g "
-                        "to %g degrees, with up to %g cd at their border, required -90 to 90: "
+                        "to %g degrees, with up to %g cd at their border, required: -90 to 90: "
                         "dark is assumed beyond%s", is_a ? g[0] : c[0], is_a ? g[1] : c[1],
                         is_a ? c[0] : g[0], is_a ? c[1] : g[1], most,
                         has_axis ? "" : ", and so along its axis");
@@ -112,7 +112,7 @@ static void check_pole(const Doubting *doubting, int gamma)
     }
     if (!is_alike(doubting, low, high))
         luminaire_doubt(doubting->of, doubting->arena, "its planes have %g to %g cd at %g "
-                        "degrees, which is one direction, required one intensity: each plane "
+                        "degrees, which is one direction, required: one intensity: each plane "
                         "keeps its own", low, high,
                         in->type == WEB_C ? angle : angle - 90);
 }
@@ -141,7 +141,7 @@ static void check_flux(const Doubting *doubting)
     double flux = luminaire_flux(in, *doubting->arena);
     if (in->stated_lm > 0 && flux > LUMINAIRE_FLUX_MOST * in->stated_lm)
         luminaire_doubt(doubting->of, doubting->arena, "its intensities add up to %.6g lm, "
-                        "%.3g times the %.6g lm that the file states (%s), required at most "
+                        "%.3g times the %.6g lm that the file states (%s), required: at most "
                         "%g times: the intensities are taken", flux, flux / in->stated_lm,
                         in->stated_lm, in->stated_as, LUMINAIRE_FLUX_MOST);
 }

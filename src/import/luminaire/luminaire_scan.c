@@ -53,7 +53,7 @@ bool luminaire_scan_intensities(LuminaireScan *scan, double scale, Luminaire *ou
         *cd *= scale;
         if (*cd > INTENSITY_MOST_CD)
             return luminaire_scan_fail(scan, "an intensity is %g cd with the factors of the "
-                                       "head, required at most %g", *cd, INTENSITY_MOST_CD);
+                                       "head, required: at most %g", *cd, INTENSITY_MOST_CD);
     }
     return true;
 }

@@ -175,7 +175,7 @@ static double full_level(const CsvTable *csv, const Columns *columns, const Leve
     char where[32];
     snprintf(where, sizeof where, "line %d", csv->line[last->row]);
     if (level_max > 0)
-        error_at(err, ERROR_INPUT, csv->file, where, "the highest level is %g, required rows "
+        error_at(err, ERROR_INPUT, csv->file, where, "the highest level is %g, required: rows "
                  "up to the highest code, %g as stated", most, level_max);
     else
         error_at(err, ERROR_INPUT, csv->file, where, "the highest level is %g, so the full "
@@ -256,8 +256,8 @@ static bool take_luminance(const CsvTable *csv, const LevelRow *row, int column,
             return bad_row(csv, row[i].row, err, "column '%s' holds %g cd/m2, required: no "
                            "luminance below zero", name, out[i]);
         if (out[i] > LUMINANCE_MOST)
-            return bad_row(csv, row[i].row, err, "column '%s' holds %g cd/m2, required at most "
-                           "%g", name, out[i], LUMINANCE_MOST);
+            return bad_row(csv, row[i].row, err, "column '%s' holds %g cd/m2, required: at "
+                           "most %g", name, out[i], LUMINANCE_MOST);
         bool is_near = row[i].level < LEVEL_NEAR * row[top].level;
         if (out[top] - out[i] > noise_of(out[top], full, is_near))
             return bad_row(csv, row[i].row, err, "column '%s': %g cd/m2 at level %g is less "

@@ -500,7 +500,7 @@ static bool read_backlight(const JsonView *root, Measurement *out, Error *err)
                         "required are three wavelengths that fall: of red, green and blue");
     if (name && !(out->backlight = primary_backlight_named(name)))
         return error_at(err, ERROR_INPUT, root->file, json_view_path(root, "backlight"),
-                        "is \"%.40s\", required is one of %s", name,
+                        "is \"%.40s\", required: one of %s", name,
                         primary_backlight_names(root->arena));
     share_spectra(out);
     return true;

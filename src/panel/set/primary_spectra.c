@@ -48,7 +48,7 @@ bool primary_spectrum_reaches(const PrimaryColumn *column, double *beyond, Error
     *beyond = fmax(*beyond, curve_beyond(first_nm, last_nm, dark));
     return curve_reaches(first_nm, last_nm, dark) ||
            error_at(err, ERROR_INPUT, column->file, "", "column '%s' goes from %g to %g nm and "
-                    "ends in light, required %d to %d nm or beyond", column->name,
+                    "ends in light, required: %d to %d nm or beyond", column->name,
                     first_nm, last_nm, CURVE_SEEN_FIRST_NM, CURVE_SEEN_LAST_NM);
 }
 
@@ -69,7 +69,7 @@ static bool check_light(const CsvTable *csv, int nm_column, int column, Arena sc
     }
     if (-least > NOISE_MOST * most)
         return error_at(err, ERROR_INPUT, csv->file, csv_table_place(csv, darkest, &scratch),
-                        "column '%s' holds %g, required 0 or more (noise up to %g %% of its "
+                        "column '%s' holds %g, required: 0 or more (noise up to %g %% of its "
                         "largest, %g)", csv->name[column], least, 100 * NOISE_MOST, most);
     return primary_spectrum_reaches(
         &(PrimaryColumn){csv->file, csv->name[column], nm, value, csv->rows}, beyond, err);

@@ -300,7 +300,7 @@ static bool start(const Measurement *set, const WaveletOptions *options, Arena *
                          options->table);
     if (!table) return error_set(err, ERROR_INPUT, "%s: has no table", set->file);
     if (table->channels > TREE_MAX_COMPONENTS)
-        return error_set(err, ERROR_INPUT, "%s: table %s has %d wavelengths, required at most "
+        return error_set(err, ERROR_INPUT, "%s: table %s has %d wavelengths, required: at most "
                          "%d", set->file, table->name, table->channels, TREE_MAX_COMPONENTS);
     AngleTable *source = ARENA_NEW(arena, AngleTable, 1);
     *source = options->noise > 0 ? with_noise(table, options->noise, arena) : *table;
@@ -308,7 +308,7 @@ static bool start(const Measurement *set, const WaveletOptions *options, Arena *
     study->level = options->level >= 0 ? options->level : level_for(table);
     study->sample_rms = rms_of(table, NULL);
     if (!(study->sample_rms > 0))
-        return error_set(err, ERROR_INPUT, "%s: table %s is dark, required is some light",
+        return error_set(err, ERROR_INPUT, "%s: table %s is dark, required: some light",
                          set->file, table->name);
     study->source_bytes =
         sizeof(float) * (size_t)table->rows * (size_t)table->channels;
@@ -327,8 +327,8 @@ bool wavelet_study(const Measurement *set, const WaveletOptions *options, Arena 
     TreeWish wish = {out->level, options->is_lossless ? 1 : rows_share(out, keep),
                      options->is_lossless};
     if (keep < least)
-        return error_set(err, ERROR_USAGE, "--keep is %g, required at least %.3g: the means of "
-                         "the four octants", keep, least);
+        return error_set(err, ERROR_USAGE, "--keep is %g, required: at least %.3g: the means "
+                         "of the four octants", keep, least);
     if (!measure_size(out, leaves, wish, arena, &out->tree, &out->kept))
         return error_set(err, ERROR_INPUT, "%s: table %s holds a number that is not finite",
                          set->file, truth->name);

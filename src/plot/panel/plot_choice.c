@@ -75,7 +75,7 @@ bool plot_ambient_read(const char *ambient, const char *directed, PlotAmbient *o
         return false;
     if (beam.count < 2) beam.value[1] = DIRECTED_DEG;
     if (directed && !(beam.value[1] < 90))
-        return error_set(err, ERROR_USAGE, "--directed is '%s': %g degrees, required below 90",
+        return error_set(err, ERROR_USAGE, "--directed is '%s': %g degrees, required: below 90",
                          directed, beam.value[1]);
     if (directed && !ambient) even.count = 1;
     out->count = even.count;

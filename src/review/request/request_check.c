@@ -377,8 +377,8 @@ static bool find_frame(const RequestDoubt *doubt, const ReviewSymbol *symbol, Di
         return true;
     problems_add(doubt->check->problems, SEVERITY_ERROR, doubt->check->request->file,
                  place(doubt->check, "symbols", symbol->name, "display"),
-                 "'%.60s' is %.3g m wide and %.3g m high, required %g to %g m: is the model in "
-                 "metres? If it is meant: \"any_size\": true in its PARHELION_display",
+                 "'%.60s' is %.3g m wide and %.3g m high, required: %g to %g m: is the model "
+                 "in metres? If it is meant: \"any_size\": true in its PARHELION_display",
                  symbol->display, out->width_m, out->height_m, DISPLAY_LEAST_M, DISPLAY_MOST_M);
     return true;
 }

@@ -61,7 +61,7 @@ static bool read_weather(RequestReading *reading, const JsonView *view,
         return false;
     condition->weather_lux = (WeatherLux)lux;
     return condition->weather_id != NO_ID || !json_object_get(view->object, "weather_lux") ||
-           field_fails(view, "weather_lux", err, "stands without a weather file, required one "
+           field_fails(view, "weather_lux", err, "stands without a weather file, required: one "
                        "in 'weather'");
 }
 

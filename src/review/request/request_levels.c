@@ -18,7 +18,7 @@ static bool check_level(const JsonView *view, const char *place, double level, d
 {
     return (level >= 0 && level <= most) ||
            field_fails(view, place, err,
-                       "is %.9g, required a level from 0 to %g: 1 is as measured, 0.25 a "
+                       "is %.9g, required: a level from 0 to %g: 1 is as measured, 0.25 a "
                        "quarter of it; \"max_level\" of the request allows panels driven "
                        "above that", level, most);
 }

@@ -213,8 +213,8 @@ static void check_level(const DocumentCheck *check, const GltfValue *display)
     double most = tree_number(display, "max_level", 1);
     if (tree_number(display, "level", 1) > most)
         check_fails(check, tree_member(display, "level"),
-                    "is %g, required a level from 0 to %g: 1 is as measured, 0.25 a quarter of "
-                    "it; \"max_level\" beside it allows a panel that is driven above that",
+                    "is %g, required: a level from 0 to %g: 1 is as measured, 0.25 a quarter "
+                    "of it; \"max_level\" beside it allows a panel that is driven above that",
                     tree_number(display, "level", 1), most);
 }
 
