@@ -195,6 +195,9 @@ static bool help(const HelpWords *words, Arena *arena, Error *err)
         return error_set(err, ERROR_USAGE, "help %s: %s is one page", cli->arguments[1],
                          cli->arguments[0]);
     if (guide) return print_guide(guide, words, err);
+    if (cli->argument_count > 1)
+        return error_set(err, ERROR_USAGE, "help %s: behind %s, which is no command; required: "
+                         "one word", cli->arguments[1], cli->arguments[0]);
     bool prints, is_word = print_word(cli->arguments[0], cli, &prints, err);
     return is_word ? prints : unknown_name(cli->arguments[0], err);
 }

@@ -3,6 +3,8 @@
 #include "fixture.h"
 
 #include "cli/options/cli.h"
+#include "cli/options/guide_index.h"
+#include "base/count.h"
 #include "base/parallel.h"
 #include "cli/options/answer.h"
 
@@ -156,6 +158,9 @@ MEMORY_TEST(errors_name_the_option_the_value_and_what_is_wanted)
          "unknown option --numb — did you mean --number? `parhelion try --help` lists what "
          "there "
          "is"},
+        {{"x", "--nthreads", "2"},
+         "unknown option --nthreads — here it is called --threads; `parhelion try --help` "
+         "lists what there is"},
         {{"x", "-q"}, "unknown option -q — `parhelion try --help` lists what there is"},
         {{"x", "--number"}, "--number needs a value: X, a number"},
         {{"x", "--flag=1"}, "--flag takes no value, found 1"},
@@ -244,6 +249,24 @@ MEMORY_TEST(warnings_are_listed_once_each)
         "bad \\xFF bytes");
     json_decref(warnings);
     json_decref(errors);
+}
+
+/* The field's words, and the page whose section is the first that `help WORD` lists. */
+TEST(a_word_finds_the_page_about_it)
+{
+    static const char *const words[][2] = {
+        {"ugr", "reading-a-frame"}, {"veil", "glare-review"}, {"FalseColor", "reading-a-frame"},
+        {"illuminance", "reading-a-frame"}, {"ies", "scenes"}, {"epw", "glare-review"},
+        {"fisheye", "rendering"}, {"materials", "own-cockpit"}, {"slurm", "long-renders"}};
+    GuideHit hits[5];
+    for (int i = 0; i < COUNT_OF(words); i++) {
+        int count = guide_index_find(words[i][0], hits, COUNT_OF(hits));
+        if (!count || strcmp(hits[0].guide->name, words[i][1]) != 0)
+            fail_msg("%s: %s", words[i][0], count ? hits[0].guide->name : "no page");
+        for (int k = 1; k < count; k++) assert_true(hits[k - 1].score >= hits[k].score);
+    }
+    assert_int_equal(guide_index_find("xyzzyq", hits, COUNT_OF(hits)), 0);
+    assert_int_equal(guide_index_find("", hits, COUNT_OF(hits)), 0);
 }
 
 TEST_PROGRAM(make_arena, drop_arena)

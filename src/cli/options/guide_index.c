@@ -11,6 +11,7 @@
 #define HEADING 12 /* words of a text that one in a heading is worth */
 #define OF_A_GUIDE 2
 #define SAME_MAX 8
+#define LETTERS 2 /* of a word, at least */
 
 /* SameWords of one meaning, apart by blanks; a hyphen stands for a blank inside of one. */
 static const char *const SYNONYMS[] = {
@@ -160,7 +161,8 @@ static GuideHit section_of(const SameWords *words, const Guide *guide, const cha
 int guide_index_find(const char *word, GuideHit *hits, int most)
 {
     SameWords words = words_of(word);
-    int   count = 0;
+    int       count = 0;
+    if (strlen(word) < LETTERS) return 0;
     for (int i = 0; i < guide_count; i++) {
         const char *from = guide_table[i].text;
         while (*from) {
