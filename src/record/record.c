@@ -5,10 +5,12 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "base/units.h"
 #include "text/nearest_word.h"
 
-#define KEYS_MAX 256
+#define KEYS_MAX 256 /* of an object, and words of a choice */
+#define LENGTH_LEAST 1e-9 /* shorter vectors have no direction */
 
 bool record_fails(const JsonView *view, const char *key, Error *err, const char *format, ...)
 {
@@ -36,7 +38,8 @@ static bool read_number(const JsonView *view, const RecordRow *row, double *out,
         return false;
     if (row->flags & RECORD_WHOLE && value != floor(value))
         return record_fails(view, row->key, err, "is %g, required: a whole number", value);
-    *out = row->flags & RECORD_RADIANS ? radians_from_degrees(value) : value;
+    *out = row->flags & RECORD_RADIANS ? radians_from_degrees(value)
+           : row->flags & RECORD_METRES ? value / 1000 : value;
     return true;
 }
 
@@ -57,30 +60,47 @@ static bool read_text(const JsonView *view, const RecordRow *row, const char **o
            record_fails(view, row->key, err, "is an empty text, required: some words");
 }
 
-static bool read_choice(const JsonView *view, const RecordRow *row, int *out, Error *err)
+const char *record_word(const RecordRow *row, int i)
 {
-    const char *text = NULL;
+    const char *word;
+    size_t      stride = row->stride ? row->stride : sizeof *row->words;
+    memcpy(&word, (const char *)row->words + (size_t)i * stride, sizeof word);
+    return word;
+}
+
+/* The place of a word, and itself. */
+static bool read_word(const JsonView *view, const RecordRow *row, int *place, const char **out,
+                      Error *err)
+{
+    const char *text = NULL, *word, *known[KEYS_MAX];
     char        advice[256];
     int         count = 0;
     if (!json_view_text(view, row->key, &text, err)) return false;
-    for (; row->words[count]; count++) {
-        if (strcmp(text, row->words[count]) != 0) continue;
-        *out = count;
+    for (; count < KEYS_MAX && (word = record_word(row, count)); count++) {
+        known[count] = word;
+        if (strcmp(text, word) != 0) continue;
+        *place = count;
+        *out = word;
         return true;
     }
     return record_fails(view, row->key, err, "is '%.60s', required: another word: %s", text,
-                        nearest_word_advice(text, row->words, count, advice, sizeof advice));
+                        nearest_word_advice(text, known, count, advice, sizeof advice));
 }
 
 static bool read_const(const JsonView *view, const RecordRow *row, Error *err)
 {
     const json_t *value = json_object_get(view->object, row->key);
+    const char   *text = json_string_value(value);
+    if (row->words ? !text : !json_is_number(value))
+        return json_view_wrong_kind(view, row->key, value, row->words ? "a text" : "a number",
+                                    err);
     if (row->words)
-        return (json_is_string(value) && !strcmp(json_string_value(value), row->words[0])) ||
-               record_fails(view, row->key, err, "is not \"%s\", which is required",
+        return !strcmp(text, row->words[0]) ||
+               record_fails(view, row->key, err, "is '%.60s', required: '%s'", text,
                             row->words[0]);
-    return (json_is_number(value) && json_number_value(value) == row->low) ||
-           record_fails(view, row->key, err, "is not %g, which is required", row->low);
+    return json_number_value(value) == row->low ||
+           record_fails(view, row->key, err, "is %g, required: %g", json_number_value(value),
+                        row->low);
 }
 
 /* ---- lists ------------------------------------------------------------------------------- */
@@ -109,6 +129,15 @@ static void *at_offset(void *item, size_t offset)
     return (char *)item + offset;
 }
 
+static bool make_unit(const JsonView *view, const RecordRow *row, double *vector, Error *err)
+{
+    double length = hypot_d(hypot_d(vector[0], vector[1]), vector[2]);
+    if (!(length > LENGTH_LEAST))
+        return record_fails(view, row->key, err, "is the zero vector, required: a direction");
+    for (int i = 0; i < 3; i++) vector[i] /= length;
+    return true;
+}
+
 static bool read_numbers(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
     int count, found;
@@ -122,6 +151,7 @@ static bool read_numbers(const JsonView *view, const RecordRow *row, void *item,
         if (row->flags & RECORD_WHOLE && list[i] != floor(list[i]))
             return record_fails(view, row->key, err, "is %g, required: whole numbers", list[i]);
     }
+    if (row->flags & RECORD_UNIT && !make_unit(view, row, list, err)) return false;
     if (row->kind == RECORD_FIGURES)
         memcpy(at_offset(item, row->offset), &list, sizeof list);
     if (row->count) *(int *)at_offset(item, row->count) = count;
@@ -191,7 +221,9 @@ static bool read_flag(const JsonView *view, const RecordRow *row, bool *out, Err
 
 bool record_read_value(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
-    void *at = at_offset(item, row->offset);
+    void       *at = at_offset(item, row->offset);
+    const char *word;
+    int         place;
     switch (row->kind) {
     case RECORD_NUMBER: return read_number(view, row, at, err);
     case RECORD_INTEGER: return read_integer(view, row, at, err);
@@ -200,7 +232,8 @@ bool record_read_value(const JsonView *view, const RecordRow *row, void *item, E
     case RECORD_FLAG: return read_flag(view, row, at, err);
     case RECORD_TEXT: return read_text(view, row, at, err);
     case RECORD_TEXTS: return read_texts(view, row, item, err);
-    case RECORD_CHOICE: return read_choice(view, row, at, err);
+    case RECORD_CHOICE: return read_word(view, row, at, &word, err);
+    case RECORD_WORD: return read_word(view, row, &place, at, err);
     case RECORD_CONST: return read_const(view, row, err);
     case RECORD_OBJECT: return read_object(view, row, item, err);
     case RECORD_LIST: return read_list(view, row, item, err);

@@ -28,18 +28,22 @@ typedef enum RecordKind {
     RECORD_TEXT,    /* const char * */
     RECORD_TEXTS,   /* const char **, least to most of them; int at `count` */
     RECORD_CHOICE,  /* int: the place of the word among `words` */
+    RECORD_WORD,    /* const char *: the word itself, as `words` has it */
     RECORD_CONST,   /* nothing is kept: the text is words[0], or the number is low */
     RECORD_OBJECT,  /* a struct `of`, in place; if `count` is given, the bool there: is it? */
     RECORD_LIST,    /* const struct *, least to most of them; int at `count` */
-    RECORD_OWN      /* whatever `read` makes of it; `schema` is its JSON Schema */
+    RECORD_OWN      /* whatever `read` makes of it; `schema` is its JSON Schema. NULL: it is one
+                       of `words` */
 } RecordKind;
 
 enum RecordFlags {
     RECORD_REQUIRED = 1,
-    RECORD_ABOVE = 2, /* low itself is out of range */
-    RECORD_FILLED = 4, /* a text has something in it */
-    RECORD_WHOLE = 8,  /* of numbers: whole ones */
-    RECORD_RADIANS = 16 /* degrees in the file */
+    RECORD_ABOVE = 2,    /* low itself is out of range */
+    RECORD_FILLED = 4,   /* a text has something in it */
+    RECORD_WHOLE = 8,    /* of numbers: whole ones */
+    RECORD_RADIANS = 16, /* degrees in the file */
+    RECORD_METRES = 32,  /* millimetres in the file */
+    RECORD_UNIT = 64     /* of three numbers: a direction, which becomes a unit vector */
 };
 
 typedef struct RecordFormat RecordFormat;
@@ -54,6 +58,8 @@ struct RecordRow {
     int         least, most;       /* items of a list; most 0: any number */
     size_t      count;             /* offset of how many, or of whether it is there; 0: none */
     const char *const  *words;     /* a NULL ends them */
+    size_t              stride;    /* bytes from one to the next: they are members of a table's
+                                      structs. 0: an array of texts */
     const RecordFormat *of;
     bool (*read)(const JsonView *view, const RecordRow *row, void *item, Error *err);
     const char *schema;            /* of RECORD_OWN, JSON */
@@ -86,6 +92,9 @@ struct RecordFormat {
 
 /* All members of an object. item: a struct of the format, with its defaults. */
 bool record_read(const JsonView *view, const RecordFormat *format, void *item, Error *err);
+
+/* Word i of a row; NULL behind the last one. */
+const char *record_word(const RecordRow *row, int i);
 
 /* One member, which is there; item: what the row's offset counts from. */
 bool record_read_value(const JsonView *view, const RecordRow *row, void *item, Error *err);

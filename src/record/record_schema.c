@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/units.h"
 
@@ -52,14 +53,16 @@ static json_t *text_schema(const RecordRow *row)
 static json_t *choice_schema(const RecordRow *row)
 {
     json_t *words = json_array();
-    for (int i = 0; row->words[i]; i++)
-        json_array_append_new(words, json_string(row->words[i]));
+    for (int i = 0; record_word(row, i); i++)
+        json_array_append_new(words, json_string(record_word(row, i)));
     return json_pack("{s:o}", "enum", words);
 }
 
 static json_t *list_schema(const RecordRow *row, json_t *items)
 {
     json_t *schema = json_pack("{s:s, s:o}", "type", "array", "items", items);
+    if (row->flags & RECORD_UNIT)
+        set(schema, "not", loaded("{\"items\": {\"const\": 0}}"));
     if (row->least) set(schema, "minItems", json_integer(row->least));
     if (row->most) set(schema, "maxItems", json_integer(row->most));
     return schema;
@@ -76,14 +79,15 @@ static json_t *value_schema(const RecordRow *row, const void *item)
     case RECORD_FLAG: return kind("boolean");
     case RECORD_TEXT: return text_schema(row);
     case RECORD_TEXTS: return list_schema(row, kind("string"));
-    case RECORD_CHOICE: return choice_schema(row);
+    case RECORD_CHOICE:
+    case RECORD_WORD: return choice_schema(row);
     case RECORD_CONST:
         return json_pack("{s:o}", "const",
                          row->words ? json_string(row->words[0]) : number(row->low));
     case RECORD_OBJECT:
         return object_schema(row->of, item ? (const char *)item + row->offset : NULL);
     case RECORD_LIST: return list_schema(row, object_schema_alone(row->of));
-    default: return loaded(row->schema);
+    default: return row->schema ? loaded(row->schema) : choice_schema(row);
     }
 }
 
@@ -92,8 +96,10 @@ static json_t *numbers(const RecordRow *row, const double *list, int count)
 {
     json_t *out = json_array();
     for (int i = 0; i < count; i++) {
-        bool   is_low = list[i] < row->low && !(row->flags & RECORD_RADIANS);
-        double value = row->flags & RECORD_RADIANS ? degrees_from_radians(list[i]) : list[i];
+        double value = row->flags & RECORD_RADIANS  ? degrees_from_radians(list[i])
+                       : row->flags & RECORD_METRES ? 1000 * list[i]
+                                                    : list[i];
+        bool is_low = value < row->low && !(row->flags & RECORD_RADIANS);
         if (is_low || isnan(value)) {
             json_decref(out);
             return NULL;
@@ -109,6 +115,7 @@ static json_t *default_of(const RecordRow *row, const void *item)
     const void *at = (const char *)item + row->offset;
     const void *count = (const char *)item + row->count;
     const double *figures = row->kind == RECORD_FIGURES ? *(double *const *)at : at;
+    const char   *word;
     json_t       *list;
     switch (row->kind) {
     case RECORD_NUMBER:
@@ -122,7 +129,10 @@ static json_t *default_of(const RecordRow *row, const void *item)
         if (!figures || (row->count && !*(const int *)count)) return NULL;
         return numbers(row, figures, row->count ? *(const int *)count : row->most);
     case RECORD_FLAG: return json_boolean(*(const bool *)at);
-    case RECORD_CHOICE: return json_string(row->words[*(const int *)at]);
+    case RECORD_CHOICE: return json_string(record_word(row, *(const int *)at));
+    case RECORD_WORD:
+        memcpy(&word, at, sizeof word);
+        return word ? json_string(word) : NULL;
     default: return NULL;
     }
 }
