@@ -2,11 +2,13 @@
 #include "cli/format_table.h"
 
 #include "base/count.h"
+#include "equip/equip_file.h"
 #include "panel/set/synthetic_format.h"
 #include "review/profile.h"
 
 const NamedFormat format_table[] = {
     {"profile", "Limits that a glare review holds its figures against", &profile_format},
+    {"equip", "EQUIP.json, what a model is equipped with", &equip_format},
     {"recipe", "A synthetic panel, *.recipe.json", &synthetic_format},
 };
 const int format_count = COUNT_OF(format_table);

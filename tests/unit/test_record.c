@@ -9,8 +9,9 @@
 #include "base/file.h"
 #include "cli/format_table.h"
 
-/* A shipped file of each format, in the order of the table. */
+/* A file of each format, in the order of the table. */
 static const char *const EXAMPLES[] = {PROJECT_DIR "/assets/profiles/iso-15008.json",
+                                       PROJECT_DIR "/tests/unit/records/equip.json",
                                        PROJECT_DIR "/assets/panels/oled_centre.recipe.json"};
 
 typedef struct Faults {
@@ -71,7 +72,8 @@ static void try_names(Faults *f, const RecordRow *row)
 static json_t *of_another_kind(const RecordRow *row)
 {
     bool is_text = row->kind == RECORD_TEXT || row->kind == RECORD_CHOICE ||
-                   row->kind == RECORD_OWN;
+                   row->kind == RECORD_WORD || row->kind == RECORD_OWN ||
+                   (row->kind == RECORD_CONST && row->words);
     return is_text ? json_integer(7) : json_string("seven");
 }
 
