@@ -138,22 +138,31 @@ static bool make_unit(const JsonView *view, const RecordRow *row, double *vector
     return true;
 }
 
+static bool check_numbers(const JsonView *view, const RecordRow *row, double *list, int count,
+                          Error *err)
+{
+    bool is_whole = row->flags & RECORD_WHOLE || row->kind == RECORD_WHOLES;
+    for (int i = 0; i < count; i++) {
+        if (!check_low(view, row, list[i], err)) return false;
+        if (is_whole && list[i] != floor(list[i]))
+            return record_fails(view, row->key, err, "is %g, required: whole numbers", list[i]);
+    }
+    return !(row->flags & RECORD_UNIT) || make_unit(view, row, list, err);
+}
+
 static bool read_numbers(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
     int count, found;
     if (!find_list(view, row, "an array of numbers", &count, err)) return false;
-    double   *list = row->kind == RECORD_NUMBERS ? at_offset(item, row->offset)
-                                                 : ARENA_NEW(view->arena, double, count);
+    void     *at = at_offset(item, row->offset);
+    double   *list = row->kind == RECORD_NUMBERS ? at : ARENA_NEW(view->arena, double, count);
     JsonRange range = {row->flags & RECORD_ABOVE ? -HUGE_VAL : row->low, row->high, count};
-    if (count && !json_view_numbers(view, row->key, range, list, &found, err)) return false;
-    for (int i = 0; i < count; i++) {
-        if (!check_low(view, row, list[i], err)) return false;
-        if (row->flags & RECORD_WHOLE && list[i] != floor(list[i]))
-            return record_fails(view, row->key, err, "is %g, required: whole numbers", list[i]);
-    }
-    if (row->flags & RECORD_UNIT && !make_unit(view, row, list, err)) return false;
-    if (row->kind == RECORD_FIGURES)
-        memcpy(at_offset(item, row->offset), &list, sizeof list);
+    if ((count && !json_view_numbers(view, row->key, range, list, &found, err)) ||
+        !check_numbers(view, row, list, count, err))
+        return false;
+    if (row->kind == RECORD_FIGURES) memcpy(at, &list, sizeof list);
+    for (int i = 0; row->kind == RECORD_WHOLES && i < count; i++)
+        ((int *)at)[i] = (int)list[i];
     if (row->count) *(int *)at_offset(item, row->count) = count;
     return true;
 }
@@ -228,9 +237,11 @@ bool record_read_value(const JsonView *view, const RecordRow *row, void *item, E
     case RECORD_NUMBER: return read_number(view, row, at, err);
     case RECORD_INTEGER: return read_integer(view, row, at, err);
     case RECORD_NUMBERS:
-    case RECORD_FIGURES: return read_numbers(view, row, item, err);
+    case RECORD_FIGURES:
+    case RECORD_WHOLES: return read_numbers(view, row, item, err);
     case RECORD_FLAG: return read_flag(view, row, at, err);
     case RECORD_TEXT: return read_text(view, row, at, err);
+    case RECORD_NOTE: return read_text(view, row, &word, err);
     case RECORD_TEXTS: return read_texts(view, row, item, err);
     case RECORD_CHOICE: return read_word(view, row, at, &word, err);
     case RECORD_WORD: return read_word(view, row, &place, at, err);

@@ -24,8 +24,10 @@ typedef enum RecordKind {
     RECORD_NUMBERS, /* double[most] in place, least to most of them, each in [low, high]; if
                        `count` is given, the int there: how many */
     RECORD_FIGURES, /* const double *, the same; int at `count` */
+    RECORD_WHOLES,  /* int[most] in place */
     RECORD_FLAG,    /* bool */
     RECORD_TEXT,    /* const char * */
+    RECORD_NOTE,    /* a text for people: nothing is kept */
     RECORD_TEXTS,   /* const char **, least to most of them; int at `count` */
     RECORD_CHOICE,  /* int: the place of the word among `words` */
     RECORD_WORD,    /* const char *: the word itself, as `words` has it */

@@ -34,7 +34,8 @@ static json_t *number(double value)
 
 static json_t *number_schema(const RecordRow *row)
 {
-    bool    is_whole = row->kind == RECORD_INTEGER || row->flags & RECORD_WHOLE;
+    bool    is_whole = row->kind == RECORD_INTEGER || row->kind == RECORD_WHOLES ||
+                       row->flags & RECORD_WHOLE;
     json_t *schema = kind(is_whole ? "integer" : "number");
     if (isfinite(row->low))
         set(schema, row->flags & RECORD_ABOVE ? "exclusiveMinimum" : "minimum",
@@ -75,9 +76,11 @@ static json_t *value_schema(const RecordRow *row, const void *item)
     case RECORD_NUMBER:
     case RECORD_INTEGER: return number_schema(row);
     case RECORD_NUMBERS:
-    case RECORD_FIGURES: return list_schema(row, number_schema(row));
+    case RECORD_FIGURES:
+    case RECORD_WHOLES: return list_schema(row, number_schema(row));
     case RECORD_FLAG: return kind("boolean");
-    case RECORD_TEXT: return text_schema(row);
+    case RECORD_TEXT:
+    case RECORD_NOTE: return text_schema(row);
     case RECORD_TEXTS: return list_schema(row, kind("string"));
     case RECORD_CHOICE:
     case RECORD_WORD: return choice_schema(row);

@@ -20,6 +20,9 @@
 #define VECTOR(key, flag, member, size, bottom, top, words)                                    \
     {key, RECORD_NUMBERS, flag, RECORD_AT(OWNER, member), RECORD_RANGE(bottom, top),           \
      .least = size, .most = size, .doc = words}
+#define WHOLES(key, flag, member, size, bottom, top, words)                                    \
+    {key, RECORD_WHOLES, flag, RECORD_AT(OWNER, member), RECORD_RANGE(bottom, top),            \
+     .least = size, .most = size, .doc = words}
 #define NUMBERS(key, flag, member, counted, size, bottom, top, words)                          \
     {key, RECORD_NUMBERS, flag, RECORD_AT(OWNER, member), RECORD_RANGE(bottom, top),           \
      .least = 1, .most = size, .count = offsetof(OWNER, counted), .doc = words}
@@ -31,6 +34,7 @@
     {key, RECORD_FLAG, flag, RECORD_AT(OWNER, member), .doc = words}
 #define TEXT(key, flag, member, words)                                                         \
     {key, RECORD_TEXT, flag, RECORD_AT(OWNER, member), .doc = words}
+#define NOTE(key, flag, words) {key, RECORD_NOTE, flag, .doc = words}
 #define CHOICE(key, flag, member, list, words_doc)                                             \
     {key, RECORD_CHOICE, flag, RECORD_AT(OWNER, member), .words = list, .doc = words_doc}
 

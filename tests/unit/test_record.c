@@ -12,6 +12,7 @@
 /* A file of each format, in the order of the table. */
 static const char *const EXAMPLES[] = {PROJECT_DIR "/assets/profiles/iso-15008.json",
                                        PROJECT_DIR "/tests/unit/records/equip.json",
+                                       PROJECT_DIR "/tests/unit/records/job.json",
                                        PROJECT_DIR "/assets/panels/oled_centre.recipe.json"};
 
 typedef struct Faults {
@@ -73,13 +74,15 @@ static json_t *of_another_kind(const RecordRow *row)
 {
     bool is_text = row->kind == RECORD_TEXT || row->kind == RECORD_CHOICE ||
                    row->kind == RECORD_WORD || row->kind == RECORD_OWN ||
+                   row->kind == RECORD_NOTE ||
                    (row->kind == RECORD_CONST && row->words);
     return is_text ? json_integer(7) : json_string("seven");
 }
 
 static void try_ranges(Faults *f, const RecordRow *row)
 {
-    bool is_list = row->kind == RECORD_NUMBERS || row->kind == RECORD_FIGURES;
+    bool is_list = row->kind == RECORD_NUMBERS || row->kind == RECORD_FIGURES ||
+                   row->kind == RECORD_WHOLES;
     if (!is_list && row->kind != RECORD_NUMBER && row->kind != RECORD_INTEGER) return;
     const double outside[] = {row->low - 1, row->high + fmax(1, 1e-6 * row->high)};
     for (int i = 0; i < COUNT_OF(outside); i++) {
