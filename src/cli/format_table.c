@@ -6,12 +6,14 @@
 #include "job/job_manifest.h"
 #include "panel/set/synthetic_format.h"
 #include "review/profile.h"
+#include "review/request/request_read.h"
 
 const NamedFormat format_table[] = {
     {"profile", "Limits that a glare review holds its figures against", &profile_format},
     {"equip", "EQUIP.json, what a model is equipped with", &equip_format},
     {"job", "manifest.json of a frame, or a review, that is shared among machines",
      &job_format},
+    {"review", "REVIEW.json: what a glare review is asked", &review_format},
     {"recipe", "A synthetic panel, *.recipe.json", &synthetic_format},
 };
 const int format_count = COUNT_OF(format_table);
