@@ -83,10 +83,10 @@ struct RecordRow {
                                       structs. 0: an array of texts */
     const RecordFormat *of;
     const RecordNames  *among;
-    const RecordRow    *forms;     /* the key of each says what it is: "a name"; NULL ends them */
+    const RecordRow    *forms;     /* the key of each says what it is: "a name" */
     bool (*read)(const JsonView *view, const RecordRow *row, void *item, Error *err);
                                    /* instead of the kind's own reading; NULL: that */
-    const char *schema;            /* of RECORD_OWN, JSON */
+    const char *schema;            /* of RECORD_OWN, JSON; ' may stand for " */
     const char *doc;               /* one sentence; NULL: the key says it */
 };
 
@@ -116,7 +116,8 @@ struct RecordFormat {
                                   A number's default that is NaN means that it has none */
     bool (*check)(const JsonView *view, void *item, Error *err); /* NULL: rows say all. View: of
                                   the object; of what is none, of the list or map about it */
-    const char *rules; /* what `check` wants, as members of a JSON Schema; NULL: nothing */
+    const char *rules; /* what `check` wants, as members of a JSON Schema (' as in a
+                          row); NULL: nothing */
     const char *doc;
     const RecordRow *value; /* instead of rows, where the items of a list or map are no objects:
                                what each is */

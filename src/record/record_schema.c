@@ -21,9 +21,15 @@ static json_t *kind(const char *name)
     return json_pack("{s:s}", "type", name);
 }
 
+/* JSON of rows, in which ' stands for ". */
 static json_t *loaded(const char *text)
 {
-    return json_loads(text, JSON_DECODE_ANY, NULL);
+    char *copy = strdup(text);
+    for (char *c = copy; c && *c; c++)
+        if (*c == '\'') *c = '"';
+    json_t *value = copy ? json_loads(copy, JSON_DECODE_ANY, NULL) : NULL;
+    free(copy);
+    return value;
 }
 
 /* 5 as 5, 0.5 as 0.5. */
@@ -63,7 +69,7 @@ static json_t *choice_schema(const RecordRow *row)
 static json_t *list_schema(const RecordRow *row, json_t *items)
 {
     json_t *schema = json_pack("{s:s, s:o}", "type", "array", "items", items);
-    if (row->flags & RECORD_UNIT) set(schema, "not", loaded("{\"items\": {\"const\": 0}}"));
+    if (row->flags & RECORD_UNIT) set(schema, "not", loaded("{'items': {'const': 0}}"));
     if (row->least) set(schema, "minItems", json_integer(row->least));
     if (row->most) set(schema, "maxItems", json_integer(row->most));
     return schema;

@@ -47,3 +47,12 @@
 #define LIST(key, flag, member, counted, fewest, size, format, words)                          \
     {key, RECORD_LIST, flag, RECORD_AT(OWNER, member), .least = fewest, .most = size,          \
      .of = &format, .count = offsetof(OWNER, counted), .doc = words}
+#define MAP(key, flag, member, counted, size, format, words)                                   \
+    {key, RECORD_MAP, flag, RECORD_AT(OWNER, member), .least = 1, .most = size,                \
+     .of = &format, .count = offsetof(OWNER, counted), .doc = words}
+
+/* A readable file; a list of some. */
+#define A_FILE(key, flag, member, words)                                                      \
+    {key, RECORD_FILE, flag, RECORD_AT(OWNER, member), .doc = words}
+#define FILES(key, flag, member, counted, size, words)                                         \
+    LIST(key, flag, member, counted, 1, size, record_files, words)

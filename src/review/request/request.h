@@ -134,8 +134,8 @@ typedef struct ReviewSymbol {
     double         uv[4];     /* left, top, right, bottom of the content; else all of it */
     bool           find_text; /* symbols are to be found inside uv */
     ReviewPolarity polarity;
-    const int     *optional_for; /* [eye_count]: 1: that eye need not see it; what it does see of
-                                    it is judged all the same. NULL: no 1 */
+    const int     *optional_for; /* [eye_count]: 1: that eye need not see it; what it does see
+                                    of it is judged all the same. NULL: all 0 */
 } ReviewSymbol;
 
 /* More files of a scene: occupants. */

@@ -5,10 +5,10 @@
 
 #include "base/file.h"
 #include "base/units.h"
+#include "record/rows.h"
 #include "review/request/request_format.h"
 #include "scene/load/environment.h"
 
-#define MUST RECORD_REQUIRED
 #define OWNER ReviewCondition
 
 static bool has(const JsonView *view, const char *key)
@@ -67,16 +67,16 @@ static const char *const LUX[] = {[WEATHER_LUX_PEREZ] = "perez", [WEATHER_LUX_FI
     {"weather", RECORD_FILE, .read = read_weather,                                             \
      .doc = "clear, or a weather file with a row for every step that counts; excludes "        \
             "environment unless clear."},                                                      \
-    {"weather_lux", RECORD_CHOICE, RECORD_AT(OWNER, weather_lux), .words = LUX,                \
-     .doc = "A weather file's lux: its irradiances times Perez 1990's luminous efficacies "    \
-            "with water by the dew point, or the file's own columns."}
+    CHOICE("weather_lux", 0, weather_lux, LUX,                                                 \
+           "A weather file's lux: its irradiances times Perez 1990's luminous efficacies "     \
+           "with water by the dew point, or the file's own columns.")
 
 /* ---- over the sun's direction ------------------------------------------------------------ */
 
 #define RANGE_MAX 100000 /* values of one range */
 #define SUNS_MAX 10000000
 #define STEP_LEAST 1e-4 /* degrees */
-#define WHOLE 1e-6 /* of a step: how much its multiples may miss the last value by */
+#define STEP_SLACK 1e-6 /* of a step: how much its multiples may miss the last value by */
 
 /* The step nearest to the written one that divides first to last into whole steps. */
 static double fitting_step(const double value[3])
@@ -105,7 +105,7 @@ static bool read_range(const JsonView *view, const RecordRow *row, void *item, E
     if (steps > RANGE_MAX)
         return record_fails(view, key, err, "has %.0f values, required: at most %d", steps + 1,
                             RANGE_MAX);
-    if (fabs(steps - round(steps)) > WHOLE)
+    if (fabs(steps - round(steps)) > STEP_SLACK)
         return record_fails(view, key, err,
                             "does not come from %g to %g in steps of %g, required: a step such "
                             "as %.6g", value[0], value[1], value[2], fitting_step(value));
@@ -181,16 +181,14 @@ static bool check_year(const JsonView *view, void *item, Error *err)
 }
 
 static const RecordRow YEAR[] = {
-    {"year", RECORD_INTEGER, MUST, RECORD_AT(OWNER, year), RECORD_RANGE(1900, 2100)},
+    WHOLE("year", MUST, year, 1900, 2100, NULL),
     {"where", RECORD_NUMBERS, RECORD_RANGE(-500, 60000), RECORD_COUNT(2, 3), .read = read_place,
      .doc = "Latitude (degrees north), longitude (degrees east), altitude (m); default: the "
             "weather file's."},
-    RECORD_NUMBER_ROW("step_minutes", OWNER, step_minutes, 0.5, 1440, NULL),
-    {"headings_deg", RECORD_FIGURES, RECORD_MANY(OWNER, headings_deg, heading_count),
-     RECORD_RANGE(-360, 360), RECORD_COUNT(1, 3600), .doc = "None twice."},
+    NUMBER("step_minutes", 0, step_minutes, 0.5, 1440, NULL),
+    FIGURES("headings_deg", 0, headings_deg, heading_count, 1, 3600, -360, 360, "None twice."),
     WEATHER_ROWS,
-    {"night", RECORD_FLAG, RECORD_AT(OWNER, with_night),
-     .doc = "Whether hours without sun count too."},
+    FLAG("night", 0, with_night, "Whether hours without sun count too."),
     {0}};
 
 static void start_year(void *item)
@@ -204,8 +202,8 @@ static void start_year(void *item)
 
 static const RecordFormat year_format = {
     "year", sizeof(OWNER), YEAR, .start = start_year, .check = check_year,
-    .rules = "{\"dependentRequired\": {\"weather_lux\": [\"weather\"]}, \"anyOf\": [{\"required\": [\"where\"]}, {\"required\": "
-             "[\"weather\"]}]}"};
+    .rules = "{'dependentRequired': {'weather_lux': ['weather']}, "
+             "'anyOf': [{'required': ['where']}, {'required': ['weather']}]}"};
 
 /* ---- a sweep ----------------------------------------------------------------------------- */
 
@@ -343,29 +341,27 @@ static bool read_polarity(const JsonView *view, const RecordRow *row, void *item
 }
 
 static const RecordRow CONDITION[] = {
-    {"name", RECORD_TEXT, MUST | RECORD_FILLED, RECORD_AT(OWNER, name),
-     .doc = "Each has its own."},
+    TEXT("name", MUST | RECORD_FILLED, name, "Each has its own."),
     {"level", RECORD_REFER, RECORD_AT(OWNER, level_id), .among = &review_level_names,
      .doc = "One of levels; default: as the scene says."},
     {"with", RECORD_REFER, RECORD_AT(OWNER, with_id), .among = &review_with_names,
      .doc = "One of with: who sits there."},
-    {"lights", RECORD_LIST, RECORD_MANY(OWNER, lights, light_count), RECORD_COUNT(1, 256),
-     .of = &record_files, .doc = "More files of the scene, with lamps."},
+    FILES("lights", 0, lights, light_count, 256, "More files of the scene, with lamps."),
     {"polarity", RECORD_EITHER, .forms = review_polarity_forms, .read = read_polarity},
-    {"contents", RECORD_MAP, RECORD_MANY(OWNER, contents, content_count), RECORD_COUNT(1, 1000),
-     .of = &review_content_format, .doc = "What displays show instead."},
-    {"heading_deg", RECORD_NUMBER, RECORD_OPEN, RECORD_AT(OWNER, heading_deg),
-     RECORD_RANGE(-360, 360), .doc = "Where the vehicle heads to, from north over east."},
+    MAP("contents", 0, contents, content_count, 1000, review_content_format,
+        "What displays show instead."),
+    NUMBER("heading_deg", RECORD_OPEN, heading_deg, -360, 360,
+           "Where the vehicle heads to, from north over east."),
     {"route", RECORD_FILE, .read = read_route,
      .doc = "A drive or flight: .gpx, or .csv with time,lat,lon,heading."},
     {"when", RECORD_TEXT, .read = read_when,
      .doc = "When the route begins, with its zone; default: as its file says."},
     WEATHER_ROWS,
     {"sweep", RECORD_EITHER, .forms = SWEEPS, .read = read_sweep},
-    {"sunglasses", RECORD_OBJECT, RECORD_APART, RECORD_AT(OWNER, glasses),
-     .of = &review_glasses_format, .doc = "What the observer wears; default: none."},
+    OBJECT("sunglasses", RECORD_APART, glasses, review_glasses_format,
+           "What the observer wears; default: none."),
     {"environment", RECORD_OWN, .read = read_environment,
-     .schema = "{\"$ref\": \"scene.PARHELION_environment.schema.json\"}"},
+     .schema = "{'$ref': 'scene.PARHELION_environment.schema.json'}"},
     {0}};
 
 static void start_condition(void *item)
@@ -413,6 +409,6 @@ static bool check_condition(const JsonView *view, void *item, Error *err)
 
 const RecordFormat review_condition_format = {
     "condition", sizeof(OWNER), CONDITION, .start = start_condition, .check = check_condition,
-    .rules = "{\"dependentRequired\": {\"when\": [\"route\"], \"weather\": [\"route\"], "
-             "\"weather_lux\": [\"route\", \"weather\"]}, \"not\": {\"anyOf\": [{\"required\": "
-             "[\"route\", \"sweep\"]}, {\"required\": [\"route\", \"heading_deg\"]}]}}"};
+    .rules = "{'dependentRequired': {'when': ['route'], 'weather': ['route'], "
+             "'weather_lux': ['route', 'weather']}, 'not': {'anyOf': [{'required': "
+             "['route', 'sweep']}, {'required': ['route', 'heading_deg']}]}}"};

@@ -4,12 +4,11 @@
 
 #include "base/mathd.h"
 #include "base/units.h"
+#include "record/rows.h"
 #include "review/request/request_format.h"
 
+#define OWNER ReviewEye
 #define METRES_MAX 1e6
-#define METRES(key, Type, member, low, high, words)                                            \
-    {key, RECORD_NUMBERS, RECORD_OPEN, RECORD_AT(Type, member), RECORD_RANGE(low, high),       \
-     RECORD_COUNT(3, 3), .doc = words}
 
 static bool has(const JsonView *view, const char *key)
 {
@@ -19,27 +18,24 @@ static bool has(const JsonView *view, const char *key)
 /* ---- eyes -------------------------------------------------------------------------------- */
 
 static const RecordRow CAMERA[] = {
-    {"a camera's name", RECORD_TEXT, RECORD_FILLED, RECORD_AT(ReviewEye, camera),
-     .doc = "A node's or a camera's name."},
-    {"its index", RECORD_INTEGER, RECORD_AT(ReviewEye, camera_id), RECORD_RANGE(0, 1000000),
-     .doc = "The scene's camera, counted from 0."},
+    TEXT("a camera's name", RECORD_FILLED, camera, "A node's or a camera's name."),
+    WHOLE("its index", 0, camera_id, 0, 1000000, "The scene's camera, counted from 0."),
     {0}};
 
 static const RecordRow EYE[] = {
     {"camera", RECORD_EITHER, .forms = CAMERA},
-    METRES("position_m", ReviewEye, position_m, -METRES_MAX, METRES_MAX, "In the scene, m."),
-    METRES("centre_m", ReviewEye, position_m, -METRES_MAX, METRES_MAX,
+    VECTOR("position_m", RECORD_OPEN, position_m, 3, -METRES_MAX, METRES_MAX,
+           "In the scene, m."),
+    VECTOR("centre_m", RECORD_OPEN, position_m, 3, -METRES_MAX, METRES_MAX,
            "Of a box or an ellipse of eyes, m."),
-    METRES("half_size_m", ReviewEye, half_size_m, 0, 10, "Of a box, m."),
-    METRES("ellipse_m", ReviewEye, axes_m, 0, 10,
+    VECTOR("half_size_m", RECORD_OPEN, half_size_m, 3, 0, 10, "Of a box, m."),
+    VECTOR("ellipse_m", RECORD_OPEN, axes_m, 3, 0, 10,
            "Lengths of its axes ahead, across and up, m: an eyellipse of SAE J941."),
-    {"grid", RECORD_WHOLES, RECORD_AT(ReviewEye, grid), RECORD_RANGE(1, 33),
-     RECORD_COUNT(3, 3), .doc = "Of a box: points along each axis, both ends in."},
-    RECORD_NUMBER_ROW("tilt_deg", ReviewEye, tilt_deg, -90, 90,
-                      "Of an ellipse: its front down, degrees."),
-    {"proposed_from", RECORD_TEXT, RECORD_FILLED, RECORD_AT(ReviewEye, proposed_from),
-     .doc = "Left by `review --init` and `equip`: from what the eye was proposed. Delete it "
-            "when the eye is right; until then a review says that its eye is a proposal."},
+    WHOLES("grid", 0, grid, 3, 1, 33, "Of a box: points along each axis, both ends in."),
+    NUMBER("tilt_deg", 0, tilt_deg, -90, 90, "Of an ellipse: its front down, degrees."),
+    TEXT("proposed_from", RECORD_FILLED, proposed_from,
+         "Left by `review --init` and `equip`: from what the eye was proposed. Delete it when "
+         "the eye is right; until then a review says that its eye is a proposal."),
     {0}};
 
 static void start_eye(void *item)
@@ -94,13 +90,13 @@ static bool check_eye(const JsonView *view, void *item, Error *err)
 }
 
 const RecordFormat review_eye_format = {
-    "eye", sizeof(ReviewEye), EYE, .start = start_eye, .check = check_eye,
-    .rules = "{\"oneOf\": [{\"required\": [\"camera\"]}, {\"required\": [\"position_m\"]}, "
-             "{\"required\": [\"centre_m\"], \"anyOf\": [{\"required\": [\"half_size_m\"]}, "
-             "{\"required\": [\"ellipse_m\"]}]}], \"dependentRequired\": {\"half_size_m\": "
-             "[\"centre_m\"], \"ellipse_m\": [\"centre_m\"], \"grid\": [\"half_size_m\"], "
-             "\"tilt_deg\": [\"ellipse_m\"]}, \"not\": {\"required\": [\"half_size_m\", "
-             "\"ellipse_m\"]}}"};
+    "eye", sizeof(OWNER), EYE, .start = start_eye, .check = check_eye,
+    .rules = "{'oneOf': [{'required': ['camera']}, {'required': ['position_m']}, "
+             "{'required': ['centre_m'], 'anyOf': [{'required': ['half_size_m']}, "
+             "{'required': ['ellipse_m']}]}], 'dependentRequired': {'half_size_m': "
+             "['centre_m'], 'ellipse_m': ['centre_m'], 'grid': ['half_size_m'], "
+             "'tilt_deg': ['ellipse_m']}, 'not': {'required': ['half_size_m', "
+             "'ellipse_m']}}"};
 
 /* Ahead on the horizontal, its front down by the tilt; across; upright on both. */
 static void turn_ellipse(const double forward[3], ReviewEye *eye)
@@ -124,7 +120,11 @@ void request_turn_ellipses(ReviewRequest *request)
             turn_ellipse(request->forward, &request->eyes[i]);
 }
 
+#undef OWNER
+
 /* ---- where they look --------------------------------------------------------------------- */
+
+#define OWNER ReviewGaze
 
 static const char *const SYMBOLS[] = {"symbols", NULL};
 
@@ -150,10 +150,10 @@ static bool read_lookers(const JsonView *view, const RecordRow *row, void *item,
 
 static const RecordRow GAZE[] = {
     {"at", RECORD_CONST, .words = SYMBOLS},
-    {"direction", RECORD_NUMBERS, RECORD_UNIT, RECORD_AT(ReviewGaze, direction),
-     RECORD_RANGE(-1e6, 1e6), RECORD_COUNT(3, 3), .doc = "In the scene; of any length but 0."},
-    {"name", RECORD_TEXT, RECORD_FILLED, RECORD_AT(ReviewGaze, name),
-     .doc = "What the report calls it; default of what is at the symbols: symbols."},
+    VECTOR("direction", RECORD_UNIT, direction, 3, -METRES_MAX, METRES_MAX,
+           "In the scene; of any length but 0."),
+    TEXT("name", RECORD_FILLED, name,
+         "What the report calls it; default of what is at the symbols: symbols."),
     {"eyes", RECORD_LIST, RECORD_MANY(Lookers, eyes, count), RECORD_COUNT(1, 256),
      .of = &looker_format, .read = read_lookers,
      .doc = "Names of the eyes that look so; default: all."},
@@ -188,9 +188,8 @@ static bool check_gaze(const JsonView *view, void *item, Error *err)
 }
 
 const RecordFormat review_gaze_format = {
-    "gaze", sizeof(ReviewGaze), GAZE, .check = check_gaze,
-    .rules = "{\"oneOf\": [{\"required\": [\"at\"]}, {\"required\": [\"direction\", \"name\"]}]"
-             "}"};
+    "gaze", sizeof(OWNER), GAZE, .check = check_gaze,
+    .rules = "{'oneOf': [{'required': ['at']}, {'required': ['direction', 'name']}]}"};
 
 void request_look_at_symbols(ReviewRequest *request, Arena *arena)
 {

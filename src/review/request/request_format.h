@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* request_format.h -- the parts of REVIEW.json as rows (record/record.h), and what more than one
- * part of it uses. All of them stand in a ReviewRequest, the view's `whole`; warnings go to its
- * problems.
+/* request_format.h -- the parts of REVIEW.json as rows (record/record.h), and what more than
+ * one part of it uses. All of them stand in a ReviewRequest, the view's `whole`; warnings go to
+ * its problems.
  *
  * Memory   the view's arena. Threads: one at a time.
  * Fails    as request_read.h.

@@ -3,6 +3,7 @@
  * to 100 %, 1: 43 to 80, 2: 18 to 43, 3: 8 to 18, 4: 3 to 8 (ISO 12312-1:2013, table 1, as it
  * is commonly quoted). */
 #include "base/file.h"
+#include "record/rows.h"
 #include "review/request/request_format.h"
 
 #define CATEGORIES 5
@@ -70,10 +71,9 @@ static const RecordRow TRANSMITTANCES[] = {
     {0}};
 
 static const RecordRow POLARISER[] = {
-    RECORD_NUMBER_ROW("axis_deg", OWNER, axis_deg, -360, 360,
-                      "Along which light comes through, from upright towards the right."),
-    RECORD_NUMBER_ROW("extinction", OWNER, extinction, 1, 1e9,
-                      "Light along the axis over light across it."),
+    NUMBER("axis_deg", 0, axis_deg, -360, 360,
+           "Along which light comes through, from upright towards the right."),
+    NUMBER("extinction", 0, extinction, 1, 1e9, "Light along the axis over light across it."),
     {0}};
 static const RecordFormat polariser_format = {"polariser", sizeof(OWNER), POLARISER,
                                               .doc = NULL};
@@ -82,8 +82,8 @@ static const RecordRow GLASSES[] = {
     {"category", RECORD_INTEGER, RECORD_RANGE(0, CATEGORIES - 1), .read = read_category,
      .doc = "Of ISO 12312-1: the middle of its range, 0.9, 0.615, 0.305, 0.13, 0.055."},
     {"transmittance", RECORD_EITHER, .forms = TRANSMITTANCES},
-    {"polarising", RECORD_OBJECT, .of = &polariser_format,
-     .count = offsetof(OWNER, is_polarising), .doc = "They polarise, too. Of moments."},
+    {"polarising", RECORD_OBJECT, .count = offsetof(OWNER, is_polarising),
+     .of = &polariser_format, .doc = "They polarise, too. Of moments."},
     {0}};
 
 static void start_glasses(void *item)
@@ -113,5 +113,5 @@ static bool check_glasses(const JsonView *view, void *item, Error *err)
 
 const RecordFormat review_glasses_format = {
     "sunglasses", sizeof(OWNER), GLASSES, .start = start_glasses, .check = check_glasses,
-    .rules = "{\"oneOf\": [{\"required\": [\"category\"]}, "
-             "{\"required\": [\"transmittance\"]}]}"};
+    .rules = "{'oneOf': [{'required': ['category']}, "
+             "{'required': ['transmittance']}]}"};

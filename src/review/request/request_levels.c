@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include <math.h>
 
+#include "record/rows.h"
 #include "review/request/request_format.h"
 
 #define LUX_MAX 1e7
@@ -35,10 +36,8 @@ static const RecordFormat fixed_format = {"fixed", sizeof(ReviewFixedLevel), .va
 #define OWNER ReviewLevel
 
 static const RecordRow SENSOR[] = {
-    {"position_m", RECORD_NUMBERS, RECORD_REQUIRED, RECORD_AT(OWNER, position_m),
-     RECORD_RANGE(-1e6, 1e6), RECORD_COUNT(3, 3), .doc = "m."},
-    {"normal", RECORD_NUMBERS, RECORD_REQUIRED | RECORD_UNIT, RECORD_AT(OWNER, normal),
-     RECORD_RANGE(-1e6, 1e6), RECORD_COUNT(3, 3), .doc = "Where it looks."},
+    VECTOR("position_m", MUST, position_m, 3, -1e6, 1e6, "m."),
+    VECTOR("normal", MUST | RECORD_UNIT, normal, 3, -1e6, 1e6, "Where it looks."),
     {0}};
 static const RecordFormat sensor_format = {"sensor", sizeof(OWNER), SENSOR, .doc = NULL};
 
@@ -48,12 +47,11 @@ _Static_assert(sizeof(ReviewLevelPoint) == 2 * sizeof(double), "a pair");
 static const RecordFormat point_format = {"point", sizeof(ReviewLevelPoint), .value = &POINT};
 
 static const RecordRow CURVE[] = {
-    {"sensor", RECORD_OBJECT, RECORD_REQUIRED, .of = &sensor_format},
-    {"table_lx", RECORD_LIST, RECORD_REQUIRED, RECORD_MANY(OWNER, points, point_count),
-     RECORD_COUNT(1, 10000), .of = &point_format,
-     .doc = "[illuminance of the sensor in lx, level of all displays]: lx rise, levels do not "
-            "fall. Straight in log-log between two points (in lx where one is at 0), the end's "
-            "beyond the ends."},
+    {"sensor", RECORD_OBJECT, MUST, .of = &sensor_format},
+    LIST("table_lx", MUST, points, point_count, 1, 10000, point_format,
+         "[illuminance of the sensor in lx, level of all displays]: lx rise, levels do not "
+         "fall. Straight in log-log between two points (in lx where one is at 0), the end's "
+         "beyond the ends."),
     {0}};
 
 /* Each point of the table is held against the one before. */
@@ -82,8 +80,7 @@ static const RecordFormat curve_format = {"curve", sizeof(OWNER), CURVE, .check 
 /* ---- either ------------------------------------------------------------------------------ */
 
 static const RecordRow LEVEL_FORMS[] = {
-    {"levels by display", RECORD_MAP, RECORD_MANY(OWNER, fixed, fixed_count),
-     RECORD_COUNT(1, 1000), .of = &fixed_format},
+    MAP("levels by display", 0, fixed, fixed_count, 1000, fixed_format, NULL),
     {"a sensor with a table", RECORD_OBJECT, .count = offsetof(OWNER, is_curve),
      .of = &curve_format},
     {0}};

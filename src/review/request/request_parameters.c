@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "record/rows.h"
 #include "review/request/request_format.h"
 
 #define PARAMETERS_MAX 100
@@ -12,16 +13,14 @@
 #define QUARTER_WAVE_NM 137.5 /* 550 nm / 4, to be divided by the layer's index */
 
 #define OWNER ReviewParameter
-#define STEP(key, most, words)                                                                 \
-    RECORD_NUMBER_ROW(key, OWNER, step, 1e-6, most, words)
-#define TARGET(key)                                                                            \
-    {key, RECORD_TEXT, RECORD_FILLED, RECORD_AT(OWNER, target), .doc = "What is turned."}
+#define STEP(key, most, words) NUMBER(key, 0, step, 1e-6, most, words)
+#define TARGET(key) TEXT(key, RECORD_FILLED, target, "What is turned.")
 
 /* Each kind by the key that holds its step, the place of its row in PARAMETER. */
 static const struct {
     const char *target; /* the key that names what is changed */
-    double      at, low, high;       /* where it stands; what is tried unless a range is given */
-    double      range[2];            /* what a range may hold */
+    double      at, low, high; /* where it stands; what is tried unless a range is given */
+    double      range[2];      /* what a range may hold */
     bool        has_direction, has_with;
 } KINDS[PARAMETER_KINDS] = {
     [PARAMETER_TILT] = {"node", 0, -20, 20, {-180, 180}, false, true},
@@ -58,13 +57,12 @@ static const RecordRow PARAMETER[] = {
                                    "glass of index 1.52."),
     TARGET("node"), TARGET("display"), TARGET("material"),
     {"eye", RECORD_TEXT, RECORD_FILLED, RECORD_AT(OWNER, target), .read = read_eye},
-    {"direction", RECORD_NUMBERS, RECORD_UNIT, RECORD_AT(OWNER, direction),
-     RECORD_RANGE(-1e6, 1e6), RECORD_COUNT(3, 3), .doc = "Not zero."},
+    VECTOR("direction", RECORD_UNIT, direction, 3, -1e6, 1e6, "Not zero."),
     {"with", RECORD_TEXTS, RECORD_MANY(OWNER, with, with_count), RECORD_COUNT(1, 1000),
      .doc = "Nodes of the same file that move along: glass, rim."},
-    RECORD_NUMBER_ROW("at", OWNER, at, 0, BARE_REFLECTANCE, "The reflectance as it stands."),
-    RECORD_PAIR_ROW("range", OWNER, low, -180, 180,
-                    "What --mend may try: least and most, in the step's unit."),
+    NUMBER("at", 0, at, 0, BARE_REFLECTANCE, "The reflectance as it stands."),
+    VECTOR("range", 0, low, 2, -180, 180,
+           "What --mend may try: least and most, in the step's unit."),
     {0}};
 _Static_assert(offsetof(OWNER, high) == offsetof(OWNER, low) + sizeof(double), "a pair");
 
@@ -135,17 +133,15 @@ static bool check_parameter(const JsonView *view, void *item, Error *err)
     return check_range(view, p, err);
 }
 
-#define NEEDS(key, others) "{\"required\": [\"" key "\", " others "]}"
-
 const RecordFormat review_parameter_format = {
-    "parameter", sizeof(OWNER), PARAMETER, .start = start_parameter,
-    .check = check_parameter,
-    .rules = "{\"oneOf\": [" NEEDS("tilt_deg", "\"node\"") ", "
-             NEEDS("turn_deg", "\"node\"") ", " NEEDS("roll_deg", "\"node\"") ", "
-             NEEDS("shift_m", "\"node\", \"direction\"") ", "
-             NEEDS("hood_m", "\"display\"") ", " NEEDS("eye_m", "\"eye\", \"direction\"") ", "
-             NEEDS("brightness", "\"display\"") ", "
-             NEEDS("reflectance", "\"material\", \"at\"") "]}"};
+    "parameter", sizeof(OWNER), PARAMETER, .start = start_parameter, .check = check_parameter,
+    .rules = "{'oneOf': [{'required': ['tilt_deg', 'node']}, "
+             "{'required': ['turn_deg', 'node']}, {'required': ['roll_deg', 'node']}, "
+             "{'required': ['shift_m', 'node', 'direction']}, "
+             "{'required': ['hood_m', 'display']}, "
+             "{'required': ['eye_m', 'eye', 'direction']}, "
+             "{'required': ['brightness', 'display']}, "
+             "{'required': ['reflectance', 'material', 'at']}]}"};
 
 /* ---- words ------------------------------------------------------------------------------- */
 

@@ -8,37 +8,38 @@
 
 #include "base/file.h"
 #include "base/mathd.h"
+#include "record/rows.h"
 #include "review/request/request_format.h"
 
-#define MUST RECORD_REQUIRED
 #define INPUT_BYTES_MAX ((size_t)1 << 30)
 #define CLEAR_USUAL 0.05 /* precision of readings whose verdict is clear */
 #define UPRIGHT 1e-6     /* horizontal length of a unit vector: less is vertical */
 
 /* ---- the observer ------------------------------------------------------------------------ */
 
+#define OWNER HumanEye
+
 static const RecordRow OBSERVER[] = {
-    RECORD_NUMBER_ROW("age_years", HumanEye, age_years, 10, 100, NULL),
-    RECORD_NUMBER_ROW("pigment", HumanEye, pigment, 0, 1.2,
-                      "Of the iris: 0 black, 0.5 brown, 1.2 very light."),
+    NUMBER("age_years", 0, age_years, 10, 100, NULL),
+    NUMBER("pigment", 0, pigment, 0, 1.2, "Of the iris: 0 black, 0.5 brown, 1.2 very light."),
     {0}};
 
-static const RecordFormat observer_format = {"observer", sizeof(HumanEye), OBSERVER,
-                                             .doc = NULL};
+static const RecordFormat observer_format = {"observer", sizeof(OWNER), OBSERVER, .doc = NULL};
+#undef OWNER
+#define OWNER GlareSettings
 
 static const RecordRow GLARE[] = {
-    RECORD_NUMBER_ROW("threshold_cd_m2", GlareSettings, threshold_cd_m2, 1e-3, 1e9,
-                      "What is brighter is a source. Not beside task_factor."),
-    RECORD_NUMBER_ROW("task_factor", GlareSettings, task_factor, 1, 1e6,
-                      "The threshold is this times the task's mean luminance."),
-    RECORD_NUMBER_ROW("task_deg", GlareSettings, task_deg, 1, 180,
-                      "Full width of the cone about the line of sight that is the task."),
-    RECORD_NUMBER_ROW("peak_cd_m2", GlareSettings, peak_cd_m2, 1, 1e12,
-                      "What is brighter is a source apart from what surrounds it."),
-    {"low_light_factor", RECORD_FLAG, RECORD_AT(GlareSettings, low_light),
-     .doc = "DGP is multiplied by its factor below 1000 lx."},
-    {"small_source_rule", RECORD_FLAG, RECORD_AT(GlareSettings, small_sources),
-     .doc = "UGR counts sources below 0.005 m2 by CIE 147's rule."},
+    NUMBER("threshold_cd_m2", 0, threshold_cd_m2, 1e-3, 1e9,
+           "What is brighter is a source. Not beside task_factor."),
+    NUMBER("task_factor", 0, task_factor, 1, 1e6,
+           "The threshold is this times the task's mean luminance."),
+    NUMBER("task_deg", 0, task_deg, 1, 180,
+           "Full width of the cone about the line of sight that is the task."),
+    NUMBER("peak_cd_m2", 0, peak_cd_m2, 1, 1e12,
+           "What is brighter is a source apart from what surrounds it."),
+    FLAG("low_light_factor", 0, low_light, "DGP is multiplied by its factor below 1000 lx."),
+    FLAG("small_source_rule", 0, small_sources,
+         "UGR counts sources below 0.005 m2 by CIE 147's rule."),
     {0}};
 
 /* A fixed threshold or a task's: not both. */
@@ -52,23 +53,25 @@ static bool check_glare(const JsonView *view, void *item, Error *err)
 }
 
 static const RecordFormat glare_format = {
-    "glare", sizeof(GlareSettings), GLARE, .check = check_glare,
-    .rules = "{\"not\": {\"required\": [\"threshold_cd_m2\", \"task_factor\"]}}"};
+    "glare", sizeof(OWNER), GLARE, .check = check_glare,
+    .rules = "{'not': {'required': ['threshold_cd_m2', 'task_factor']}}"};
+
+#undef OWNER
 
 /* ---- how well it is read ----------------------------------------------------------------- */
 
 #define OWNER ReviewRequest
 
 static const RecordRow PRECISION[] = {
-    RECORD_NUMBER_ROW("contrast", OWNER, precision_contrast, 1e-6, 1,
-                      "Relative standard error: readings end there, whatever the verdict."),
-    RECORD_NUMBER_ROW("clear", OWNER, precision_clear, 1e-6, 1,
-                      "Where the verdict is clear before: of contrast and reflected light. At "
-                      "least contrast, which is the default where it is more."),
-    {"paths", RECORD_INTEGER, RECORD_AT(OWNER, precision_paths), RECORD_RANGE(8192, 1 << 30),
-     .doc = "Of one reading at most: what is not sure then has a wider interval."},
-    {"seed", RECORD_INTEGER, RECORD_AT(OWNER, seed), RECORD_RANGE(0, INT32_MAX),
-     .doc = "Of the random numbers: another one shows what of a figure is luck."},
+    NUMBER("contrast", 0, precision_contrast, 1e-6, 1,
+           "Relative standard error: readings end there, whatever the verdict."),
+    NUMBER("clear", 0, precision_clear, 1e-6, 1,
+           "Where the verdict is clear before: of contrast and reflected light. At least "
+           "contrast, which is the default where it is more."),
+    WHOLE("paths", 0, precision_paths, 8192, 1 << 30,
+          "Of one reading at most: what is not sure then has a wider interval."),
+    WHOLE("seed", 0, seed, 0, INT32_MAX,
+          "Of the random numbers: another one shows what of a figure is luck."),
     {0}};
 
 static bool check_precision(const JsonView *view, void *item, Error *err)
@@ -84,60 +87,55 @@ static bool check_precision(const JsonView *view, void *item, Error *err)
 static const RecordFormat precision_format = {"precision", sizeof(OWNER), PRECISION,
                                               .check = check_precision};
 
-static const RecordRow FRAMES[] = {
-    {"size", RECORD_WHOLES, RECORD_AT(ReviewFrames, width), RECORD_RANGE(1, 16384),
-     RECORD_COUNT(2, 2), .doc = "Pixels."},
-    RECORD_NUMBER_ROW("noise", ReviewFrames, noise, 1e-4, 1, "Relative error."),
-    {"worst", RECORD_INTEGER, RECORD_AT(ReviewFrames, worst), RECORD_RANGE(0, 1000),
-     .doc = "How many of the worst cases are rendered."},
-    {0}};
-_Static_assert(offsetof(ReviewFrames, height) == offsetof(ReviewFrames, width) + sizeof(int),
-               "a pair");
+#undef OWNER
+#define OWNER ReviewFrames
 
-static const RecordFormat frames_format = {"frames", sizeof(ReviewFrames), FRAMES,
-                                           .doc = NULL};
+static const RecordRow FRAMES[] = {
+    WHOLES("size", 0, width, 2, 1, 16384, "Pixels."),
+    NUMBER("noise", 0, noise, 1e-4, 1, "Relative error."),
+    WHOLE("worst", 0, worst, 0, 1000, "How many of the worst cases are rendered."),
+    {0}};
+_Static_assert(offsetof(OWNER, height) == offsetof(OWNER, width) + sizeof(int), "a pair");
+
+static const RecordFormat frames_format = {"frames", sizeof(OWNER), FRAMES, .doc = NULL};
+#undef OWNER
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
+#define OWNER ReviewRequest
+
 /* In the order in which they need each other: names before who uses them. */
 static const RecordRow REVIEW[] = {
-    RECORD_TEXT_ROW("title", OWNER, title, "Default: the file's name."),
-    {"scene", RECORD_LIST, MUST, RECORD_MANY(OWNER, scenes, scene_count), RECORD_COUNT(1, 256),
-     .of = &record_files, .doc = "The first holds the displays."},
-    {"profile", RECORD_TEXT, MUST | RECORD_FILLED, RECORD_AT(OWNER, profile),
-     .doc = "A list of limits: NAME of assets/profiles/NAME.json."},
-    {"eyes", RECORD_MAP, MUST, RECORD_MANY(OWNER, eyes, eye_count), RECORD_COUNT(1, 256),
-     .of = &review_eye_format, .doc = "Who looks, by name."},
-    {"forward", RECORD_NUMBERS, RECORD_UNIT, RECORD_AT(OWNER, forward), RECORD_RANGE(-1e6, 1e6),
-     RECORD_COUNT(3, 3), .doc = "Where the vehicle points to; not vertical."},
-    {"observer", RECORD_OBJECT, RECORD_AT(OWNER, observer), .of = &observer_format},
-    {"gaze", RECORD_LIST, RECORD_MANY(OWNER, gazes, gaze_count), RECORD_COUNT(1, 256),
-     .of = &review_gaze_format, .doc = "Default: at the symbols."},
-    {"with", RECORD_MAP, RECORD_MANY(OWNER, withs, with_count), RECORD_COUNT(1, 100),
-     .of = &review_with_format, .doc = "More of the scene by name: occupants."},
-    {"symbols", RECORD_MAP, MUST, RECORD_MANY(OWNER, symbols, symbol_count),
-     RECORD_COUNT(1, 1000), .of = &review_symbol_format, .doc = "What is to be read, by name."},
-    RECORD_NUMBER_ROW("max_level", OWNER, max_level, 1, 100,
-                      "How far panels can be driven, in times of what was measured: levels "
-                      "above 1 have to say so."),
-    {"levels", RECORD_MAP, RECORD_MANY(OWNER, levels, level_count), RECORD_COUNT(1, 1000),
-     .of = &review_level_format,
-     .doc = "How bright displays are set, 1 as measured: by display (* all others), or all by "
-            "a sensor. None above max_level."},
+    TEXT("title", 0, title, "Default: the file's name."),
+    FILES("scene", MUST, scenes, scene_count, 256, "The first holds the displays."),
+    TEXT("profile", MUST | RECORD_FILLED, profile,
+         "A list of limits: NAME of assets/profiles/NAME.json."),
+    MAP("eyes", MUST, eyes, eye_count, 256, review_eye_format, "Who looks, by name."),
+    VECTOR("forward", RECORD_UNIT, forward, 3, -1e6, 1e6,
+           "Where the vehicle points to; not vertical."),
+    OBJECT("observer", 0, observer, observer_format, NULL),
+    LIST("gaze", 0, gazes, gaze_count, 1, 256, review_gaze_format, "Default: at the symbols."),
+    MAP("with", 0, withs, with_count, 100, review_with_format,
+        "More of the scene by name: occupants."),
+    MAP("symbols", MUST, symbols, symbol_count, 1000, review_symbol_format,
+        "What is to be read, by name."),
+    NUMBER("max_level", 0, max_level, 1, 100,
+           "How far panels can be driven, in times of what was measured: levels above 1 have "
+           "to say so."),
+    MAP("levels", 0, levels, level_count, 1000, review_level_format,
+        "How bright displays are set, 1 as measured: by display (* all others), or all by a "
+        "sensor. None above max_level."),
     {"precision", RECORD_OBJECT, .of = &precision_format},
-    {"glare", RECORD_OBJECT, RECORD_AT(OWNER, glare), .of = &glare_format,
-     .doc = "How discomfort is read: UGR, DGP, DGI."},
-    {"frames", RECORD_OBJECT, RECORD_AT(OWNER, frames), .of = &frames_format},
-    {"conditions", RECORD_LIST, MUST, RECORD_MANY(OWNER, conditions, condition_count),
-     RECORD_COUNT(1, 10000), .of = &review_condition_format},
-    {"variants", RECORD_MAP, RECORD_MANY(OWNER, variants, variant_count), RECORD_COUNT(1, 100),
-     .of = &review_variant_format,
-     .doc = "The same review with something changed, by name: each is held against the review "
-            "itself."},
-    {"sensitivity", RECORD_MAP, RECORD_MANY(OWNER, parameters, parameter_count),
-     RECORD_COUNT(1, 100), .of = &review_parameter_format,
-     .doc = "Numbers that may be turned, by name: how margins hang on them; --mend NAME seeks "
-            "the smallest change that makes everything pass."},
+    OBJECT("glare", 0, glare, glare_format, "How discomfort is read: UGR, DGP, DGI."),
+    OBJECT("frames", 0, frames, frames_format, NULL),
+    LIST("conditions", MUST, conditions, condition_count, 1, 10000, review_condition_format,
+         NULL),
+    MAP("variants", 0, variants, variant_count, 100, review_variant_format,
+        "The same review with something changed, by name: each is held against the review "
+        "itself."),
+    MAP("sensitivity", 0, parameters, parameter_count, 100, review_parameter_format,
+        "Numbers that may be turned, by name: how margins hang on them; --mend NAME seeks the "
+        "smallest change that makes everything pass."),
     {0}};
 
 static void start_review(void *item)
@@ -166,14 +164,15 @@ const RecordFormat review_format = {
     .doc = "Files are relative to this one. Every name that is used (levels, with, eyes, "
            "symbols) is defined in it; displays and cameras are the scene's."};
 
-const RecordNames review_eye_names = {"eyes", "eye", offsetof(OWNER, eyes),
-                                      offsetof(OWNER, eye_count), sizeof(ReviewEye)};
-const RecordNames review_symbol_names = {"symbols", "symbol", offsetof(OWNER, symbols),
-                                         offsetof(OWNER, symbol_count), sizeof(ReviewSymbol)};
-const RecordNames review_level_names = {"levels", "level", offsetof(OWNER, levels),
-                                        offsetof(OWNER, level_count), sizeof(ReviewLevel)};
-const RecordNames review_with_names = {"with", "with", offsetof(OWNER, withs),
-                                       offsetof(OWNER, with_count), sizeof(ReviewWith)};
+#define NAMES(key, one, member, counted, Type)                                                 \
+    {key, one, offsetof(OWNER, member), offsetof(OWNER, counted), sizeof(Type)}
+
+const RecordNames review_eye_names = NAMES("eyes", "eye", eyes, eye_count, ReviewEye);
+const RecordNames review_with_names = NAMES("with", "with", withs, with_count, ReviewWith);
+const RecordNames review_symbol_names = NAMES("symbols", "symbol", symbols, symbol_count,
+                                              ReviewSymbol);
+const RecordNames review_level_names = NAMES("levels", "level", levels, level_count,
+                                             ReviewLevel);
 
 /* ---- files that are read ----------------------------------------------------------------- */
 

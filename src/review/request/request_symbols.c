@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include <string.h>
 
+#include "record/rows.h"
 #include "review/request/request_format.h"
 
 /* ---- words for all or by name ------------------------------------------------------------ */
@@ -53,21 +54,19 @@ static bool read_visible(const JsonView *view, const RecordRow *row, void *item,
     return request_read_words(view, row, optional, err);
 }
 
-static const char *const TEXT[] = {"text", NULL};
+static const char *const FOUND[] = {"text", NULL};
 
 #define OWNER ReviewSymbol
 
 static const RecordRow SYMBOL[] = {
-    {"display", RECORD_TEXT, RECORD_REQUIRED | RECORD_FILLED, RECORD_AT(OWNER, display),
-     .doc = "A material's name, or node:NAME where several nodes wear one."},
-    {"content", RECORD_FILE, RECORD_AT(OWNER, content),
-     .doc = "What the display shows; default: what it shows in the scene."},
-    {"mask", RECORD_FILE, RECORD_AT(OWNER, mask),
-     .doc = "A picture of the content's size: white is the foreground."},
-    {"uv", RECORD_NUMBERS, RECORD_AT(OWNER, uv), RECORD_RANGE(0, 1), RECORD_COUNT(4, 4),
-     .doc = "Left, top, right, bottom of the content, v down."},
-    {"polarity", RECORD_CHOICE, RECORD_AT(OWNER, polarity), .words = POLARITIES},
-    {"find", RECORD_CONST, .words = TEXT,
+    TEXT("display", MUST | RECORD_FILLED, display,
+         "A material's name, or node:NAME where several nodes wear one."),
+    A_FILE("content", 0, content,
+           "What the display shows; default: what it shows in the scene."),
+    A_FILE("mask", 0, mask, "A picture of the content's size: white is the foreground."),
+    VECTOR("uv", 0, uv, 4, 0, 1, "Left, top, right, bottom of the content, v down."),
+    CHOICE("polarity", 0, polarity, POLARITIES, NULL),
+    {"find", RECORD_CONST, .words = FOUND,
      .doc = "Symbols are proposed from what stands in the rectangle, or on all of the "
             "content."},
     {"visible", RECORD_EITHER, .forms = VISIBLE_FORMS, .read = read_visible,
@@ -101,8 +100,8 @@ static bool check_symbol(const JsonView *view, void *item, Error *err)
 
 const RecordFormat review_symbol_format = {
     "symbol", sizeof(OWNER), SYMBOL, .start = start_symbol, .check = check_symbol,
-    .rules = "{\"anyOf\": [{\"required\": [\"uv\"]}, {\"required\": [\"mask\"]}, "
-             "{\"required\": [\"find\"]}], \"not\": {\"required\": [\"mask\", \"find\"]}}"};
+    .rules = "{'anyOf': [{'required': ['uv']}, {'required': ['mask']}, "
+             "{'required': ['find']}], 'not': {'required': ['mask', 'find']}}"};
 
 /* ---- files by name ----------------------------------------------------------------------- */
 

@@ -6,15 +6,13 @@
 #include "base/file.h"
 #include "base/mathd.h"
 #include "base/units.h"
+#include "record/rows.h"
 #include "review/request/request_format.h"
 #include "text/text.h"
 
-#define MUST RECORD_REQUIRED
 #define METRES_MAX 100.0
+#define NAMES_MAX 1000
 #define BRIGHTNESS_USUAL 10.0 /* times; beyond it per cent may be meant */
-#define METRES(key, Type, member, most, flags, words)                                          \
-    {key, RECORD_NUMBERS, flags, RECORD_AT(Type, member), RECORD_RANGE(-(most), most),         \
-     RECORD_COUNT(3, 3), .doc = words}
 
 /* ---- by display -------------------------------------------------------------------------- */
 
@@ -58,14 +56,16 @@ typedef struct FinishSaid {
     double      scatters, width_deg;
 } FinishSaid;
 
+#define OWNER FinishSaid
+
 /* Wider than 20 degrees its facets lose light (shaders/display.c). */
 static const RecordRow FINISH[] = {
-    {"scatters", RECORD_NUMBER, MUST, RECORD_AT(FinishSaid, scatters), RECORD_RANGE(0, 1),
-     .doc = "Share of its mirror image that becomes haze."},
-    {"width_deg", RECORD_NUMBER, MUST, RECORD_AT(FinishSaid, width_deg), RECORD_RANGE(0.3, 20),
-     .doc = "Of the haze: full width at half its height, as it is reflected."},
+    NUMBER("scatters", MUST, scatters, 0, 1, "Share of its mirror image that becomes haze."),
+    NUMBER("width_deg", MUST, width_deg, 0.3, 20,
+           "Of the haze: full width at half its height, as it is reflected."),
     {0}};
-static const RecordFormat finish_format = {"finish", sizeof(FinishSaid), FINISH, .doc = NULL};
+static const RecordFormat finish_format = {"finish", sizeof(OWNER), FINISH, .doc = NULL};
+#undef OWNER
 
 /* ---- by material ------------------------------------------------------------------------- */
 
@@ -90,25 +90,25 @@ static bool read_patch(const JsonView *view, const RecordRow *row, void *item, E
     static const char *const VALUE##_WORDS[] = {said};                                         \
     static const RecordRow VALUE = {.kind = RECORD_OWN, .read = read_patch,                    \
                                     .words = VALUE##_WORDS,                                    \
-                                    .schema = "{\"type\": " kinds "}"};                        \
+                                    .schema = "{'type': " kinds "}"};                        \
     static const RecordFormat name = {#name, sizeof(PatchSaid), .value = &VALUE}
 
-PATCH_FORMAT(coating_format, COATING, "[\"object\", \"string\", \"null\"]",
+PATCH_FORMAT(coating_format, COATING, "['object', 'string', 'null']",
              "an object, a stack's name or null");
-PATCH_FORMAT(glazing_format, GLAZING, "[\"object\", \"null\"]", "an object or null");
-PATCH_FORMAT(material_format, MATERIAL, "\"object\"", "an object, merged into the material");
+PATCH_FORMAT(glazing_format, GLAZING, "['object', 'null']", "an object or null");
+PATCH_FORMAT(material_format, MATERIAL, "'object'", "an object, merged into the material");
 
 /* ---- by node, by eye --------------------------------------------------------------------- */
 
 #define OWNER SceneHinge
 
 static const RecordRow HINGE[] = {
-    METRES("axis", OWNER, axis, 1e6, MUST | RECORD_UNIT | RECORD_FLOAT,
+    VECTOR("axis", MUST | RECORD_UNIT | RECORD_FLOAT, axis, 3, -1e6, 1e6,
            "In the scene's axes; of any length but 0."),
-    METRES("through_m", OWNER, through_m, 1e6, RECORD_OPEN,
+    VECTOR("through_m", RECORD_OPEN, through_m, 3, -1e6, 1e6,
            "A point of the axis, m; default: the node's own origin."),
-    {"angle_deg", RECORD_NUMBER, MUST | RECORD_RADIANS | RECORD_FLOAT, RECORD_AT(OWNER, angle),
-     RECORD_RANGE(-180, 180), .doc = "Anticlockwise as seen against the axis."},
+    NUMBER("angle_deg", MUST | RECORD_RADIANS | RECORD_FLOAT, angle, -180, 180,
+           "Anticlockwise as seen against the axis."),
     {0}};
 
 static bool check_hinge(const JsonView *view, void *item, Error *err)
@@ -122,18 +122,17 @@ static const RecordFormat hinge_format = {"hinge", sizeof(OWNER), HINGE, .check 
 #undef OWNER
 #define OWNER SceneChange
 #define ANGLE(key, member, words)                                                              \
-    {key, RECORD_NUMBER, RECORD_RADIANS | RECORD_FLOAT, RECORD_AT(OWNER, member),              \
-     RECORD_RANGE(-180, 180), .doc = words}
+    NUMBER(key, RECORD_RADIANS | RECORD_FLOAT, member, -180, 180, words)
 
 static const RecordRow NODE[] = {
     ANGLE("tilt_deg", tilt, "Its face turns up, about its middle and its own level axis."),
     ANGLE("turn_deg", turn, "To the right of who faces it."),
     ANGLE("roll_deg", roll, "Clockwise, as seen by who faces it."),
-    METRES("move_m", OWNER, move_m, METRES_MAX, RECORD_FLOAT, "In the scene's axes."),
-    {"with", RECORD_TEXTS, RECORD_MANY(OWNER, with, with_count), RECORD_COUNT(1, 1000),
+    VECTOR("move_m", RECORD_FLOAT, move_m, 3, -METRES_MAX, METRES_MAX, "In the scene's axes."),
+    {"with", RECORD_TEXTS, RECORD_MANY(OWNER, with, with_count), RECORD_COUNT(1, NAMES_MAX),
      .doc = "Nodes of the same file that move along: glass, rim."},
-    {"hinge", RECORD_OBJECT, RECORD_AT(OWNER, hinge), .of = &hinge_format,
-     .doc = "It turns about this axis, as a door that opens, after tilt, turn and roll."},
+    OBJECT("hinge", 0, hinge, hinge_format,
+           "It turns about this axis, as a door that opens, after tilt, turn and roll."),
     {0}};
 static const RecordFormat node_format = {"node", sizeof(OWNER), NODE, .doc = NULL};
 #undef OWNER
@@ -143,10 +142,13 @@ typedef struct EyeMove {
     double      move_m[3];
 } EyeMove;
 
+#define OWNER EyeMove
+
 static const RecordRow EYE_MOVE[] = {
-    METRES("move_m", EyeMove, move_m, METRES_MAX, MUST, "In the scene's axes."),
+    VECTOR("move_m", MUST, move_m, 3, -METRES_MAX, METRES_MAX, "In the scene's axes."),
     {0}};
-static const RecordFormat eye_format = {"eye_move", sizeof(EyeMove), EYE_MOVE, .doc = NULL};
+static const RecordFormat eye_format = {"eye_move", sizeof(OWNER), EYE_MOVE, .doc = NULL};
+#undef OWNER
 
 /* ---- a variant as the file has it -------------------------------------------------------- */
 
@@ -154,11 +156,14 @@ typedef struct MirrorSaid {
     double middle_m;
 } MirrorSaid;
 
+#define OWNER MirrorSaid
+
 static const RecordRow MIRROR[] = {
-    RECORD_NUMBER_ROW("middle_m", MirrorSaid, middle_m, -METRES_MAX, METRES_MAX,
-                      "Where its middle plane stands, to the right of the scene's origin, m."),
+    NUMBER("middle_m", 0, middle_m, -METRES_MAX, METRES_MAX,
+           "Where its middle plane stands, to the right of the scene's origin, m."),
     {0}};
-static const RecordFormat mirror_format = {"mirror", sizeof(MirrorSaid), MIRROR, .doc = NULL};
+static const RecordFormat mirror_format = {"mirror", sizeof(OWNER), MIRROR, .doc = NULL};
+#undef OWNER
 
 typedef struct VariantSaid {
     const SceneOverride    *panels;
@@ -178,17 +183,13 @@ typedef struct VariantSaid {
 
 #define OWNER VariantSaid
 #define BY_NAME(key, member, counted, format, words)                                           \
-    {key, RECORD_MAP, RECORD_MANY(OWNER, member, counted), RECORD_COUNT(1, 1000),              \
-     .of = &format, .doc = words}
-#define FILES(key, member, counted, words)                                                     \
-    {key, RECORD_LIST, RECORD_MANY(OWNER, member, counted), RECORD_COUNT(1, 256),              \
-     .of = &record_files, .doc = words}
+    MAP(key, 0, member, counted, NAMES_MAX, format, words)
 
 static const RecordRow VARIANT[] = {
     BY_NAME("panels", panels, panel_count, panel_format, "By display: its panel."),
     BY_NAME("contents", contents, content_count, review_content_format,
             "By display: what it shows, in every condition."),
-    {"levels", RECORD_MAP, RECORD_MANY(OWNER, levels, level_count), RECORD_COUNT(1, 1000),
+    {"levels", RECORD_MAP, RECORD_MANY(OWNER, levels, level_count), RECORD_COUNT(1, NAMES_MAX),
      .among = &review_level_names, .of = &review_level_format,
      .doc = "They take the places of the review's of their names."},
     BY_NAME("brightness", brightness, brightness_count, brightness_format,
@@ -207,18 +208,18 @@ static const RecordRow VARIANT[] = {
             "By display: a hood that reaches so far out, m."),
     BY_NAME("finishes", finishes, finish_count, finish_format,
             "By display: a matte surface in place of its clear one. Modelled."),
-    {"mirror", RECORD_OBJECT, RECORD_APART, RECORD_AT(OWNER, mirror), .of = &mirror_format,
-     .doc = "A right-hand drive of a left-hand one: all of the scene, lamps and people "
-            "included, eyes and sensors are mirrored at the vehicle's vertical middle plane. "
-            "Displays keep their panels and contents as they are. Sun and sky stay."},
-    {"eyes", RECORD_MAP, RECORD_MANY(OWNER, eyes, eye_count), RECORD_COUNT(1, 1000),
+    OBJECT("mirror", RECORD_APART, mirror, mirror_format,
+           "A right-hand drive of a left-hand one: all of the scene, lamps and people "
+           "included, eyes and sensors are mirrored at the vehicle's vertical middle plane. "
+           "Displays keep their panels and contents as they are. Sun and sky stay."),
+    {"eyes", RECORD_MAP, RECORD_MANY(OWNER, eyes, eye_count), RECORD_COUNT(1, NAMES_MAX),
      .among = &review_eye_names, .of = &eye_format, .doc = "By eye: where it is moved."},
-    FILES("scene", scenes, scene_count, "Instead of the review's."),
-    FILES("add", more, more_count, "More files of the scene."),
+    FILES("scene", 0, scenes, scene_count, 256, "Instead of the review's."),
+    FILES("add", 0, more, more_count, 256, "More files of the scene."),
     {0}};
 
 static const RecordFormat said_format = {"variant", sizeof(OWNER), VARIANT,
-                                         .rules = "{\"minProperties\": 1}"};
+                                         .rules = "{'minProperties': 1}"};
 
 /* ---- and what it changes ----------------------------------------------------------------- */
 
@@ -425,8 +426,8 @@ static bool read_variant(const JsonView *view, const RecordRow *row, void *item,
     VariantSaid said = {.panels = NULL};
     if (!json_view_child(view, row->key, true, &inside, err)) return false;
     if (!json_object_size(inside.object))
-        return record_fails(view, row->key, err,
-                            "changes nothing, required: one of 'panels', 'levels', 'nodes' ...");
+        return record_fails(view, row->key, err, "changes nothing, required: one of 'panels', "
+                            "'levels', 'nodes' ...");
     if (!record_read(&inside, &said_format, &said, err)) return false;
     make_variant(&inside, &said, item);
     return true;
