@@ -249,7 +249,7 @@ TEST(conditions_are_checked)
          "stands without 'route'"},
         {"'route':'r.csv'", "'route':'r.csv','heading_deg':7", "/conditions/2/heading_deg",
          "stands beside 'route', required: the route's own headings alone"},
-        {"'route':'r.csv'", "'route':'r.csv','sweep':{}", "/conditions/2",
+        {"'route':'r.csv'", "'route':'r.csv','sweep':{'year':2026,'where':[0,0]}", "/conditions/2",
          "has both 'route' and 'sweep', required: one of them"},
         {"2028-02-28T23:59:59+01:00", "2028-02-28T23:59:59", "/conditions/2/when",
          "is no moment, required: a date, time and zone"},

@@ -167,12 +167,18 @@ static bool check_headings(const JsonView *view, const ReviewCondition *conditio
     return true;
 }
 
-static bool check_year(const JsonView *view, void *item, Error *err)
+/* What is not said: each hour, heading north, where the weather was measured. */
+static bool check_year(const JsonView *view, ReviewCondition *condition, Error *err)
 {
+    static const double  NORTH[1];
     const ReviewRequest *request = view->whole;
-    ReviewCondition     *condition = item;
     if (!check_weather(view, condition, err) || !check_headings(view, condition, err))
         return false;
+    if (!has(view, "step_minutes")) condition->step_minutes = 60;
+    if (!has(view, "headings_deg")) {
+        condition->headings_deg = NORTH;
+        condition->heading_count = 1;
+    }
     if (has(view, "where")) return true;
     if (condition->weather_id == NO_ID)
         return error_at(err, ERROR_INPUT, view->file, view->path, "key 'where' is missing");
@@ -180,64 +186,48 @@ static bool check_year(const JsonView *view, void *item, Error *err)
     return true;
 }
 
-static const RecordRow YEAR[] = {
-    WHOLE("year", MUST, year, 1900, 2100, NULL),
-    {"where", RECORD_NUMBERS, RECORD_RANGE(-500, 60000), RECORD_COUNT(2, 3), .read = read_place,
-     .doc = "Latitude (degrees north), longitude (degrees east), altitude (m); default: the "
-            "weather file's."},
-    NUMBER("step_minutes", 0, step_minutes, 0.5, 1440, NULL),
-    FIGURES("headings_deg", 0, headings_deg, heading_count, 1, 3600, -360, 360, "None twice."),
-    WEATHER_ROWS,
-    FLAG("night", 0, with_night, "Whether hours without sun count too."),
-    {0}};
-
-static void start_year(void *item)
-{
-    static const double NORTH[1];
-    ReviewCondition    *condition = item;
-    condition->step_minutes = 60;
-    condition->headings_deg = NORTH;
-    condition->heading_count = 1;
-}
-
-static const RecordFormat year_format = {
-    "year", sizeof(OWNER), YEAR, .start = start_year, .check = check_year,
-    .rules = "{'dependentRequired': {'weather_lux': ['weather']}, "
-             "'anyOf': [{'required': ['where']}, {'required': ['weather']}]}"};
-
 /* ---- a sweep ----------------------------------------------------------------------------- */
 
 static const char *const SKY[] = {"sky", NULL};
 
-static const RecordRow SUNS[] = {
-    {"sun", RECORD_OBJECT, MUST, .of = &sun_format},
-    {"sky", RECORD_CONST, .words = SKY, .doc = "The clear atmosphere."},
+static const RecordRow SWEEP[] = {
+    {"sun", RECORD_OBJECT, .of = &sun_format, .doc = "Over its directions, in a clear sky."},
+    {"sky", RECORD_CONST, .words = SKY, .doc = "Beside sun: the clear atmosphere."},
+    WHOLE("year", RECORD_OPEN, year, 1900, 2100, "Over its hours; the rest stands beside it."),
+    {"where", RECORD_NUMBERS, RECORD_RANGE(-500, 60000), RECORD_COUNT(2, 3), .read = read_place,
+     .doc = "Latitude (degrees north), longitude (degrees east), altitude (m); default: the "
+            "weather file's."},
+    NUMBER("step_minutes", 0, step_minutes, 0.5, 1440, "Default: 60."),
+    FIGURES("headings_deg", 0, headings_deg, heading_count, 1, 3600, -360, 360,
+            "None twice; default: north."),
+    WEATHER_ROWS,
+    FLAG("night", 0, with_night, "Whether hours without sun count too."),
     {0}};
-static const RecordFormat suns_format = {"suns", sizeof(OWNER), SUNS, .doc = NULL};
-
-static const RecordRow SWEEPS[] = {
-    {"over the sun's direction", RECORD_OBJECT, .of = &suns_format},
-    {"over a year", RECORD_OBJECT, .of = &year_format},
-    {0}};
+#define OF_SUN 2 /* rows */
 
 /* Sets the condition's kind and what belongs to it. */
-static bool read_sweep(const JsonView *view, const RecordRow *row, void *item, Error *err)
+static bool check_sweep(const JsonView *view, void *item, Error *err)
 {
-    JsonView         sweep;
     ReviewCondition *condition = item;
-    if (has(view, "route"))
+    bool             has_sun = has(view, "sun");
+    if (has_sun == has(view, "year"))
         return error_at(err, ERROR_INPUT, view->file, view->path,
-                        "has both 'route' and 'sweep', required: one of them");
-    if (!json_view_child(view, row->key, true, &sweep, err)) return false;
-    bool has_sun = has(&sweep, "sun");
-    if (has_sun == has(&sweep, "year"))
-        return error_at(err, ERROR_INPUT, view->file, sweep.path,
                         "has %s, required: one of 'sun' and 'year'",
                         has_sun ? "both" : "neither");
+    for (int i = 0; SWEEP[i].key; i++)
+        if (has(view, SWEEP[i].key) && (i < OF_SUN) != has_sun)
+            return record_fails(view, SWEEP[i].key, err, "stands beside '%s', required: '%s'",
+                                has_sun ? "sun" : "year", has_sun ? "year" : "sun");
     condition->kind = has_sun ? CONDITION_SUN_SWEEP : CONDITION_YEAR_SWEEP;
-    if (!has_sun) start_year(condition);
-    return record_read(&sweep, has_sun ? &suns_format : &year_format, item, err);
+    return has_sun || check_year(view, condition, err);
 }
+
+static const RecordFormat sweep_format = {
+    "sweep", sizeof(OWNER), SWEEP, .check = check_sweep,
+    .rules = "{'oneOf': [{'required': ['sun']}, {'required': ['year'], "
+             "'anyOf': [{'required': ['where']}, {'required': ['weather']}]}], "
+             "'dependentRequired': {'sky': ['sun'], 'weather_lux': ['weather'], "
+             "'weather': ['year'], 'night': ['year']}}"};
 
 /* ---- a route ----------------------------------------------------------------------------- */
 
@@ -357,7 +347,7 @@ static const RecordRow CONDITION[] = {
     {"when", RECORD_TEXT, .read = read_when,
      .doc = "When the route begins, with its zone; default: as its file says."},
     WEATHER_ROWS,
-    {"sweep", RECORD_EITHER, .forms = SWEEPS, .read = read_sweep},
+    {"sweep", RECORD_OBJECT, .of = &sweep_format},
     OBJECT("sunglasses", RECORD_APART, glasses, review_glasses_format,
            "What the observer wears; default: none."),
     {"environment", RECORD_OWN, .read = read_environment,
@@ -375,6 +365,9 @@ static bool check_together(const JsonView *view, const ReviewCondition *conditio
 {
     static const char *const of_routes[] = {"weather", "weather_lux"};
     const ReviewGlasses     *glasses = condition->glasses;
+    if (has(view, "route") && has(view, "sweep"))
+        return error_at(err, ERROR_INPUT, view->file, view->path,
+                        "has both 'route' and 'sweep', required: one of them");
     for (int i = 0; i < 2 && !has(view, "route"); i++)
         if (has(view, of_routes[i]))
             return record_fails(view, of_routes[i], err, "stands without 'route', required: "
