@@ -86,7 +86,7 @@ static bool read_index(const JsonView *view, const RecordRow *row, void *item, E
 #define OWNER JobPart
 static const RecordRow PART_ROWS[] = {
     {"index", RECORD_OWN, MUST, .read = read_index,
-     .schema = "{\"type\": \"integer\", \"minimum\": 0}", .doc = "Its place in the list."},
+     .schema = "{'type': 'integer', 'minimum': 0}", .doc = "Its place in the list."},
     NOTE("file", MUST, "What it becomes."),
     NOTE("command", MUST, "That makes it."),
     WHOLES("samples", 0, first_sample, 2, 0, FILM_SAMPLES_MAX, "Half-open; of a frame."),
@@ -97,7 +97,44 @@ _Static_assert(sizeof(FilmRect) == 4 * sizeof(int), "a crop is four whole number
 _Static_assert(offsetof(JobPart, end_sample) == offsetof(JobPart, first_sample) + sizeof(int),
                "a pair");
 
-static const RecordFormat part_format = {"part", sizeof(JobPart), PART_ROWS, .doc = NULL};
+/* Some keys have to be there in a frame's job, and in no other. */
+static bool check_frame_key(const JsonView *view, const char *key, Error *err)
+{
+    bool is_frame = ((const SharedJob *)view->whole)->kind == JOB_FRAME;
+    bool is_there = json_object_get(view->object, key) != NULL;
+    if (is_there == is_frame) return true;
+    return is_there ? record_fails(view, key, err, "unknown key: it is of a frame, required: "
+                                   "none of a review")
+                    : error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing",
+                               key);
+}
+
+static bool check_part(const JsonView *view, void *item, Error *err)
+{
+    const SharedJob *job = view->whole;
+    const JobPart   *part = item;
+    const FilmRect   crop = part->crop;
+    if (!check_frame_key(view, "samples", err) || !check_frame_key(view, "crop", err))
+        return false;
+    if (job->kind != JOB_FRAME) return true;
+    if (part->first_sample >= part->end_sample)
+        return record_fails(view, "samples", err, "is %u to %u, required: a range",
+                            part->first_sample, part->end_sample);
+    return (crop.x0 < crop.x1 && crop.y0 < crop.y1 && crop.x1 <= job->width &&
+            crop.y1 <= job->height) ||
+           record_fails(view, "crop", err, "required: X0,Y0,X1,Y1 inside the frame of %dx%d "
+                        "pixels", job->width, job->height);
+}
+
+static const RecordFormat part_format = {"part", sizeof(JobPart), PART_ROWS,
+                                         .check = check_part};
+
+/* What a part is checked against is there before. */
+static bool read_parts(const JsonView *view, const RecordRow *row, void *item, Error *err)
+{
+    return check_frame_key(view, "size", err) && check_frame_key(view, "keeps_sums", err) &&
+           record_read_kind(view, row, item, err);
+}
 
 static const char *const FORMATS[] = {FORMAT, NULL};
 
@@ -116,40 +153,13 @@ static const RecordRow JOB[] = {
     FLAG("keeps_sums", 0, keeps_sums, "The frame is itself a part."),
     {"words", RECORD_TEXTS, MUST, RECORD_AT(OWNER, words), .least = 1, .most = WORDS_MAX,
      .count = offsetof(OWNER, word_count), .doc = "Arguments that all parts have."},
-    LIST("parts", MUST, parts, part_count, 1, JOB_PARTS_MAX, part_format, NULL),
+    {"parts", RECORD_LIST, MUST, RECORD_MANY(OWNER, parts, part_count),
+     RECORD_COUNT(1, JOB_PARTS_MAX), .of = &part_format, .read = read_parts},
     NOTE("merge", MUST, "The command that makes the frame or the review."),
     {0}};
 #undef OWNER
 _Static_assert(offsetof(SharedJob, height) == offsetof(SharedJob, width) + sizeof(int),
                "a pair");
-
-/* Some keys have to be there in a frame's job, and in no other. */
-static bool check_frame_key(const JsonView *view, const SharedJob *job, const char *key,
-                            Error *err)
-{
-    bool is_there = json_object_get(view->object, key) != NULL, is_frame = !job->kind;
-    if (is_there == is_frame) return true;
-    return is_there ? record_fails(view, key, err, "unknown key: it is of a frame, required: "
-                                   "none of a review")
-                    : error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing",
-                               key);
-}
-
-static bool check_part(const JsonView *view, const SharedJob *job, const JobPart *part,
-                       Error *err)
-{
-    const FilmRect crop = part->crop;
-    if (!check_frame_key(view, job, "samples", err) || !check_frame_key(view, job, "crop", err))
-        return false;
-    if (job->kind != JOB_FRAME) return true;
-    if (part->first_sample >= part->end_sample)
-        return record_fails(view, "samples", err, "is %u to %u, required: a range",
-                            part->first_sample, part->end_sample);
-    return (crop.x0 < crop.x1 && crop.y0 < crop.y1 && crop.x1 <= job->width &&
-            crop.y1 <= job->height) ||
-           record_fails(view, "crop", err, "required: X0,Y0,X1,Y1 inside the frame of %dx%d "
-                        "pixels", job->width, job->height);
-}
 
 static bool check_path(const JsonView *view, const char *key, const char *path, Error *err)
 {
@@ -160,29 +170,19 @@ static bool check_path(const JsonView *view, const char *key, const char *path, 
 static bool check(const JsonView *view, void *item, Error *err)
 {
     const SharedJob *job = item;
-    if (!check_path(view, "program", job->program, err) ||
-        !check_path(view, "folder", job->folder, err) ||
-        !check_frame_key(view, job, "size", err) ||
-        !check_frame_key(view, job, "keeps_sums", err))
-        return false;
-    for (int i = 0; i < job->part_count; i++) {
-        JsonView part = *view;
-        part.object = json_array_get(json_object_get(view->object, "parts"), (size_t)i);
-        part.path = arena_format(view->arena, "/parts/%d", i);
-        if (!check_part(&part, job, &job->parts[i], err)) return false;
-    }
-    return true;
+    return check_path(view, "program", job->program, err) &&
+           check_path(view, "folder", job->folder, err);
 }
 
 const RecordFormat job_format = {
     "job", sizeof(SharedJob), JOB, .check = check,
-    .rules = "{\"allOf\": [{\"properties\": {\"program\": {\"pattern\": \"^/\"}, "
-             "\"folder\": {\"pattern\": \"^/\"}}}], "
-             "\"if\": {\"properties\": {\"kind\": {\"const\": \"frame\"}}}, "
-             "\"then\": {\"required\": [\"size\", \"keeps_sums\"], \"properties\": {\"parts\": "
-             "{\"items\": {\"required\": [\"samples\", \"crop\"]}}}}, "
-             "\"else\": {\"properties\": {\"size\": false, \"keeps_sums\": false, \"parts\": "
-             "{\"items\": {\"properties\": {\"samples\": false, \"crop\": false}}}}}}",
+    .rules = "{'allOf': [{'properties': {'program': {'pattern': '^/'}, "
+             "'folder': {'pattern': '^/'}}}], "
+             "'if': {'properties': {'kind': {'const': 'frame'}}}, "
+             "'then': {'required': ['size', 'keeps_sums'], 'properties': {'parts': "
+             "{'items': {'required': ['samples', 'crop']}}}}, "
+             "'else': {'properties': {'size': false, 'keeps_sums': false, 'parts': "
+             "{'items': {'properties': {'samples': false, 'crop': false}}}}}}",
     .doc = "assets/schemas/job.md explains the keys."};
 
 bool job_manifest_is_there(const char *dir, Arena scratch)

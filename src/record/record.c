@@ -367,7 +367,8 @@ static bool read_either(const JsonView *view, const RecordRow *row, void *item, 
     for (const RecordRow *form = row->forms; form->key; form++) {
         RecordRow own = *form;
         own.key = row->key;
-        if (is_of(value, form->kind)) return record_read_value(view, &own, item, err);
+        if (is_of(value, form->kind))
+            return record_read_value(view, &own, at_offset(item, row->offset), err);
         required = arena_format(view->arena, "%s%s%s", required, *required ? " or " : "",
                                 form->key);
     }
@@ -393,6 +394,8 @@ bool record_read_kind(const JsonView *view, const RecordRow *row, void *item, Er
     case RECORD_WORD: return read_word(view, row, &place, at, err);
     case RECORD_CONST: return read_const(view, row, err);
     case RECORD_FILE: return read_file(view, row, at, err);
+    case RECORD_PATH:
+        return read_text(view, row, &word, err) && json_view_file(view, row->key, word, at, err);
     case RECORD_REFER: return read_refer(view, row, at, err);
     case RECORD_OBJECT: return read_object(view, row, item, err);
     case RECORD_LIST:

@@ -112,7 +112,8 @@ static json_t *value_schema(const RecordRow *row, const void *item)
     case RECORD_FIGURES: return list_schema(row, number_schema(row));
     case RECORD_FLAG: return kind("boolean");
     case RECORD_TEXT:
-    case RECORD_NOTE: return text_schema(row);
+    case RECORD_NOTE:
+    case RECORD_PATH: return text_schema(row);
     case RECORD_TEXTS: return list_schema(row, kind("string"));
     case RECORD_CHOICE:
     case RECORD_WORD: return choice_schema(row);

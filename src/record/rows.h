@@ -34,6 +34,8 @@
     {key, RECORD_FLAG, flag, RECORD_AT(OWNER, member), .doc = words}
 #define TEXT(key, flag, member, words)                                                         \
     {key, RECORD_TEXT, flag, RECORD_AT(OWNER, member), .doc = words}
+#define PATH(key, flag, member, words)                                                         \
+    {key, RECORD_PATH, flag, RECORD_AT(OWNER, member), .doc = words}
 #define NOTE(key, flag, words) {key, RECORD_NOTE, flag, .doc = words}
 #define CHOICE(key, flag, member, list, words_doc)                                             \
     {key, RECORD_CHOICE, flag, RECORD_AT(OWNER, member), .words = list, .doc = words_doc}

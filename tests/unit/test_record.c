@@ -79,7 +79,8 @@ static json_t *of_another_kind(const RecordRow *row)
     bool is_text = row->kind == RECORD_TEXT || row->kind == RECORD_CHOICE ||
                    row->kind == RECORD_WORD || row->kind == RECORD_OWN ||
                    row->kind == RECORD_NOTE || row->kind == RECORD_FILE ||
-                   row->kind == RECORD_REFER || (row->kind == RECORD_CONST && row->words);
+                   row->kind == RECORD_REFER || row->kind == RECORD_PATH ||
+                   (row->kind == RECORD_CONST && row->words);
     if (row->kind == RECORD_EITHER) return json_true();
     return is_text ? json_integer(7) : json_string("seven");
 }
