@@ -49,6 +49,12 @@ def extension_objects(node, path=""):
             yield from extension_objects(value, f"{path}/{key}")
 
 
+def written(program, name):
+    """The schema that the program writes from the rows that it reads a format by."""
+    return json.loads(subprocess.run([program, "schema", name], capture_output=True,
+                                     check=True).stdout)
+
+
 def check_scene(report, known, scene):
     document = load(scene)
     used = set(document.get("extensionsUsed", []))
@@ -323,9 +329,8 @@ def main():
         report.claim(name in known, f"assets/schemas holds no valid schema of {name}")
     check_can_fail(report, known)
     def schema_of(name):
-        if name in ("profile", "recipe", "equip"): # from the rows that the program reads by
-            schema = json.loads(subprocess.run([program, "schema", name], capture_output=True,
-                                               check=True).stdout)
+        if name in ("profile", "recipe", "equip", "review"):
+            schema = written(program, name)
         else:
             schema = load(os.path.join(ROOT, f"assets/schemas/{name}.schema.json"))
         schema = with_references(schema)
