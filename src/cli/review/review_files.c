@@ -14,7 +14,7 @@
 #include "review/output/review_answer.h"
 #include "review/output/review_card.h"
 #include "review/output/review_decide.h"
-#include "review/export/review_json_read.h"
+#include "review/output/review_json.h"
 #include "review/output/review_words.h"
 #include "text/text.h"
 

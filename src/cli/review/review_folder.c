@@ -17,7 +17,6 @@
 #include "review/export/review_csv.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_json.h"
-#include "review/export/review_json_read.h"
 #include "review/export/review_junit.h"
 #include "review/output/review_words.h"
 #include "text/text.h"
