@@ -396,7 +396,8 @@ bool record_read_kind(const JsonView *view, const RecordRow *row, void *item, Er
     case RECORD_CONST: return read_const(view, row, err);
     case RECORD_FILE: return read_file(view, row, at, err);
     case RECORD_PATH:
-        return read_text(view, row, &word, err) && json_view_file(view, row->key, word, at, err);
+        return read_text(view, row, &word, err) &&
+               json_view_file(view, row->key, word, at, err);
     case RECORD_REFER: return read_refer(view, row, at, err);
     case RECORD_OBJECT: return read_object(view, row, item, err);
     case RECORD_LIST:

@@ -37,15 +37,15 @@ typedef enum RecordKind {
     RECORD_CONST,   /* nothing is kept: the text is words[0], or the number is low */
     RECORD_FILE,    /* const char *: the path of a file that can be read. In the document it is
                        a relative URI, percent-encoded (base/reference.h says how far) */
-    RECORD_PATH,    /* const char *: a path as it stands, seen from the document's folder; nobody
-                       looks whether it is there */
+    RECORD_PATH,    /* const char *: a path as it stands, seen from the document's folder; it
+                       need not be there */
     RECORD_REFER,   /* int: the place of a name in a list that was read before, `among` */
     RECORD_OBJECT,  /* a struct `of`, in place; if `count` is given, the bool there: is it? */
     RECORD_LIST,    /* const struct *, least to most of them; int at `count` */
     RECORD_MAP,     /* the same, by names: the first member of each struct, const char *. With
                        `among` each is a name of that list */
-    RECORD_EITHER,  /* one of `forms`: the first of the value's JSON type; a form's offset counts
-                       from the row's */
+    RECORD_EITHER,  /* one of `forms`: the first of the value's JSON type. A form's offset
+                       counts from the row's */
     RECORD_OWN      /* whatever `read` makes of it; `schema` is its JSON Schema. NULL: it is one
                        of `words` */
 } RecordKind;
