@@ -46,8 +46,8 @@ typedef enum RecordKind {
                        `among` each is a name of that list */
     RECORD_EITHER,  /* one of `forms`: the first of the value's JSON type. A form's offset
                        counts from the row's */
-    RECORD_OWN      /* whatever `read` makes of it; `schema` is its JSON Schema. NULL: it is one
-                       of `words` */
+    RECORD_OWN      /* whatever `read` makes of it; `schema` is its JSON Schema. NULL: that of
+                       `of`, or one of `words` */
 } RecordKind;
 
 enum RecordFlags {

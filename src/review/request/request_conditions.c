@@ -7,6 +7,7 @@
 #include "base/units.h"
 #include "record/rows.h"
 #include "review/request/request_format.h"
+#include "scene/check/our_extensions.h"
 #include "scene/load/environment.h"
 
 #define OWNER ReviewCondition
@@ -351,7 +352,7 @@ static const RecordRow CONDITION[] = {
     OBJECT("sunglasses", RECORD_APART, glasses, review_glasses_format,
            "What the observer wears; default: none."),
     {"environment", RECORD_OWN, .read = read_environment,
-     .schema = "{'$ref': 'scene.PARHELION_environment.schema.json'}"},
+     .of = &environment_extension},
     {0}};
 
 static void start_condition(void *item)
