@@ -86,8 +86,9 @@ static bool read_ambients(const JsonView *view, const RecordRow *row, void *item
 static bool read_unit(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
     const LimitKindFacts *kind = &limit_kinds[((ProfileLimit *)item)->kind];
-    const char           *unit = NULL;
-    if (!json_view_text(view, row->key, &unit, err)) return false;
+    RecordRow             text = {.key = row->key, .kind = RECORD_TEXT};
+    const char           *unit;
+    if (!record_read_kind(view, &text, &unit, err)) return false;
     return !strcmp(unit, kind->unit) ||
            record_fails(view, row->key, err, "is '%.60s', required: '%s' for %s", unit,
                         kind->unit, kind->name);

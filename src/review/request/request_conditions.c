@@ -40,8 +40,9 @@ static bool read_weather(const JsonView *view, const RecordRow *row, void *item,
 {
     const ReviewRequest *request = view->whole;
     int                 *weather_id = &((ReviewCondition *)item)->weather_id;
+    RecordRow            word = {.key = row->key, .kind = RECORD_TEXT};
     const char          *text, *path;
-    if (!json_view_text(view, row->key, &text, err)) return false;
+    if (!record_read_kind(view, &word, &text, err)) return false;
     if (!strcmp(text, "clear")) return true;
     if (strcmp(path_ending(text), ".epw"))
         return record_fails(view, row->key, err,
@@ -296,7 +297,7 @@ static bool read_environment(const JsonView *view, const RecordRow *row, void *i
     JsonView             inside;
     ReviewCondition     *condition = item;
     const ReviewRequest *request = view->whole;
-    if (!json_view_child(view, row->key, true, &inside, err) ||
+    if (!json_view_child(view, row->key, &inside, err) ||
         !check_directions(view, &inside, condition, err))
         return false;
     char *text = json_dumps(inside.object, JSON_COMPACT);
