@@ -108,15 +108,6 @@ struct RecordRow {
     .count = offsetof(Type, counted)
 #define RECORD_COUNT(fewest, greatest) .least = (fewest), .most = (greatest)
 
-/* Usual rows, short enough for one line. */
-#define RECORD_NUMBER_ROW(key, Type, member, bottom, top, words)                               \
-    {key, RECORD_NUMBER, RECORD_AT(Type, member), RECORD_RANGE(bottom, top), .doc = words}
-#define RECORD_PAIR_ROW(key, Type, member, bottom, top, words)                                 \
-    {key, RECORD_NUMBERS, RECORD_AT(Type, member), RECORD_RANGE(bottom, top), .least = 2,      \
-     .most = 2, .doc = words}
-#define RECORD_TEXT_ROW(key, Type, member, words)                                              \
-    {key, RECORD_TEXT, RECORD_AT(Type, member), .doc = words}
-
 struct RecordFormat {
     const char      *name;  /* in a schema's "$defs" */
     size_t           size;  /* of the struct */
