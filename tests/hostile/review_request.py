@@ -280,6 +280,8 @@ def check_whole(report, requests):
     report.claim(status == 0 and not said, f"the good request: status {status}: {said}")
     said_keys = {key for place in places(GOOD) for key in place if isinstance(key, str)}
     schema = written(requests.program, "review")
+    # its members are the scene's, which other tests say
+    schema["properties"]["conditions"]["items"]["properties"]["environment"] = {}
     said_keys.add("threshold_cd_m2")  # not beside task_factor
     missing = set(keys_of(schema)) - said_keys
     report.claim(not missing, f"the good request does not say {sorted(missing)}")
