@@ -464,4 +464,21 @@ LAB_TEST(the_readme_names_every_key_and_format)
             fail_msg("no format %s", importers[i]->name);
 }
 
+/* The command line's keys and words are those of a file. */
+LAB_TEST(a_declaration_file_has_every_key_of_a_text_declaration)
+{
+    for (int i = 0; i < text_key_count; i++) {
+        const RecordRow *row = import_format.rows;
+        char             values[256], word[64], *rest = values, *value;
+        while (row->key && strcmp(row->key, text_keys[i].key) != 0) row++;
+        if (!row->key) fail_msg("no row %s", text_keys[i].key);
+        snprintf(values, sizeof values, "%s", text_keys[i].values);
+        bool is_choice = strstr(row->schema, "'enum'") != NULL;
+        while (is_choice && (value = strsep(&rest, "|")) && strcmp(value, "DEG") != 0) {
+            snprintf(word, sizeof word, "'%s'", value);
+            if (!strstr(row->schema, word)) fail_msg("%s: no %s", row->key, word);
+        }
+    }
+}
+
 TEST_PROGRAM(NULL, NULL)
