@@ -163,7 +163,7 @@ static bool check_display(const JsonView *view, void *item, Error *err)
 {
     EquipDisplay *display = item;
     display->place = view->path;
-    display->has_symbols = json_object_get(view->object, "symbols") != NULL;
+    display->has_symbols = record_has(view, "symbols");
     for (int i = 0; i < display->symbol_count; i++)
         for (int k = 0; k < i; k++)
             if (!strcmp(display->symbols[k].name, display->symbols[i].name))
@@ -222,7 +222,7 @@ static bool check_eye(const JsonView *view, void *item, Error *err)
     for (int i = 0; eye->proposed_from && i < COUNT_OF(GIVEN); i++)
         if (!strcmp(eye->proposed_from, GIVEN[i])) eye->proposed_from = NULL;
     if (eye->display_id == NO_ID && !has_target)
-        return error_at(err, ERROR_INPUT, view->file, view->path, "key 'target_m' is missing");
+        return record_misses(view, "target_m", err);
     if (eye->display_id != NO_ID && has_target)
         return record_fails(view, "target_m", err,
                             "stands beside \"looks_at\", required: one of the two");
@@ -283,8 +283,7 @@ static bool check_material(const JsonView *view, void *item, Error *err)
 {
     EquipMaterial *material = item;
     material->place = view->path;
-    return !isnan(material->base_color[0]) ||
-           error_at(err, ERROR_INPUT, view->file, view->path, "key 'base_color' is missing");
+    return !isnan(material->base_color[0]) || record_misses(view, "base_color", err);
 }
 
 static const RecordFormat material_format = {

@@ -101,12 +101,11 @@ _Static_assert(offsetof(JobPart, end_sample) == offsetof(JobPart, first_sample) 
 static bool check_frame_key(const JsonView *view, const char *key, Error *err)
 {
     bool is_frame = ((const SharedJob *)view->whole)->kind == JOB_FRAME;
-    bool is_there = json_object_get(view->object, key) != NULL;
+    bool is_there = record_has(view, key);
     if (is_there == is_frame) return true;
     return is_there ? record_fails(view, key, err, "unknown key: it is of a frame, required: "
                                    "none of a review")
-                    : error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing",
-                               key);
+                    : record_misses(view, key, err);
 }
 
 static bool check_part(const JsonView *view, void *item, Error *err)

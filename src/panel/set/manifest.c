@@ -108,8 +108,7 @@ static bool check_emission(const JsonView *view, void *item, Error *err)
                         "key 'black' is missing: the black pattern's table");
     for (int p = 0; p < 3; p++) {
         if (!record_has(view, primary_names[p]))
-            return error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing",
-                            primary_names[p]);
+            return record_misses(view, primary_names[p], err);
         if (!sort_levels(view, primary_names[p], emission->primary[p],
                          emission->level_count[p], err))
             return false;
@@ -337,7 +336,7 @@ static bool check(const JsonView *root, void *item, Error *err)
         set->spots_reflect |= m->spot[i].reflection.is_there;
     }
     if (!m->emission.is_there && !m->reflection.is_there && !m->spot_count)
-        return error_at(err, ERROR_INPUT, root->file, root->path, "key 'emission' is missing");
+        return record_misses(root, "emission", err);
     if (!display_traits_check(root, set->pixels, &set->traits, err) ||
         !check_spots(root, m, err) ||
         !check_emitted(root, m->emission.is_there || set->spots_emit, err))
