@@ -5,7 +5,7 @@
  * Frame    world; unit vectors.  Threads  pure functions.  Fails  never.
  */
 #pragma once
-#include "light/ray_ends.h"
+#include "scene/point/ray_ends.h"
 
 /* At a point and at a corner. */
 Vec2 slot_uv(const TextureSlot *slot, const TrianglePoint *point);

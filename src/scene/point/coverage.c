@@ -1,5 +1,21 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "light/coverage.h"
+#include "scene/point/coverage.h"
+
+bool vertex_color(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
+                  float rgba[4])
+{
+    const VertexColor *colors = scene_part(scene, triangle)->colors;
+    const float weight[3] = {1 - point->u - point->v, point->u, point->v};
+    if (!colors) return false;
+    for (int i = 0; i < 4; i++) {
+        float colour = 0;
+        for (int k = 0; k < 3; k++)
+            colour +=
+                weight[k] * (float)colors[scene_corner_place(scene, triangle, k)].linear[i];
+        rgba[i] = colour * (1.0f / 65535);
+    }
+    return true;
+}
 
 void coverage_texel(const Scene *scene, const Material *material, const Hit *hit,
                     const TrianglePoint *point, float texel[4])

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: no allocation, no lock, no libm. */
-#include "light/texture_slot.h"
+#include "scene/point/texture_slot.h"
 
 static Vec2 slot_from_uv(const TextureSlot *slot, Vec2 uv)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "light/ray_ends.h"
+#include "scene/point/ray_ends.h"
 
 static Vec3 interpolate(Vec3 a, Vec3 b, Vec3 c, float u, float v)
 {
