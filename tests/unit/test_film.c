@@ -334,6 +334,9 @@ ARENA_TEST(the_worst_pixels_come_in_order)
 
 /* ---- layers ------------------------------------------------------------------------------ */
 
+#define COUNT_LETTERS(NAME, bit, of, option, letters, reader, sums) +(int)strlen(letters)
+#define NUMBER_CHANNELS 11 /* ids, angles, coverages, shares, contrast, how many samples */
+
 ARENA_TEST(a_frame_has_the_channels_asked_for_and_no_others)
 {
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH | LAYER_ID, NULL, &arena);
@@ -345,9 +348,9 @@ ARENA_TEST(a_frame_has_the_channels_asked_for_and_no_others)
     assert_null(frame_channel(&frame, "xyz.X"));
     film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, NULL, &arena);
     frame = film_to_frame(film, 0, &arena);
-    assert_int_equal(frame.channel_count,
-                     3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 3 + 1 + 9 * 3 + 2 + 1 + 3 + 1 + 3 + 8
-                     + 2);
+    int letters = 0 FILM_LAYERS(COUNT_LETTERS);
+    assert_true(letters >= 57);
+    assert_int_equal(frame.channel_count, 3 + letters + 3 + NUMBER_CHANNELS);
 }
 
 ARENA_TEST(layers_are_means_over_the_samples_that_hit)
