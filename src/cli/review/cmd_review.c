@@ -19,6 +19,7 @@
 #include "cli/review/review_print.h"
 #include "cli/review/review_watch.h"
 #include "render/signals.h"
+#include "review/keep/goes_on.h"
 #include "review/pace/work.h"
 #include "review/request/request_start.h"
 #include "review/request/request_read.h"
@@ -344,7 +345,7 @@ static bool take_found(const ReviewFolder *folder, const ReviewTask *task, Arena
                        Error *err)
 {
     if (!task) return true;
-    review_take_answers(folder->draft.journal, task, scratch);
+    review_take_answers(folder->draft.journal, task);
     return !folder->has_own_responses ||
            review_take_responses(folder->responses, task, scratch, err);
 }

@@ -6,7 +6,7 @@
  */
 #pragma once
 #include "base/problems.h"
-#include "review/keep/journal.h"
+#include "keep/journal.h"
 #include "review/eye/false_suns.h"
 #include "review/light/inherited.h"
 #include "review/pace/work.h"

@@ -3,8 +3,9 @@
 
 #include <string.h>
 
+#include "keep/journal.h"
 #include "render/identity.h"
-#include "review/keep/journal.h"
+#include "review/keep/goes_on.h"
 #include "review/pace/work.h"
 #include "review/request/request_check.h"
 #include "review/review_decide.h"

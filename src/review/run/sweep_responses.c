@@ -7,7 +7,7 @@
 
 #include "base/file.h"
 #include "render/identity.h"
-#include "review/keep/journal.h"
+#include "review/keep/goes_on.h"
 #include "review/light/question.h"
 #include "review/pace/work.h"
 #include "review/output/review_words.h"

@@ -6,7 +6,7 @@
 #include "base/file.h"
 #include "camera/camera.h"
 #include "review/chain/outlook.h"
-#include "review/keep/journal.h"
+#include "review/keep/goes_on.h"
 #include "review/light/setup_eyes.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
