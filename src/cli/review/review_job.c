@@ -52,7 +52,7 @@ static bool answer(ReviewRun *run, const ReviewTask *task, Arena *arena, Error *
     ReviewOutcome ignored;
     const char    done = 1;
     review_take_answers(run->means.journal, task);
-    bool is_run = review_run(run, arena, &ignored, err);
+    bool is_run = review_run_conditions(run, arena, &ignored, err);
     cli_print_warnings(run->problems);
     if (!is_run) return false;
     journal_add(run->means.journal, task->mark, &done, sizeof done);

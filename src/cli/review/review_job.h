@@ -9,7 +9,7 @@
 #pragma once
 #include "cli/job/job_share.h"
 #include "cli/options/cli.h"
-#include "cli/review/review_folder.h"
+#include "review/folder/review_folder.h"
 #include "review/run/job.h"
 #include "review/run/run.h"
 

@@ -453,7 +453,8 @@ static void start(const ReviewRun *run, const ReviewRequest *request, ReviewOutc
                                                    most_false_suns(request))};
 }
 
-bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *err)
+bool review_run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *out,
+                           Error *err)
 {
     SunSearches searches = sun_searches_start();
     ReviewRun   with = *run;

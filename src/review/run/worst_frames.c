@@ -8,7 +8,7 @@
 #include "review/chain/outlook.h"
 #include "review/keep/goes_on.h"
 #include "review/light/setup_eyes.h"
-#include "review/output/review_words.h"
+#include "review/review_names.h"
 #include "review/review_decide.h"
 #include "review/run/explain.h"
 #include "review/run/frames.h"

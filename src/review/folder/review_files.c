@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "cli/review/review_files.h"
+#include "review/folder/review_files.h"
 
 #include <ctype.h>
 #include <dirent.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/run/live.h"
+#include "review/folder/live.h"
 
 #include <math.h>
 #include <string.h>
