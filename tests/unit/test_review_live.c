@@ -8,7 +8,7 @@
 
 #include "page/page.h"
 #include "review/output/review_live.h"
-#include "review/run/live.h"
+#include "review/folder/live.h"
 #include "text/base64.h"
 #include "verdict_fixture.h"
 

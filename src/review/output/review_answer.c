@@ -6,12 +6,12 @@
 
 #include "page/page.h"
 #include "review/output/review_bar.h"
-#include "review/output/review_decide.h"
 #include "review/output/review_facts.h"
 #include "review/output/review_rays.h"
 #include "review/output/review_rests.h"
 #include "review/output/review_words.h"
 #include "review/quantity.h"
+#include "review/review_decide.h"
 #include "text/text.h"
 
 #define GRID_ROWS 7

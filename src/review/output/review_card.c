@@ -9,9 +9,9 @@
 #include "image/plain/plain_png.h"
 #include "page/page.h"
 #include "review/output/review_bar.h"
-#include "review/output/review_decide.h"
 #include "review/output/review_rays.h"
 #include "review/output/review_words.h"
+#include "review/review_decide.h"
 #include "text/base64.h"
 #include "text/text.h"
 

@@ -5,11 +5,11 @@
 
 #include "page/page.h"
 #include "review/output/review_answer.h"
-#include "review/output/review_decide.h"
 #include "review/output/review_gaze.h"
 #include "review/output/review_table.h"
 #include "review/output/review_variants.h"
 #include "review/output/review_words.h"
+#include "review/review_decide.h"
 #include "text/text.h"
 
 #define PAGE_BYTES ((size_t)4 << 30) /* address space for the text */

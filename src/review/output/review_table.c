@@ -7,8 +7,8 @@
 #include "page/page.h"
 #include "review/output/review_bar.h"
 #include "review/output/review_card.h"
-#include "review/output/review_decide.h"
 #include "review/output/review_words.h"
+#include "review/review_decide.h"
 #include "text/text.h"
 
 #define MATRIX_COLUMNS 10

@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "page/page.h"
-#include "review/output/review_decide.h"
 #include "review/output/review_words.h"
+#include "review/review_decide.h"
 #include "text/effect_text.h"
 
 /* ---- the order --------------------------------------------------------------------------- */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "cli/review/review_draft.h"
+#include "review/folder/review_draft.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -10,7 +10,7 @@
 #include "base/file.h"
 #include "base/file_write.h"
 #include "base/lines.h"
-#include "cli/review/review_files.h"
+#include "review/folder/review_files.h"
 
 /* ---- folders ----------------------------------------------------------------------------- */
 

@@ -5,8 +5,7 @@
  * An answer is a row of bytes under a key, which is a hash of everything that decides it. So
  * work that is done once more from the beginning costs nothing up to where it was.
  *
- * File     all numbers little endian:
- *            a head                 magic, byte order, version
+ * File     a head without sizes (kept.h), then
  *            one entry an answer    key, 16 bytes; size, 8; XXH3 of both and of the answer, 8;
  *                                   the answer
  *          Entries are added at the end. One that was cut off by a kill, or damaged, ends what
@@ -44,21 +43,17 @@ void journal_add(Journal *journal, JournalKey key, const void *answer, size_t si
 bool journal_ok(const Journal *journal, Error *err);
 
 /* Adds the answers of another journal's file, those that are whole: somebody may be at work
- * on it. False: it is none. The scratch holds an index. */
-bool journal_take_over(Journal *journal, const char *path, Arena scratch);
+ * on it. False: it is none. */
+bool journal_take_over(Journal *journal, const char *path);
 
 /* Whether the file is a journal that is whole to its end and has an answer under the key. */
-bool journal_file_has(const char *path, JournalKey key, Arena scratch);
+bool journal_file_has(const char *path, JournalKey key);
 
 /* How many answers the file has that are whole; 0: it is no journal. */
-int journal_file_count(const char *path, Arena scratch);
+int journal_file_count(const char *path);
 
 /* How many answers there are. NULL: 0. */
 int journal_count(const Journal *journal);
 
 /* A file without answers is removed. NULL is fine. */
 void journal_close(Journal *journal);
-
-/* False: INT, TERM or HUP asked to stop, and the error's code is 128 and the signal's number;
- * or the journal could not keep what was found. */
-bool review_goes_on(const Journal *journal, Error *err);

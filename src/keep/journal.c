@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/keep/journal.h"
+#include "keep/journal.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -10,20 +10,14 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "render/signals.h"
+#include "keep/kept.h"
 
-#define MAGIC "PRHLJRNL"
-#define BYTE_ORDER_MARK 0x01020304u
-#define VERSION 1
-#define BUFFER_BYTES ((size_t)1 << 16)
+#define VERSION 2
 #define FIRST_ROOM 1024 /* places of the index, a power of two */
+#define ANSWER_BYTES_MOST ((uint64_t)1 << 28)
+#define OTHER_BYTES ((size_t)1 << 32) /* for an index of another journal, and an answer */
 
-_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "numbers go out as they lie");
-
-typedef struct JournalHead {
-    char     magic[8];
-    uint32_t byte_order, version;
-} JournalHead;
+static const KeptFormat format = {"PRHLJRNL", "a journal", VERSION, 0};
 
 typedef struct JournalEntry {
     JournalKey key;
@@ -116,37 +110,23 @@ static bool write_at(int file, const void *bytes, size_t size, uint64_t offset)
     return true;
 }
 
-static void start_sum(XXH3_state_t *sum, const JournalEntry *entry)
-{
-    XXH3_64bits_reset(sum);
-    XXH3_64bits_update(sum, entry, offsetof(JournalEntry, checksum));
-}
-
 static uint64_t sum_of(const JournalEntry *entry, const void *answer)
 {
     XXH3_state_t sum;
-    start_sum(&sum, entry);
+    XXH3_64bits_reset(&sum);
+    XXH3_64bits_update(&sum, entry, offsetof(JournalEntry, checksum));
     XXH3_64bits_update(&sum, answer, entry->size);
     return XXH3_64bits_digest(&sum);
 }
 
-/* The checksum of an answer in the file; false: it cannot be read. */
-static bool sum_in_file(const Journal *journal, const JournalEntry *entry, uint64_t offset,
-                        uint64_t *out)
+/* The answer, if it is whole. */
+static const void *read_answer(const Journal *journal, const JournalEntry *entry,
+                               uint64_t offset, Arena *arena)
 {
-    unsigned char buffer[BUFFER_BYTES];
-    XXH3_state_t  sum;
-    uint64_t      left = entry->size;
-    start_sum(&sum, entry);
-    while (left) {
-        size_t part = left < sizeof buffer ? (size_t)left : sizeof buffer;
-        if (!read_at(journal->file, buffer, part, offset)) return false;
-        XXH3_64bits_update(&sum, buffer, part);
-        offset += part;
-        left -= part;
-    }
-    *out = XXH3_64bits_digest(&sum);
-    return true;
+    void *answer = arena_try(arena, entry->size, 1, 1);
+    bool  is_whole = answer && read_at(journal->file, answer, entry->size, offset) &&
+                     sum_of(entry, answer) == entry->checksum;
+    return is_whole ? answer : NULL;
 }
 
 /* ---- opening ----------------------------------------------------------------------------- */
@@ -159,8 +139,7 @@ static bool refuse(const Journal *journal, const char *what, int reason, Error *
 
 static bool start_file(Journal *journal, Error *err)
 {
-    JournalHead head = {.byte_order = BYTE_ORDER_MARK, .version = VERSION};
-    memcpy(head.magic, MAGIC, sizeof head.magic);
+    KeptHead head = kept_head(&format);
     journal->end = sizeof head;
     return (ftruncate(journal->file, 0) == 0 &&
             write_at(journal->file, &head, sizeof head, 0)) ||
@@ -171,39 +150,36 @@ static bool start_file(Journal *journal, Error *err)
 static void take_entries(Journal *journal, uint64_t file_bytes)
 {
     JournalEntry entry;
-    uint64_t     sum;
+    journal->end = sizeof(KeptHead);
     while (file_bytes - journal->end >= sizeof entry &&
            read_at(journal->file, &entry, sizeof entry, journal->end)) {
+        Arena    scratch = *journal->arena;
         uint64_t offset = journal->end + sizeof entry;
-        if (entry.size > file_bytes - offset || !sum_in_file(journal, &entry, offset, &sum) ||
-            sum != entry.checksum)
+        if (entry.size > file_bytes - offset || entry.size > ANSWER_BYTES_MOST ||
+            !read_answer(journal, &entry, offset, &scratch))
             return;
         remember(journal, &(JournalPlace){entry.key, offset, entry.size});
         journal->end = offset + entry.size;
     }
 }
 
-static bool is_ours(const JournalHead *head)
+static bool has_our_head(const Journal *journal)
 {
-    return !memcmp(head->magic, MAGIC, sizeof head->magic) &&
-           head->byte_order == BYTE_ORDER_MARK && head->version == VERSION;
+    KeptHead head;
+    return read_at(journal->file, &head, sizeof head, 0) && kept_head_is(&head, &format);
 }
 
 static bool take_file(Journal *journal, Problems *problems, Error *err)
 {
-    JournalHead head = {{0}, 0, 0};
     struct stat info;
     if (fstat(journal->file, &info) != 0) return refuse(journal, "read", errno, err);
     uint64_t bytes = (uint64_t)info.st_size;
-    if (bytes < sizeof head) return start_file(journal, err); /* killed as it was made */
-    if (!read_at(journal->file, &head, sizeof head, 0))
-        return refuse(journal, "read", errno, err);
-    if (!is_ours(&head)) {
+    if (bytes < sizeof(KeptHead)) return start_file(journal, err); /* killed as it was made */
+    if (!has_our_head(journal)) {
         problems_add(problems, SEVERITY_WARNING, journal->path, "",
                      "is not what this program keeps of a review: it is begun anew");
         return start_file(journal, err);
     }
-    journal->end = sizeof head;
     take_entries(journal, bytes);
     if (journal->end == bytes) return true;
     problems_add(problems, SEVERITY_WARNING, journal->path, "",
@@ -292,78 +268,67 @@ bool journal_ok(const Journal *journal, Error *err)
 
 /* ---- files of others --------------------------------------------------------------------- */
 
-/* To be closed, unless false. *bytes: of the file. */
-static bool open_other(const char *path, Arena *scratch, Journal *out, uint64_t *bytes)
+/* To be closed, unless false. Its index and what it reads lie in memory of its own: the arena
+ * of the journal that takes answers over grows meanwhile. *bytes: of the file. */
+static bool open_other(const char *path, Arena *own, Journal *out, uint64_t *bytes)
 {
-    JournalHead head;
     struct stat info;
-    *out = (Journal){.path = path, .arena = scratch, .end = sizeof head,
+    *out = (Journal){.path = path, .arena = own,
                      .file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
     if (out->file < 0) return false;
-    if (fstat(out->file, &info) != 0 || !S_ISREG(info.st_mode) ||
-        (size_t)info.st_size < sizeof head ||
-        !read_at(out->file, &head, sizeof head, 0) || !is_ours(&head)) {
+    if (fstat(out->file, &info) != 0 || !S_ISREG(info.st_mode) || !has_our_head(out)) {
         close(out->file);
         return false;
     }
+    *own = arena_reserve(OTHER_BYTES);
     grow(out);
     *bytes = (uint64_t)info.st_size;
     take_entries(out, *bytes);
     return true;
 }
 
-/* An answer may be as large as a file: it goes over piece by piece, with its checksum. */
-static void copy_entry(Journal *journal, const Journal *from, const JournalPlace *place)
+static void close_other(Journal *other)
 {
-    unsigned char buffer[BUFFER_BYTES];
-    uint64_t      size = sizeof(JournalEntry) + place->size, done = 0;
-    uint64_t      start = place->offset - sizeof(JournalEntry);
-    if (journal->has_failed || place_of(journal->places, journal->room, place->key)->offset)
-        return;
-    while (done < size) {
-        size_t part = size - done < sizeof buffer ? (size_t)(size - done) : sizeof buffer;
-        if (!read_at(from->file, buffer, part, start + done)) break;
-        if (!write_at(journal->file, buffer, part, journal->end + done)) {
-            fail(journal, errno);
-            return;
-        }
-        done += part;
-    }
-    if (done < size) { /* it cannot be read: what was written of it goes */
-        if (ftruncate(journal->file, (off_t)journal->end) != 0) fail(journal, errno);
-        return;
-    }
-    remember(journal, &(JournalPlace){place->key, journal->end + sizeof(JournalEntry),
-                                      place->size});
-    journal->end += size;
+    arena_release(other->arena);
+    close(other->file);
 }
 
-bool journal_take_over(Journal *journal, const char *path, Arena scratch)
+bool journal_take_over(Journal *journal, const char *path)
 {
+    Arena    own;
     Journal  other;
     uint64_t bytes;
-    if (!open_other(path, &scratch, &other, &bytes)) return false;
-    for (size_t i = 0; i < other.room; i++)
-        if (other.places[i].offset) copy_entry(journal, &other, &other.places[i]);
-    close(other.file);
+    if (!open_other(path, &own, &other, &bytes)) return false;
+    for (size_t i = 0; i < other.room; i++) {
+        const JournalPlace *place = &other.places[i];
+        Arena               room = own;
+        if (!place->offset) continue;
+        void *answer = ARENA_NEW(&room, unsigned char, place->size);
+        if (read_at(other.file, answer, place->size, place->offset))
+            journal_add(journal, place->key, answer, place->size);
+    }
+    close_other(&other);
     return true;
 }
 
-bool journal_file_has(const char *path, JournalKey key, Arena scratch)
+bool journal_file_has(const char *path, JournalKey key)
 {
+    Arena    own;
     Journal  other;
     uint64_t bytes;
-    if (!open_other(path, &scratch, &other, &bytes)) return false;
-    close(other.file);
-    return other.end == bytes && place_of(other.places, other.room, key)->offset;
+    if (!open_other(path, &own, &other, &bytes)) return false;
+    bool is_there = other.end == bytes && place_of(other.places, other.room, key)->offset;
+    close_other(&other);
+    return is_there;
 }
 
-int journal_file_count(const char *path, Arena scratch)
+int journal_file_count(const char *path)
 {
+    Arena    own;
     Journal  other;
     uint64_t bytes;
-    if (!open_other(path, &scratch, &other, &bytes)) return 0;
-    close(other.file);
+    if (!open_other(path, &own, &other, &bytes)) return 0;
+    close_other(&other);
     return other.count;
 }
 
@@ -377,13 +342,4 @@ void journal_close(Journal *journal)
     if (!journal) return;
     if (!journal->count) unlink(journal->path);
     close(journal->file);
-}
-
-/* ---- whether a review goes on ------------------------------------------------------------ */
-
-bool review_goes_on(const Journal *journal, Error *err)
-{
-    int stop = signals_stop_requested();
-    if (stop) return error_set(err, (ErrorCode)(128 + stop), "stopped");
-    return journal_ok(journal, err);
 }

@@ -2,7 +2,7 @@
 /* review_draft.h -- a review's files while it is not finished: DIR/unfinished holds them, with
  * what goes on after a kill, until they take their places all together.
  *
- *     DIR/unfinished/journal         readings that were taken (review/keep/journal.h)
+ *     DIR/unfinished/journal         readings that were taken (keep/journal.h)
  *     DIR/unfinished/HASH.lesson     what a moment's paths were taught
  *     DIR/unfinished/HASH.checkpoint of the frame in hand
  *     DIR/unfinished/new/            files as they will stand in DIR
@@ -17,7 +17,7 @@
  * Fails    with the file or folder that cannot be written.
  */
 #pragma once
-#include "review/keep/journal.h"
+#include "keep/journal.h"
 #include "review/verdict.h"
 
 typedef struct ReviewDraft {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/run/sweep_output.h"
+#include "review/folder/sweep_output.h"
 
 #include <math.h>
 

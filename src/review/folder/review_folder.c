@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "cli/review/review_folder.h"
+#include "review/folder/review_folder.h"
 
 #include <string.h>
 #include <unistd.h>
@@ -9,17 +9,16 @@
 #include "base/machine.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "cli/options/scene_options.h"
 #include "render/render.h"
 #include "review/run/frames.h"
-#include "review/run/live.h"
+#include "review/folder/live.h"
 #include "review/output/review_answer.h"
 #include "review/export/review_csv.h"
-#include "review/output/review_decide.h"
 #include "review/output/review_json.h"
 #include "review/export/review_json_read.h"
 #include "review/export/review_junit.h"
 #include "review/output/review_words.h"
+#include "review/review_decide.h"
 #include "text/text.h"
 
 #define MAP_STEP_DEG 5
@@ -274,7 +273,6 @@ const char *review_folder_command(const ReviewFolder *folder, Arena *arena)
         folder->profile ? arena_format(arena, " --profile %s", folder->profile) : "";
     const char *diff = folder->diff ? arena_format(arena, " --diff %s", folder->diff) : "";
     const char *root = folder->root ? arena_format(arena, " --root %s", folder->root) : "";
-    const char *state = state_options_text(&folder->state, arena);
     const char *responses = folder->has_own_responses
                                 ? ""
                                 : arena_format(arena, " --responses %s", folder->responses);
@@ -282,7 +280,7 @@ const char *review_folder_command(const ReviewFolder *folder, Arena *arena)
     const char *summary = option_text("--summary", folder->summary, arena);
     return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s%s%s%s%s%s",
                         folder->request->file,
-                        folder->target, profile, root, state, diff, responses,
+                        folder->target, profile, root, folder->state_text, diff, responses,
                         mend, summary, folder->is_alone ? " --no-variants" : "",
                         folder->is_strict ? " --strict" : "",
                         folder->is_self_contained ? " --self-contained" : "");

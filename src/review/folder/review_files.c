@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "cli/review/review_files.h"
+#include "review/folder/review_files.h"
 
 #include <ctype.h>
 #include <dirent.h>
@@ -13,9 +13,9 @@
 #include "base/file_write.h"
 #include "review/output/review_answer.h"
 #include "review/output/review_card.h"
-#include "review/output/review_decide.h"
 #include "review/export/review_json_read.h"
 #include "review/output/review_words.h"
+#include "review/review_decide.h"
 #include "text/text.h"
 
 #define LIST "made-by-review.txt"

@@ -12,9 +12,9 @@
  * Fails    with the file or folder that cannot be written.
  */
 #pragma once
-#include "cli/review/review_draft.h"
+#include "review/folder/review_draft.h"
+#include "review/folder/sweep_output.h"
 #include "review/pace/work.h"
-#include "review/run/sweep_output.h"
 
 typedef struct ReviewFolder {
     const char          *target; /* as on the command line */
@@ -23,7 +23,7 @@ typedef struct ReviewFolder {
     const ReviewParameter *mend; /* --mend's; NULL: none */
     const char          *summary; /* the symbol that --summary names; NULL: all */
     const char          *profile, *root; /* as on the command line; NULL: not given */
-    SceneState           state;          /* the same */
+    const char          *state_text;     /* the same, each option with a blank before it */
     const char          *responses; /* the same, then where they are */
     int                  threads;
     bool                 is_strict;
