@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Writes the files of the folder INPUT as a table into OUTPUT: TABLE_table of {name, text} and
-# TABLE_count, as the header HEADER declares them.
+# Writes the files of the folder INPUT as a table into OUTPUT: TABLE_table of {name, text}, with
+# an empty row behind the last, and TABLE_count, as the header HEADER declares them.
 # cmake -DINPUT=assets/guides/*.md -DHEADER=cli/options/guides.h -DTYPE=Guide -DTABLE=guide
 #     -DOUTPUT=... -P embed_folder.cmake
 file(GLOB files ${INPUT})
@@ -18,4 +18,4 @@ foreach(file ${files})
   math(EXPR count "${count} + 1")
 endforeach()
 file(WRITE ${OUTPUT} "#include \"${HEADER}\"\n\n${arrays}\n"
-  "const ${TYPE} ${TABLE}_table[] = {\n${rows}};\nconst int ${TABLE}_count = ${count};\n")
+  "const ${TYPE} ${TABLE}_table[] = {\n${rows}    {0}};\nconst int ${TABLE}_count = ${count};\n")

@@ -367,7 +367,7 @@ static json_t *json_bounds(const Scene *scene)
     if (!scene->triangle_count) return json_null();
     world_from_scene(scene->origin, scene->bounds_min, low);
     world_from_scene(scene->origin, scene->bounds_max, high);
-    return json_pack("[o,o]", cli_json_point(low), cli_json_point(high));
+    return json_pack("[o,o]", json_world_point(low), json_world_point(high));
 }
 
 static json_t *json_animations(const Scene *scene)
@@ -394,7 +394,7 @@ static bool print_json(const Scene *scene, const Problems *problems, Arena *aren
         (json_int_t)scene->triangle_count, "extensions",
         json_texts(scene->extensions, scene->extension_count));
     json_object_set_new(answer, "bounds_m", json_bounds(scene));
-    json_object_set_new(answer, "origin_m", cli_json_point(scene->origin));
+    json_object_set_new(answer, "origin_m", json_world_point(scene->origin));
     json_object_set_new(answer, "variants",
                         json_texts(scene->variants, scene->variant_count));
     json_object_set_new(answer, "animations", json_animations(scene));

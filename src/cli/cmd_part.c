@@ -10,14 +10,14 @@
 
 #include "base/count.h"
 #include "base/file.h"
-#include "print/print.h"
 #include "cli/commands.h"
-#include "cli/job/job_manifest.h"
-#include "cli/job/job_state.h"
 #include "cli/job_run.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/render/cmd_render.h"
+#include "job/job_manifest.h"
+#include "job/job_state.h"
+#include "print/print.h"
 #include "text/json_text.h"
 
 typedef struct PartRun {

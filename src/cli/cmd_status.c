@@ -2,12 +2,12 @@
 /* parhelion status: how far a job is that `--slurm` shared out, and what is left. */
 
 #include "base/file.h"
-#include "print/print.h"
 #include "cli/commands.h"
-#include "cli/job/job_manifest.h"
-#include "cli/job/job_state.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
+#include "job/job_manifest.h"
+#include "job/job_state.h"
+#include "print/print.h"
 #include "text/json_text.h"
 
 #define STATE_COUNT (JOB_PART_DONE + 1)

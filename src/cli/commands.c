@@ -2,7 +2,6 @@
 #include "cli/commands.h"
 
 #include "base/count.h"
-#include "cli/equip/cmd_equip.h"
 #include "cli/explain/cmd_explain.h"
 #include "cli/panel/panel_commands.h"
 #include "cli/render/cmd_render.h"

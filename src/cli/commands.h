@@ -10,6 +10,7 @@ extern const int            command_count;
 extern const Command command_check;
 extern const Command command_compare;
 extern const Command command_develop;
+extern const Command command_equip;
 extern const Command command_help;
 extern const Command command_measure;
 extern const Command command_merge;

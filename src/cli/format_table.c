@@ -2,11 +2,18 @@
 #include "cli/format_table.h"
 
 #include "base/count.h"
+#include "equip/equip_file.h"
+#include "job/job_manifest.h"
 #include "panel/set/synthetic_format.h"
 #include "review/profile.h"
+#include "review/request/request_read.h"
 
 const NamedFormat format_table[] = {
     {"profile", "Limits that a glare review holds its figures against", &profile_format},
+    {"equip", "EQUIP.json, what a model is equipped with", &equip_format},
+    {"job", "manifest.json of a frame, or a review, that is shared among machines",
+     &job_format},
+    {"review", "REVIEW.json: what a glare review is asked", &review_format},
     {"recipe", "A synthetic panel, *.recipe.json", &synthetic_format},
 };
 const int format_count = COUNT_OF(format_table);

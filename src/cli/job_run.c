@@ -8,11 +8,11 @@
 #include <unistd.h>
 
 #include "base/count.h"
-#include "cli/job/job_manifest.h"
-#include "cli/job/job_scripts.h"
 #include "cli/render/command_line.h"
 #include "cli/review/cmd_review.h"
 #include "cli/review/review_job.h"
+#include "job/job_manifest.h"
+#include "job/job_scripts.h"
 #include "render/identity.h"
 
 static const char *progress_word(const Cli *cli, Arena *arena)

@@ -7,8 +7,8 @@
  * Fails    as the review does; ERROR_OUTPUT where a file of the job cannot be written.
  */
 #pragma once
-#include "cli/job/job_state.h"
 #include "cli/options/cli.h"
+#include "job/job_state.h"
 
 typedef struct JobWords {
     char **list;

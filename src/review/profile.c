@@ -250,7 +250,7 @@ static bool open_shipped(const char *name, Arena *arena, JsonView *out, Error *e
         const char *file = arena_format(arena, "assets/profiles/%s.json", name);
         if (!root)
             return error_at(err, ERROR_INPUT, file, "", "not valid JSON: %s", fault.text);
-        *out = (JsonView){root, file, "", arena, NULL, NULL, 0};
+        *out = (JsonView){.object = root, .file = file, .path = "", .arena = arena};
         return true;
     }
     return error_set(err, ERROR_INPUT, "there is no profile \"%s\"; required: %s, or a file by "

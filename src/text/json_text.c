@@ -37,6 +37,16 @@ json_t *json_figure(double value)
     return isfinite(value) ? json_real(value) : json_null();
 }
 
+json_t *json_vector(Vec3 v)
+{
+    return json_world_point((const double[3]){(double)v.x, (double)v.y, (double)v.z});
+}
+
+json_t *json_world_point(const double world_m[3])
+{
+    return json_pack("[f,f,f]", world_m[0], world_m[1], world_m[2]);
+}
+
 /* Outside of strings JSON has no character to escape but the ends of its lines. */
 bool json_dump_text(Text *text, const json_t *value, size_t flags)
 {

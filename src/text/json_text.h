@@ -8,6 +8,7 @@
 #include <jansson.h>
 #include <stdbool.h>
 
+#include "base/vec.h"
 #include "text/text.h"
 
 /* A text that is not UTF-8 becomes what may be shown of it (printable.h): names of files may
@@ -22,6 +23,10 @@ json_t *json_texts(const char *const *texts, int count);
 
 /* null where it is not finite: JSON has neither NaN nor infinity. */
 json_t *json_figure(double value);
+
+/* A direction, or a point of the world, as a list of three numbers. */
+json_t *json_vector(Vec3 v);
+json_t *json_world_point(const double world_m[3]);
 
 /* Adds the document as jansson writes it with these flags, with what a terminal would obey as
  * \u escapes. False: there is none, or memory is out. */

@@ -47,8 +47,8 @@ bool json_view_open(const char *file, Arena *arena, JsonView *out, Error *err)
         json_decref(root);
         return fails;
     }
-    *out = (JsonView){root, arena_string(arena, file, strlen(file)), "", arena, NULL, NULL,
-                      XXH3_64bits(bytes.data, bytes.size)};
+    *out = (JsonView){.object = root, .file = arena_string(arena, file, strlen(file)),
+                      .path = "", .arena = arena, .hash = XXH3_64bits(bytes.data, bytes.size)};
     return true;
 }
 

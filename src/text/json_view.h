@@ -15,6 +15,7 @@
 #include "base/arena.h"
 #include "base/error.h"
 #include "base/lines.h"
+#include "base/problems.h"
 
 typedef struct JsonView {
     json_t     *object; /* NULL: the key was absent and everything keeps its default */
@@ -24,6 +25,8 @@ typedef struct JsonView {
     const char *root;   /* a folder whose files it may name besides its own; NULL: none */
     Lines      *named;  /* gets the files that it names; NULL: nobody asks */
     uint64_t    hash;   /* XXH3 64 of the bytes that were read of the file; of no file 0 */
+    Problems   *problems; /* gets warnings; NULL: nobody asks */
+    void       *whole;    /* the outermost struct that is filled from it; NULL: the next one */
 } JsonView;
 
 #define JSON_FILE_BYTES_MAX ((size_t)64 << 20)

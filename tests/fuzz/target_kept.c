@@ -9,10 +9,10 @@
 
 #include "base/count.h"
 #include "base/file.h"
-#include "cli/job/job_manifest.h"
 #include "cli/job_run.h"
 #include "guide/guide_file.h"
 #include "harness.h"
+#include "job/job_manifest.h"
 #include "keep/journal.h"
 #include "review/eye/false_suns.h"
 #include "review/eye/gaze_reading.h"

@@ -23,7 +23,7 @@ FORBIDDEN = {
 # What a file may call all the same, with a word that must stand in the same call: memory that
 # is no file, the programs of Slurm that hand it a job and ask it, and the program's own part
 # of that name and no other.
-SPAWNER = "src/cli/job/slurm.c"
+SPAWNER = "src/job/slurm.c"
 SLURM = ["sbatch", "squeue", "sinfo"]
 ALLOWED = {("src/base/arena.c", "mmap"): "MAP_ANONYMOUS",
            (SPAWNER, "posix_spawnp"): "tools[tool]",

@@ -162,22 +162,7 @@ WRONG_REVIEWS = [("profile", None), ("scene", []), ("eyes", {}), ("eye", {}),
                  ("precision/colour", 1)]
 
 
-EQUIP = {"equip": 1, "model": "car.glb",
-         "displays": [{"name": "speed", "on": "console", "centre_m": [0, 1, -1],
-                       "right": [1, 0, 0], "up": [0, 1, 0], "width_m": 0.3, "height_m": 0.1,
-                       "before_mm": 1, "panel": "ips_cluster", "content": "cluster",
-                       "level": 0.5, "symbols": [{"name": "48", "uv": [0.1, 0.2, 0.3, 0.4],
-                                                  "polarity": "light-on-dark"}],
-                       "mesh": {"positions_m": [0, 1, -1, 0.3, 1, -1, 0, 1.1, -1],
-                                "uv": [0, 1, 1, 1, 0, 0], "triangles": [0, 1, 2]}}],
-         "eyes": [{"name": "the eye", "position_m": [0, 1.2, 0], "looks_at": "speed",
-                   "proposed_from": "nothing"}],
-         "materials": [{"index": 0, "name": "bare", "as": "rubber"},
-                       {"index": 1, "base_color": [0.1, 0.1, 0.1], "roughness": 0.5,
-                        "metallic": 0, "transmission": 0, "ior": 1.4}],
-         "profile": "iso-15008", "forward": [0, 0, -1],
-         "occupant": {"eye": "the eye", "shirt": "grey"},
-         "place": {"where": [48, 11, 500], "year": 2026, "headings_deg": [0, 90]}}
+EQUIP = load(os.path.join(ROOT, "tests/unit/records/equip.json"))
 WRONG_EQUIPS = [("equip", None), ("equip", 2), ("eyes", None), ("eyes", []), ("eye", []),
                 ("displays", {}), ("displays/0/name", ""), ("displays/0/up", [0, 0, 0]),
                 ("displays/0/width_m", 0), ("displays/0/panel", None),
@@ -338,7 +323,7 @@ def main():
         report.claim(name in known, f"assets/schemas holds no valid schema of {name}")
     check_can_fail(report, known)
     def schema_of(name):
-        if name in ("profile", "recipe"): # written from the rows that the program reads by
+        if name in ("profile", "recipe", "equip"): # from the rows that the program reads by
             schema = json.loads(subprocess.run([program, "schema", name], capture_output=True,
                                                check=True).stdout)
         else:

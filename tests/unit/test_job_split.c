@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "cli/job/job.h"
+#include "job/job.h"
 
 static const JobPart whole = {{3, 5, 64, 1085}, 40, 1064};
 

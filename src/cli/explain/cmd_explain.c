@@ -266,7 +266,7 @@ static json_t *json_rays(const ReviewCase *c, const CaseCause *cause)
         for (int k = 0; k < cause->rays[i].count; k++) {
             double at[3];
             world_from_scene(c->origin_m, cause->rays[i].points[k], at);
-            json_array_append_new(ray, cli_json_point(at));
+            json_array_append_new(ray, json_world_point(at));
         }
         json_array_append_new(out, ray);
     }
@@ -324,7 +324,7 @@ static bool print_json(const Explained *explained, Error *err)
         "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:[o,o], s:I}", "condition",
         json_text_or_null(c->condition), "eye", json_text_or_null(c->eye), "symbol",
         json_text_or_null(c->symbol), "display", json_text_or_null(c->display), "eye_m",
-        cli_json_point(c->eye_m), "luminance_cd_m2", json_light(explained), "contrast_ratio",
+        json_world_point(c->eye_m), "luminance_cd_m2", json_light(explained), "contrast_ratio",
         json_figure(c->contrast_ratio), "contrast_interval", json_figure(c->contrast_low),
         json_figure(c->contrast_high), "paths", (json_int_t)explained->paths);
     json_object_set_new(out, "visible_share", json_figure(c->visible_share));

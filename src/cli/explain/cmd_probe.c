@@ -204,7 +204,7 @@ static json_t *json_point(const Scene *scene, Vec3 p)
 {
     double at[3];
     world_from_scene(scene->origin, p, at);
-    return cli_json_point(at);
+    return json_world_point(at);
 }
 
 static json_t *json_bounces(const Probed *probed, const ProbeWay *way)

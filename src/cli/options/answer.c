@@ -104,16 +104,6 @@ json_t *cli_json_problems(const Problems *problems, Severity severity)
     return list;
 }
 
-json_t *cli_json_vector(Vec3 v)
-{
-    return json_pack("[f,f,f]", (double)v.x, (double)v.y, (double)v.z);
-}
-
-json_t *cli_json_point(const double world_m[3])
-{
-    return json_pack("[f,f,f]", world_m[0], world_m[1], world_m[2]);
-}
-
 const char *cli_relative_error(double error, char *out, size_t size)
 {
     if (isnan(error)) snprintf(out, size, "unknown");

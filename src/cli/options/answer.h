@@ -12,7 +12,6 @@
 
 #include "base/error.h"
 #include "base/problems.h"
-#include "base/vec.h"
 
 /* Prints the document to stdout with a newline, and releases it. False: stdout is full. */
 bool cli_print_json(json_t *document, Error *err);
@@ -31,10 +30,6 @@ void cli_print_warnings(const Problems *problems);
 
 /* The same warnings as a JSON list of {"file","path","severity","message"}. */
 json_t *cli_json_problems(const Problems *problems, Severity severity);
-
-/* A direction, or a point of the world, as a list of three numbers. */
-json_t *cli_json_vector(Vec3 v);
-json_t *cli_json_point(const double world_m[3]);
 
 /* A frame's relative error, "1.23%"; of a frame without samples, whose error is NaN, "unknown".
  * Returns out, which has size bytes. */

@@ -8,8 +8,6 @@
 
 #include "base/file_write.h"
 #include "base/machine.h"
-#include "print/print.h"
-#include "cli/job/job_isa.h"
 #include "cli/options/answer.h"
 #include "cli/options/look_options.h"
 #include "cli/render/noise_goal.h"
@@ -21,6 +19,8 @@
 #include "cli/render/render_setup.h"
 #include "film/film_frame.h"
 #include "image/light/radiance_picture.h"
+#include "job/job_isa.h"
+#include "print/print.h"
 #include "render/identity.h"
 #include "render/signals.h"
 #include "scene/load/scene_load.h"

@@ -6,13 +6,13 @@
 #pragma once
 #include <jansson.h>
 
-#include "cli/render/render_setup.h"
 #include "cli/options/cli.h"
 #include "cli/options/scene_options.h"
-#include "cli/job/job_share.h"
-#include "cli/job/job.h"
 #include "cli/render/noise_goal.h"
+#include "cli/render/render_setup.h"
 #include "image/develop.h"
+#include "job/job.h"
+#include "job/job_share.h"
 #include "live/viewer.h"
 #include "render/render.h"
 #include "scene/scene.h"

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* review_job.h -- a review that is a job's, or a part of one: how `review --slurm` makes the
- * job's folder (cli/job/job_share.h), what was planned, what a part does, what the whole takes.
+ * job's folder (job/job_share.h), what was planned, what a part does, what the whole takes.
  *
  * Memory   the command's arena.
  * Fails    as job_share, and as the review does; when the user asks to stop, after a line on
  *          how to go on.
  */
 #pragma once
-#include "cli/job/job_share.h"
 #include "cli/options/cli.h"
+#include "job/job_share.h"
 #include "review/folder/review_folder.h"
 #include "review/run/job.h"
 #include "review/run/run.h"
