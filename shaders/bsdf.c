@@ -53,34 +53,34 @@ bool bsdf_show_itself(Bsdf *bsdf)
 
 Spectrum bsdf_eval(const Bsdf *bsdf, Vec3 wo, Vec3 wi, float *pdf)
 {
-    const BsdfModel *model = models[bsdf->kind];
-    if (model->scatter.eval) return model->scatter.eval(parameters_of(bsdf), wo, wi, pdf);
+    const BsdfScatter *of = &models[bsdf->kind]->scatter;
+    if (of->eval) return of->eval(parameters_of(bsdf), wo, wi, pdf);
     *pdf = 0;
     return spectrum_all(0);
 }
 
 bool bsdf_reaches(const Bsdf *bsdf, Vec3 wo, Vec3 wi)
 {
-    const BsdfModel *model = models[bsdf->kind];
-    return model->scatter.eval && (!model->scatter.reaches || model->scatter.reaches(parameters_of(bsdf), wo, wi));
+    const BsdfScatter *of = &models[bsdf->kind]->scatter;
+    return of->eval && (!of->reaches || of->reaches(parameters_of(bsdf), wo, wi));
 }
 
 bool bsdf_sample(const Bsdf *bsdf, Vec3 wo, const float u[3], BsdfSample *sample)
 {
-    const BsdfModel *model = models[bsdf->kind];
-    return model->scatter.sample && model->scatter.sample(parameters_of(bsdf), wo, u, sample);
+    const BsdfScatter *of = &models[bsdf->kind]->scatter;
+    return of->sample && of->sample(parameters_of(bsdf), wo, u, sample);
 }
 
 Spectrum bsdf_pass(const Bsdf *bsdf, Vec3 wo)
 {
-    const BsdfModel *model = models[bsdf->kind];
-    return model->boundary.pass ? model->boundary.pass(parameters_of(bsdf), wo) : spectrum_all(0);
+    const BsdfBoundary *of = &models[bsdf->kind]->boundary;
+    return of->pass ? of->pass(parameters_of(bsdf), wo) : spectrum_all(0);
 }
 
 Spectrum bsdf_mirror(const Bsdf *bsdf, Vec3 wo)
 {
-    const BsdfModel *model = models[bsdf->kind];
-    return model->boundary.mirror ? model->boundary.mirror(parameters_of(bsdf), wo) : spectrum_all(0);
+    const BsdfBoundary *of = &models[bsdf->kind]->boundary;
+    return of->mirror ? of->mirror(parameters_of(bsdf), wo) : spectrum_all(0);
 }
 
 Spectrum bsdf_glint(const Bsdf *bsdf, Vec3 wo, Vec3 wi)
@@ -95,16 +95,16 @@ bool bsdf_scatters(const Bsdf *bsdf)
 
 BsdfLobes bsdf_lobes(const Bsdf *bsdf, Vec3 wo)
 {
-    const BsdfModel *model = models[bsdf->kind];
+    const BsdfScatter *of = &models[bsdf->kind]->scatter;
     BsdfLobes lobes = {0};
-    if (model->scatter.lobes) model->scatter.lobes(parameters_of(bsdf), wo, &lobes);
+    if (of->lobes) of->lobes(parameters_of(bsdf), wo, &lobes);
     return lobes;
 }
 
 Spectrum bsdf_albedo(const Bsdf *bsdf, Vec3 wo)
 {
-    const BsdfModel *model = models[bsdf->kind];
-    return model->scatter.albedo ? model->scatter.albedo(parameters_of(bsdf), wo) : spectrum_all(0);
+    const BsdfScatter *of = &models[bsdf->kind]->scatter;
+    return of->albedo ? of->albedo(parameters_of(bsdf), wo) : spectrum_all(0);
 }
 
 bool bsdf_polarise(const Bsdf *bsdf, Vec3 wo, const BsdfSample *way, BsdfPolarisation *out)
@@ -130,8 +130,8 @@ float bsdf_index(const Bsdf *bsdf)
 
 float bsdf_shift(const Bsdf *bsdf, float cosine)
 {
-    const BsdfModel *model = models[bsdf->kind];
-    return model->boundary.shift ? model->boundary.shift(parameters_of(bsdf), cosine) : 0;
+    const BsdfBoundary *of = &models[bsdf->kind]->boundary;
+    return of->shift ? of->shift(parameters_of(bsdf), cosine) : 0;
 }
 
 bool bsdf_sends_across(const Bsdf *bsdf)

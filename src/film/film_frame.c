@@ -416,8 +416,8 @@ static void add_numbers(ChannelFill *to)
     for (size_t i = 0; i < sizeof number_channels / sizeof *number_channels; i++) {
         int index = number_channels[i].index;
         if (!(to->film->layers & number_channels[i].layers)) continue;
-        if (index == 0)
-            begin_layer(to, (ChannelSource){.kind = KIND_READ, .read = number_channels[i].read});
+        ChannelSource from = {.kind = KIND_READ, .read = number_channels[i].read};
+        if (index == 0) begin_layer(to, from);
         add_channel(to, index, number_channels[i].name, number_channels[i].is_whole);
     }
 }

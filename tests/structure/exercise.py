@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""exercise.py [NAME ...] -- what CONTRIBUTING.md has a recipe for, done in a copy of the project:
-no other file changes, the copy builds, and the tests that it names hold for what was added.
+"""exercise.py [NAME ...] -- the recipes of CONTRIBUTING.md, followed in a copy of the project: no
+other file changes, the copy builds, and the tests of its kind hold for what was added.
 """
 import os
 import shutil
@@ -34,7 +34,8 @@ EXERCISES = {
          ("src/path/surface.c", "    } else {\n        set_metallic_roughness(site, surface);",
           "    } else if (m->specular <= 0 && site->metallic <= 0 && site->alpha >= 1)"
           " {\n"
-          "        bsdf_be_dust(&surface->bsdf)->grain = spectrum_all(0.3f) * site->base_color;\n"),
+          "        bsdf_be_dust(&surface->bsdf)->grain = spectrum_all(0.3f) * "
+          "site->base_color;\n"),
          ("tests/unit/test_shaders.c", "static int make_models(void **state)",
           "static void add_dust(void)\n{\n    Model *model = &models[model_count++];\n"
           '    *model = (Model){.name = "dust", .width = 1};\n'

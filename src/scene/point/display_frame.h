@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* display_frame.h -- how a display lies at a point of it: its frame, and the place on the panel.
+/* display_frame.h -- how a display lies at one of its points: frame, place on the panel.
  *
  * Frame    world.  Threads  pure functions.  Fails  never.
  */
