@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""exercise.py [NAME ...] -- the recipes of CONTRIBUTING.md, followed in a copy of the project: no
-other file changes, the copy builds, and the tests of its kind hold for what was added.
+"""exercise.py [NAME ...] -- the recipes of CONTRIBUTING.md, followed in a copy of the project:
+no other file changes, the copy builds, and the tests of its kind hold for what was added.
 """
 import os
 import shutil
