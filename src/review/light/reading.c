@@ -428,7 +428,7 @@ static bool find_parts(const Journal *journal, JournalKey key, int displays,
     memcpy(&parts->seconds, from + sizeof paths, sizeof parts->seconds);
     parts->pilot_paths = paths[0];
     parts->paths = paths[1];
-    return paths[0] > 0 && paths[1] > 0;
+    return paths[0] >= 0 && paths[1] > 0; /* no pilot where there is no choice */
 }
 
 static bool find_reading(const Journal *journal, JournalKey key, Reading *out)
