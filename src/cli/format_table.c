@@ -3,7 +3,9 @@
 
 #include "base/count.h"
 #include "equip/equip_file.h"
+#include "import/import_request.h"
 #include "job/job_manifest.h"
+#include "panel/set/manifest.h"
 #include "panel/set/synthetic_format.h"
 #include "review/profile.h"
 #include "review/request/request_read.h"
@@ -14,6 +16,8 @@ const NamedFormat format_table[] = {
     {"job", "manifest.json of a frame, or a review, that is shared among machines",
      &job_format},
     {"review", "REVIEW.json: what a glare review is asked", &review_format},
+    {"import_declaration", "--layout DECLARATION.json of panel import", &import_format},
+    {"measurement_set", "MANIFEST.json of a measurement set", &manifest_format},
     {"recipe", "A synthetic panel, *.recipe.json", &synthetic_format},
 };
 const int format_count = COUNT_OF(format_table);

@@ -55,7 +55,8 @@ static double low_of(const RecordRow *row)
 /* The i-th of them, as the row keeps it. */
 static void keep_number(const RecordRow *row, void *at, int i, double value)
 {
-    if (is_integer(row)) ((int *)at)[i] = (int)value;
+    if (is_integer(row) && row->flags & RECORD_LONG) ((long *)at)[i] = (long)value;
+    else if (is_integer(row)) ((int *)at)[i] = (int)value;
     else if (row->flags & RECORD_FLOAT) ((float *)at)[i] = (float)value;
     else ((double *)at)[i] = value;
 }
@@ -149,7 +150,7 @@ static bool read_word(const JsonView *view, const RecordRow *row, int *place, co
     for (; count < KEYS_MAX && (word = record_word(row, count)); count++) {
         known[count] = word;
         if (strcmp(text, word) != 0) continue;
-        *place = count;
+        *place = count + (row->flags & RECORD_NULL ? 1 : 0);
         *out = word;
         return true;
     }
@@ -395,7 +396,8 @@ bool record_read_kind(const JsonView *view, const RecordRow *row, void *item, Er
     case RECORD_CONST: return read_const(view, row, err);
     case RECORD_FILE: return read_file(view, row, at, err);
     case RECORD_PATH:
-        return read_text(view, row, &word, err) && json_view_file(view, row->key, word, at, err);
+        return read_text(view, row, &word, err) &&
+               json_view_file(view, row->key, word, at, err);
     case RECORD_REFER: return read_refer(view, row, at, err);
     case RECORD_OBJECT: return read_object(view, row, item, err);
     case RECORD_LIST:
@@ -409,6 +411,21 @@ bool record_read_value(const JsonView *view, const RecordRow *row, void *item, E
     return (row->read ? row->read : record_read_kind)(view, row, item, err);
 }
 
+/* What nobody knows, of a row that says so by null. */
+static void clear(const RecordRow *row, void *item)
+{
+    void *at = at_offset(item, row->offset);
+    if (row->kind == RECORD_TEXT) memset(at, 0, sizeof(const char *));
+    if (row->kind == RECORD_CHOICE) memset(at, 0, sizeof(int));
+    if (row->kind == RECORD_NUMBER) *(double *)at = (double)NAN;
+    for (int i = 0; row->kind == RECORD_NUMBERS && i < row->most; i++)
+        ((double *)at)[i] = (double)NAN;
+    if (row->kind != RECORD_OBJECT) return;
+    *(bool *)at_offset(item, row->count) = false;
+    for (const RecordRow *inside = row->of->rows; inside->key; inside++)
+        if (inside->flags & RECORD_NULL) clear(inside, at);
+}
+
 bool record_read(const JsonView *outer, const RecordFormat *format, void *item, Error *err)
 {
     const char *keys[KEYS_MAX];
@@ -417,14 +434,17 @@ bool record_read(const JsonView *outer, const RecordFormat *format, void *item, 
     if (!own.whole) own.whole = item;
     for (const RecordRow *row = format->rows; row->key && count < KEYS_MAX; row++)
         keys[count++] = row->key;
-    if (!json_view_check_keys(view, keys, count, err)) return false;
+    if (!format->takes_more && !json_view_check_keys(view, keys, count, err)) return false;
     for (const RecordRow *row = format->rows; row->key; row++) {
-        if (json_object_get(view->object, row->key)) {
-            if (!record_read_value(view, row, item, err)) return false;
-        } else if (row->flags & RECORD_REQUIRED) {
+        const json_t *value = json_object_get(view->object, row->key);
+        if (row->flags & RECORD_WRITTEN) continue;
+        if (!value && row->flags & RECORD_REQUIRED)
             return error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing",
                             row->key);
-        }
+        if (row->flags & RECORD_NULL) clear(row, item);
+        if (value && !(json_is_null(value) && row->flags & RECORD_NULL) &&
+            !record_read_value(view, row, item, err))
+            return false;
     }
     return !format->check || format->check(view, item, err);
 }

@@ -37,15 +37,15 @@ typedef enum RecordKind {
     RECORD_CONST,   /* nothing is kept: the text is words[0], or the number is low */
     RECORD_FILE,    /* const char *: the path of a file that can be read. In the document it is
                        a relative URI, percent-encoded (base/reference.h says how far) */
-    RECORD_PATH,    /* const char *: a path as it stands, seen from the document's folder; nobody
-                       looks whether it is there */
+    RECORD_PATH,    /* const char *: a path as it stands, seen from the document's folder; it
+                       need not be there */
     RECORD_REFER,   /* int: the place of a name in a list that was read before, `among` */
     RECORD_OBJECT,  /* a struct `of`, in place; if `count` is given, the bool there: is it? */
     RECORD_LIST,    /* const struct *, least to most of them; int at `count` */
     RECORD_MAP,     /* the same, by names: the first member of each struct, const char *. With
                        `among` each is a name of that list */
-    RECORD_EITHER,  /* one of `forms`: the first of the value's JSON type; a form's offset counts
-                       from the row's */
+    RECORD_EITHER,  /* one of `forms`: the first of the value's JSON type. A form's offset
+                       counts from the row's */
     RECORD_OWN      /* whatever `read` makes of it; `schema` is its JSON Schema. NULL: it is one
                        of `words` */
 } RecordKind;
@@ -60,7 +60,12 @@ enum RecordFlags {
     RECORD_UNIT = 64,    /* of three numbers: a direction, which becomes a unit vector */
     RECORD_FLOAT = 128,  /* of a number, of numbers: float, not double */
     RECORD_APART = 256,  /* of an object: const struct *; NULL: it is absent */
-    RECORD_OPEN = 512    /* absent it means no number: the schema has no default */
+    RECORD_OPEN = 512,   /* absent it means no number: the schema has no default */
+    RECORD_NULL = 1024,  /* null, or absent: of numbers NaN, of a text NULL, of a choice 0 (its
+                            words are 1, 2, ...), of an object that it is not there */
+    RECORD_LONG = 2048,  /* of an integer: long, not int */
+    RECORD_WRITTEN = 4096, /* it is not read back */
+    RECORD_BRIEF = 8192  /* null, false and an empty list are not written */
 };
 
 /* Named structs of the outermost struct that is read (JsonView.whole). */
@@ -89,6 +94,7 @@ struct RecordRow {
     const RecordRow    *forms;     /* the key of each says what it is: "a name" */
     bool (*read)(const JsonView *view, const RecordRow *row, void *item, Error *err);
                                    /* instead of the kind's own reading; NULL: that */
+    json_t *(*write)(const void *item); /* likewise, of the struct; record_write.h */
     const char *schema;            /* of RECORD_OWN, JSON; ' may stand for " */
     const char *doc;               /* one sentence; NULL: the key says it */
 };
@@ -122,6 +128,7 @@ struct RecordFormat {
     const char *rules; /* what `check` wants, as members of a JSON Schema (' as in a
                           row); NULL: nothing */
     const char *doc;
+    bool takes_more;        /* keys of a later version are passed over */
     const RecordRow *value; /* instead of rows, where the items of a list or map are no objects:
                                what each is */
 };

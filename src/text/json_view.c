@@ -153,17 +153,6 @@ bool json_view_numbers(const JsonView *view, const char *key, JsonRange range, d
     return true;
 }
 
-bool json_view_pair(const JsonView *view, const char *key, double low, double high,
-                    double out[2], Error *err)
-{
-    int           count = 2;
-    const json_t *list = json_object_get(view->object, key);
-    if (json_is_array(list) && json_array_size(list) != 2)
-        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                        "has %zu values, required: 2", json_array_size(list));
-    return json_view_numbers(view, key, (JsonRange){low, high, 2}, out, &count, err);
-}
-
 bool json_view_text(const JsonView *view, const char *key, const char **out, Error *err)
 {
     json_t *value = json_object_get(view->object, key);

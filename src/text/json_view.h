@@ -57,10 +57,6 @@ typedef struct JsonRange {
 bool json_view_numbers(const JsonView *view, const char *key, JsonRange range, double *out,
                        int *count, Error *err);
 
-/* Two of them, in [low, high]; absent: out keeps its values. */
-bool json_view_pair(const JsonView *view, const char *key, double low, double high,
-                    double out[2], Error *err);
-
 /* A text; absent: *out keeps its value. */
 bool json_view_text(const JsonView *view, const char *key, const char **out, Error *err);
 

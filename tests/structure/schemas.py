@@ -49,6 +49,12 @@ def extension_objects(node, path=""):
             yield from extension_objects(value, f"{path}/{key}")
 
 
+def written(program, name):
+    """The schema that the program writes from the rows that it reads a format by."""
+    return json.loads(subprocess.run([program, "schema", name], capture_output=True,
+                                     check=True).stdout)
+
+
 def check_scene(report, known, scene):
     document = load(scene)
     used = set(document.get("extensionsUsed", []))
@@ -85,12 +91,7 @@ WRONG_SUBPIXELS = [("subpixels", "stripe"), ("subpixels", {}), ("subpixels", {"f
                    ("subpixels", {"layout": "stripe", "columns": 9.5, "rows": 4}),
                    ("subpixels", {"layout": "stripe", "columns": 0, "rows": 4}),
                    ("subpixels", {"layout": "stripe", "shape": "round"})]
-DECLARATION = {"delimiter": "semicolon", "decimal": "comma", "azimuth_zero": "top",
-               "azimuth_sense": "cw", "mask": [-999], "level_max": 255, "skip": ["log_*"],
-               "columns": ["theta", "phi", "X", "Y", "Z"], "roles": {"m01*.txt": "black"},
-               "isotropic": True, "symmetry": "both", "area_mm": [10, 20], "instrument": "C",
-               "date": "2026-03-14", "operator": "A", "conditions": "23 C",
-               "levels": "levels.csv", "specular_aperture_deg": 0}
+DECLARATION = load(os.path.join(ROOT, "tests/unit/records/import.json"))
 WRONG_RECIPES = [("emission/red/peaks_nm", []), ("emission/red/peaks_nm", None),
                  ("emission/green", None), ("emission/gama", 2.2), ("emission/gamma", 9),
                  ("instrument/theta_step_deg", 20), ("reflection/haze_share", 1.5),
@@ -323,11 +324,7 @@ def main():
         report.claim(name in known, f"assets/schemas holds no valid schema of {name}")
     check_can_fail(report, known)
     def schema_of(name):
-        if name in ("profile", "recipe", "equip"): # from the rows that the program reads by
-            schema = json.loads(subprocess.run([program, "schema", name], capture_output=True,
-                                               check=True).stdout)
-        else:
-            schema = load(os.path.join(ROOT, f"assets/schemas/{name}.schema.json"))
+        schema = written(program, name)
         schema = with_references(schema)
         validator = jsonschema.validators.validator_for(schema)
         validator.check_schema(schema)

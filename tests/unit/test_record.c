@@ -14,6 +14,8 @@ static const char *const EXAMPLES[] = {PROJECT_DIR "/assets/profiles/iso-15008.j
                                        PROJECT_DIR "/tests/unit/records/equip.json",
                                        PROJECT_DIR "/tests/unit/records/job.json",
                                        PROJECT_DIR "/tests/unit/records/review.json",
+                                       PROJECT_DIR "/tests/unit/records/import.json",
+                                       PROJECT_DIR "/tests/unit/records/measurement_set.json",
                                        PROJECT_DIR "/assets/panels/oled_centre.recipe.json"};
 
 typedef struct Faults {
@@ -81,7 +83,10 @@ static json_t *of_another_kind(const RecordRow *row)
                    row->kind == RECORD_NOTE || row->kind == RECORD_FILE ||
                    row->kind == RECORD_REFER || row->kind == RECORD_PATH ||
                    (row->kind == RECORD_CONST && row->words);
+    bool takes_number = row->schema && (strstr(row->schema, "number") ||
+                                        strstr(row->schema, "integer"));
     if (row->kind == RECORD_EITHER) return json_true();
+    if (takes_number) return json_object();
     return is_text ? json_integer(7) : json_string("seven");
 }
 
@@ -126,6 +131,7 @@ static void try_object(Faults *f, const RecordFormat *format, const char *place,
 static void try_single(Faults *f, const RecordRow *row)
 {
     bool is_own = row->kind == RECORD_OWN || row->read;
+    if (row->schema && !strcmp(row->schema, "{}")) return; /* anything will do */
     if (!row->schema || !strstr(row->schema, "null"))
         try_value(f, row, json_null(), is_own ? "" : "is null");
     try_value(f, row, of_another_kind(row),

@@ -6,7 +6,6 @@
 
 #include "base/count.h"
 #include "review/output/review_json.h"
-#include "review/export/review_json_read.h"
 #include "review/output/review_words.h"
 #include "review/export/review_junit.h"
 #include "review_page_fixture.h"
@@ -278,7 +277,8 @@ TEST(a_foreign_json_is_refused_in_one_line)
                    "one of 'limits'");
     assert_refused("\"foreground\": ", "\"foreground\": \"\", \"x\": ",
                    "/cases/0/luminance_cd_m2/foreground", "is a text, required: a number");
-    assert_refused("\"chain\": [", "\"chain\": [4, ", "/cases/0/causes/0/chain", "only texts");
+    assert_refused("\"chain\": [", "\"chain\": [4, ", "/cases/0/causes/0/chain/0",
+                   "is a number, required: a text");
     assert_refused("\"hidden_by\": []", "\"hidden_by\": [{\"what\": 3}]",
                    "/cases/0/hidden_by/0/what", "required: a text");
     assert_refused("\"basis\": \"given\"", "\"basis\": \"giver\"", "/rests_on/3/basis",

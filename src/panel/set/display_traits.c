@@ -3,17 +3,7 @@
 
 #include <math.h>
 
-#include "base/count.h"
-
-static const char *const KEYS[] = {"polarisation", "subpixels"};
 static const char *const LAYOUTS[] = {"stripe", "pentile", NULL};
-
-const char *display_traits_key(const JsonView *root)
-{
-    for (int i = 0; i < COUNT_OF(KEYS); i++)
-        if (json_object_get(root->object, KEYS[i])) return KEYS[i];
-    return NULL;
-}
 
 const char *display_traits_layout(SubpixelLayout layout)
 {
@@ -80,19 +70,4 @@ bool display_traits_check(const JsonView *root, double pixels[2], DisplayTraits 
     traits->subpixels.layout = (SubpixelLayout)(SUBPIXELS_STRIPE + traits->layout);
     traits->subpixels.fill = (float)traits->fill;
     return true;
-}
-
-bool display_traits_read(const JsonView *root, double pixels[2], DisplayTraits *out,
-                         Error *err)
-{
-    typedef struct Alone {
-        DisplayTraits traits;
-    } Alone;
-    static const RecordRow rows[] = {DISPLAY_TRAITS_ROWS(Alone, traits)};
-    out->fill = 1;
-    for (int i = 0; i < COUNT_OF(rows); i++)
-        if (json_object_get(root->object, rows[i].key) &&
-            !record_read_value(root, &rows[i], out, err))
-            return false;
-    return display_traits_check(root, pixels, out, err);
 }

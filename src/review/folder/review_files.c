@@ -13,7 +13,7 @@
 #include "base/file_write.h"
 #include "review/output/review_answer.h"
 #include "review/output/review_card.h"
-#include "review/export/review_json_read.h"
+#include "review/output/review_json.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
 #include "text/text.h"

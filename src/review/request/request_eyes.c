@@ -2,8 +2,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/mathd.h"
-#include "base/units.h"
 #include "record/rows.h"
 #include "review/request/request_format.h"
 
@@ -98,28 +96,6 @@ const RecordFormat review_eye_format = {
              "'tilt_deg': ['ellipse_m']}, 'not': {'required': ['half_size_m', "
              "'ellipse_m']}}"};
 
-/* Ahead on the horizontal, its front down by the tilt; across; upright on both. */
-static void turn_ellipse(const double forward[3], ReviewEye *eye)
-{
-    double level = hypot_d(forward[0], forward[2]);
-    double ahead[3] = {forward[0] / level, 0, forward[2] / level};
-    double across[3] = {-ahead[2], 0, ahead[0]};
-    double tilt = radians_from_degrees(eye->tilt_deg), c = cos_d(tilt), s = sin_d(tilt);
-    for (int k = 0; k < 3; k++) {
-        double up = k == 1;
-        eye->half_axes_m[0][k] = 0.5 * eye->axes_m[0] * (c * ahead[k] - s * up);
-        eye->half_axes_m[1][k] = 0.5 * eye->axes_m[1] * across[k];
-        eye->half_axes_m[2][k] = 0.5 * eye->axes_m[2] * (s * ahead[k] + c * up);
-    }
-}
-
-void request_turn_ellipses(ReviewRequest *request)
-{
-    for (int i = 0; i < request->eye_count; i++)
-        if (request->eyes[i].kind == EYE_ELLIPSE)
-            turn_ellipse(request->forward, &request->eyes[i]);
-}
-
 #undef OWNER
 
 /* ---- where they look --------------------------------------------------------------------- */
@@ -159,12 +135,6 @@ static const RecordRow GAZE[] = {
      .doc = "Names of the eyes that look so; default: all."},
     {0}};
 
-static void look_with_all(const ReviewRequest *request, ReviewGaze *gaze, Arena *arena)
-{
-    gaze->for_eye = ARENA_NEW(arena, bool, request->eye_count);
-    for (int i = 0; i < request->eye_count; i++) gaze->for_eye[i] = true;
-}
-
 static bool check_gaze(const JsonView *view, void *item, Error *err)
 {
     ReviewGaze    *gaze = item;
@@ -178,7 +148,6 @@ static bool check_gaze(const JsonView *view, void *item, Error *err)
     if (!gaze->name && has_direction)
         return error_at(err, ERROR_INPUT, view->file, view->path, "key 'name' is missing");
     if (!gaze->name) gaze->name = SYMBOLS[0];
-    if (!gaze->for_eye) look_with_all(request, gaze, view->arena);
     for (const ReviewGaze *before = request->gazes; before < gaze; before++)
         if (!strcmp(before->name, gaze->name))
             return error_at(err, ERROR_INPUT, view->file, view->path,
@@ -189,12 +158,5 @@ static bool check_gaze(const JsonView *view, void *item, Error *err)
 
 const RecordFormat review_gaze_format = {
     "gaze", sizeof(OWNER), GAZE, .check = check_gaze,
-    .rules = "{'oneOf': [{'required': ['at']}, {'required': ['direction', 'name']}]}"};
-
-void request_look_at_symbols(ReviewRequest *request, Arena *arena)
-{
-    request->gazes = ARENA_NEW(arena, ReviewGaze, 1);
-    request->gaze_count = 1;
-    request->gazes[0] = (ReviewGaze){.name = SYMBOLS[0], .at_symbols = true};
-    look_with_all(request, request->gazes, arena);
-}
+    .rules = "{'oneOf': [{'required': ['at']}, {'required': ['direction']}], "
+             "'dependentRequired': {'direction': ['name']}}"};

@@ -26,23 +26,17 @@ typedef struct WordOf {
     int         word;
 } WordOf;
 
-typedef struct Words {
+typedef struct WordsSaid {
     int           all; /* -1: they are by name */
     const WordOf *by_name;
     int           count;
-} Words;
+} WordsSaid;
 
-/* Of a row whose two forms fill a Words, the second by names: out gets that of each name. */
+/* Of a row whose two forms fill a WordsSaid, the second by names: out gets that of each name. */
 bool request_read_words(const JsonView *view, const RecordRow *row, int *out, Error *err);
 
 /* The forms of a polarity of symbols; the words are in the order of ReviewPolarity. */
 extern const RecordRow review_polarity_forms[];
-
-/* Eye ellipses lie along the vehicle's forward, which is read after them. */
-void request_turn_ellipses(ReviewRequest *request);
-
-/* Where no gaze is given: every eye looks at the symbols. */
-void request_look_at_symbols(ReviewRequest *request, Arena *arena);
 
 /* A file that was read, once. */
 void request_note_input(const JsonView *view, const char *path, uint64_t hash);

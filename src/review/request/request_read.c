@@ -2,16 +2,13 @@
 #include "review/request/request_read.h"
 
 #include <math.h>
-#include <string.h>
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
 #include "base/file.h"
 #include "base/mathd.h"
+#include "base/units.h"
 #include "record/rows.h"
 #include "review/request/request_format.h"
 
-#define INPUT_BYTES_MAX ((size_t)1 << 30)
 #define CLEAR_USUAL 0.05 /* precision of readings whose verdict is clear */
 #define UPRIGHT 1e-6     /* horizontal length of a unit vector: less is vertical */
 
@@ -147,14 +144,52 @@ static void start_review(void *item)
         .frames = {960, 540, 0.1, 2}};
 }
 
+/* Ahead on the horizontal, its front down by the tilt; across; upright on both. */
+static void turn_ellipse(const double forward[3], ReviewEye *eye)
+{
+    double level = hypot_d(forward[0], forward[2]);
+    double ahead[3] = {forward[0] / level, 0, forward[2] / level};
+    double across[3] = {-ahead[2], 0, ahead[0]};
+    double tilt = radians_from_degrees(eye->tilt_deg), c = cos_d(tilt), s = sin_d(tilt);
+    for (int k = 0; k < 3; k++) {
+        double up = k == 1;
+        eye->half_axes_m[0][k] = 0.5 * eye->axes_m[0] * (c * ahead[k] - s * up);
+        eye->half_axes_m[1][k] = 0.5 * eye->axes_m[1] * across[k];
+        eye->half_axes_m[2][k] = 0.5 * eye->axes_m[2] * (s * ahead[k] + c * up);
+    }
+}
+
+static void turn_ellipses(ReviewRequest *request)
+{
+    for (int i = 0; i < request->eye_count; i++)
+        if (request->eyes[i].kind == EYE_ELLIPSE)
+            turn_ellipse(request->forward, &request->eyes[i]);
+}
+
+/* Where no gaze is given: at the symbols. One that names no eyes is of all. */
+static void look(ReviewRequest *request, Arena *arena)
+{
+    if (!request->gaze_count) {
+        request->gazes = ARENA_NEW(arena, ReviewGaze, 1);
+        request->gaze_count = 1;
+        request->gazes[0] = (ReviewGaze){.name = "symbols", .at_symbols = true};
+    }
+    for (int g = 0; g < request->gaze_count; g++) {
+        ReviewGaze *gaze = &request->gazes[g];
+        if (gaze->for_eye) continue;
+        gaze->for_eye = ARENA_NEW(arena, bool, request->eye_count);
+        for (int i = 0; i < request->eye_count; i++) gaze->for_eye[i] = true;
+    }
+}
+
 static bool check_review(const JsonView *view, void *item, Error *err)
 {
     ReviewRequest *request = item;
     if (!(hypot_d(request->forward[0], request->forward[2]) > UPRIGHT))
         return record_fails(view, "forward", err,
                             "is vertical, required: where the vehicle points");
-    request_turn_ellipses(request);
-    if (!request->gaze_count) request_look_at_symbols(request, view->arena);
+    turn_ellipses(request);
+    look(request, view->arena);
     request->is_compared = review_is_compared(request);
     return true;
 }
@@ -164,39 +199,7 @@ const RecordFormat review_format = {
     .doc = "Files are relative to this one. Every name that is used (levels, with, eyes, "
            "symbols) is defined in it; displays and cameras are the scene's."};
 
-#define NAMES(key, one, member, counted, Type)                                                 \
-    {key, one, offsetof(OWNER, member), offsetof(OWNER, counted), sizeof(Type)}
-
-const RecordNames review_eye_names = NAMES("eyes", "eye", eyes, eye_count, ReviewEye);
-const RecordNames review_with_names = NAMES("with", "with", withs, with_count, ReviewWith);
-const RecordNames review_symbol_names = NAMES("symbols", "symbol", symbols, symbol_count,
-                                              ReviewSymbol);
-const RecordNames review_level_names = NAMES("levels", "level", levels, level_count,
-                                             ReviewLevel);
-
-/* ---- files that are read ----------------------------------------------------------------- */
-
-void request_note_input(const JsonView *view, const char *path, uint64_t hash)
-{
-    ReviewRequest *request = view->whole;
-    int            count = request->input_count;
-    for (int i = 0; i < count; i++)
-        if (!strcmp(request->inputs[i].path, path)) return;
-    if (!(count & (count - 1))) /* full: it doubles */
-        request->inputs = ARENA_GROW(view->arena, ReviewInput, request->inputs, count,
-                                     count ? 2 * count : 1);
-    const char *kept = arena_string(view->arena, path, strlen(path));
-    request->inputs[request->input_count++] = (ReviewInput){kept, hash};
-}
-
-bool request_note_file(const JsonView *view, const char *path, Error *err)
-{
-    FileBytes bytes;
-    Arena     scratch = *view->arena;
-    if (!file_read(path, INPUT_BYTES_MAX, &scratch, &bytes, err)) return false;
-    request_note_input(view, path, XXH3_64bits(bytes.data, bytes.size));
-    return true;
-}
+/* ---- a file ------------------------------------------------------------------------------ */
 
 bool review_request_read(const char *file, const char *root, Arena *arena, Problems *problems,
                          ReviewRequest *out, Error *err)

@@ -1,29 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include <string.h>
-
 #include "record/rows.h"
 #include "review/request/request_format.h"
 
 /* ---- words for all or by name ------------------------------------------------------------ */
 
-bool request_read_words(const JsonView *view, const RecordRow *row, int *out, Error *err)
-{
-    Words        said = {.all = -1};
-    const char **names;
-    int          count = record_names(view, row->forms[1].among, &names);
-    if (!record_read_kind(view, row, &said, err)) return false;
-    for (int i = 0; i < count; i++) {
-        if (said.all >= 0) out[i] = said.all;
-        for (int k = 0; k < said.count; k++)
-            if (!strcmp(said.by_name[k].name, names[i])) out[i] = said.by_name[k].word;
-    }
-    return true;
-}
-
-#define WORDS_ROWS(words_, by_, among_, of_)                                                   \
-    {"a word", RECORD_CHOICE, RECORD_AT(Words, all), .words = words_},                         \
-    {by_, RECORD_MAP, RECORD_MANY(Words, by_name, count), .least = 1, .among = &among_,        \
-     .of = &of_},                                                                              \
+#define OWNER WordsSaid
+#define WORDS_ROWS(list, by, names, format)                                                    \
+    CHOICE("a word", 0, all, list, NULL),                                                      \
+    {by, RECORD_MAP, RECORD_MANY(OWNER, by_name, count), .least = 1, .among = &names,          \
+     .of = &format},                                                                           \
     {0}
 
 static const char *const POLARITIES[] = {
@@ -44,6 +29,8 @@ static const RecordRow IS_VISIBLE = {.kind = RECORD_CHOICE, RECORD_AT(WordOf, wo
 static const RecordFormat visible_format = {"visible", sizeof(WordOf), .value = &IS_VISIBLE};
 static const RecordRow VISIBLE_FORMS[] = {
     WORDS_ROWS(VISIBLE, "words by eyes' names", review_eye_names, visible_format)};
+
+#undef OWNER
 
 /* ---- symbols ----------------------------------------------------------------------------- */
 
@@ -109,7 +96,3 @@ static const RecordRow WITH = {.kind = RECORD_LIST, RECORD_MANY(ReviewWith, path
                                RECORD_COUNT(1, 256), .of = &record_files,
                                .doc = "Files of the scene."};
 const RecordFormat review_with_format = {"with", sizeof(ReviewWith), .value = &WITH};
-
-static const RecordRow CONTENT = {.kind = RECORD_FILE, RECORD_AT(ReviewContent, path)};
-const RecordFormat review_content_format = {"content", sizeof(ReviewContent),
-                                            .value = &CONTENT};
