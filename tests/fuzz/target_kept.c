@@ -271,7 +271,8 @@ void fuzz_journal(const uint8_t *data, size_t size, Arena *arena)
 
 /* ---- answers: what a journal's entries may hold ------------------------------------------ */
 
-/* Rays with places in the table of cells, a gaze, an eye, a text: as bytes, so that any are tried. */
+/* Rays with places in the table of cells, a gaze, an eye, a text: as bytes, so that any are
+ * tried. */
 typedef struct AnswerBytes {
     uint8_t parts, texts, rays, cells;
 } AnswerBytes;

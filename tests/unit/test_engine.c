@@ -119,7 +119,8 @@ static bool run_request(Heard *heard, Journal *journal, Arena *arena, ReviewOutc
         fail_msg("%s: %s", fault.path, fault.text);
     WorkPlan  all = work_of_review(&request, NULL);
     Work      work = work_start(PROGRESS_NONE, &all);
-    ReviewRun run = {.request = &request, .profile = profile, .means = {.threads = 2, .journal = journal},
+    ReviewRun run = {.request = &request, .profile = profile,
+                     .means = {.threads = 2, .journal = journal},
                      .problems = &problems, .work = &work,
                      .news = {hear_condition, hear_scene, heard}};
     ReviewSteps steps = {.with_sensitivities = true, .on_step = hear_step, .user = heard};

@@ -335,6 +335,7 @@ static void keep_parts(Journal *journal, JournalKey key, const ReadingParts *par
     keep(journal, key, bytes, parts_bytes(displays));
 }
 
+/* Who was given a number of paths had no pilot. */
 static bool find_parts(const Journal *journal, JournalKey key, int displays, long most,
                        ReadingParts *parts, Arena scratch)
 {
@@ -348,7 +349,7 @@ static bool find_parts(const Journal *journal, JournalKey key, int displays, lon
     memcpy(&parts->seconds, from + sizeof paths, sizeof parts->seconds);
     parts->pilot_paths = paths[0];
     parts->paths = paths[1];
-    return paths[0] > 0 && paths[0] <= most / BATCHES && paths[1] > 0 &&
+    return paths[0] >= 0 && paths[0] <= most / BATCHES && paths[1] > 0 &&
            paths[1] <= most / BATCHES &&
            reading_batches_are_sound(parts->pilot, paths[0], displays) &&
            reading_batches_are_sound(parts->fresh, paths[1], displays);
