@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -232,6 +233,13 @@ bool journal_find(const Journal *journal, JournalKey key, void *answer, size_t s
     const JournalPlace *place = place_of(journal->places, journal->room, key);
     return place->offset && place->size == size &&
            read_at(journal->file, answer, size, place->offset);
+}
+
+bool journal_find_floats(const Journal *journal, JournalKey key, float *out, size_t count)
+{
+    bool is_sound = journal_find(journal, key, out, count * sizeof *out);
+    for (size_t i = 0; is_sound && i < count; i++) is_sound = isfinite(out[i]);
+    return is_sound;
 }
 
 /* Half an entry would only be in the way of the next. */

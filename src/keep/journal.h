@@ -11,11 +11,13 @@
  *          Entries are added at the end. One that was cut off by a kill, or damaged, ends what
  *          counts: it and all behind it are dropped when the file is opened.
  * Memory   an index in the arena; answers are read when they are asked for.
+ *          A checksum can be made to fit: whether an answer may be is its asker's to check.
  * Threads  one at a time. Two processes never have one file: the second is refused.
  * Fails    as stated. A failed write (a full disk) is remembered and reported by journal_ok;
  *          the file keeps what it had.
  */
 #pragma once
+#include <stddef.h>
 #include <stdint.h>
 
 #include "base/problems.h"
@@ -35,6 +37,9 @@ bool journal_open(const char *path, Arena *arena, Problems *problems, Journal **
 
 /* False: there is no answer of that size under the key. A NULL journal knows none. */
 bool journal_find(const Journal *journal, JournalKey key, void *answer, size_t size);
+
+/* The same of floats. One that is not finite is none of ours: false, and they mean nothing. */
+bool journal_find_floats(const Journal *journal, JournalKey key, float *out, size_t count);
 
 /* Keeps it; of a key that is there already the first answer counts. NULL is fine. */
 void journal_add(Journal *journal, JournalKey key, const void *answer, size_t size);

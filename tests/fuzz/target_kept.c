@@ -14,6 +14,7 @@
 #include "harness.h"
 #include "job/job_manifest.h"
 #include "keep/journal.h"
+#include "review/eye/eye_reading.h"
 #include "review/eye/false_suns.h"
 #include "review/eye/gaze_reading.h"
 #include "review/light/response_file.h"
@@ -270,7 +271,8 @@ void fuzz_journal(const uint8_t *data, size_t size, Arena *arena)
 
 /* ---- answers: what a journal's entries may hold ------------------------------------------ */
 
-/* Rays with places in the table of cells, a gaze, a text: as bytes, so that any are tried. */
+/* Rays with places in the table of cells, a gaze, an eye, a text: as bytes, so that any are
+ * tried. */
 typedef struct AnswerBytes {
     uint8_t parts, texts, rays, cells;
 } AnswerBytes;
@@ -318,6 +320,7 @@ void fuzz_answers(const uint8_t *data, size_t size, Arena *arena)
 {
     AnswerBytes  head;
     GazeReading  gaze;
+    EyeReading   eye;
     TextProposal text;
     int          parts;
     if (!take(&data, &size, &head, sizeof head)) return;
@@ -326,6 +329,10 @@ void fuzz_answers(const uint8_t *data, size_t size, Arena *arena)
         fuzz_claim(gaze.most.pane_id < parts && gaze.most.part_id < parts &&
                        gaze.most.source >= 0 && gaze.most.source < LIGHT_SETS,
                    "what a gaze meets is of the scene");
+    if (take(&data, &size, &eye, sizeof eye) && eye_reading_is_sound(&eye))
+        fuzz_claim(eye.glare.figures.none == GLARE_HAS_UGR ||
+                       discomfort_none_words(eye.glare.figures.none),
+                   "a figure that is missing is so for a reason");
     for (int i = 0; i < head.texts % 6; i++)
         if (take(&data, &size, &text, sizeof text) && text_proposal_is_sound(&text))
             for (int k = 0; k < 4; k++)
@@ -340,17 +347,17 @@ size_t fuzz_make_answers(uint8_t *data, size_t max_size, unsigned number, Arena 
     const GazeReading  gaze = {.most = {.pane_id = 1, .part_id = NO_ID}};
     const TextProposal text = {.uv = {0.1, 0.2, 0.3, 0.4}, .height_px = 9, .characters = 4};
     const int          cells[2][2] = {{9, 0}, {500, head.rays}};
-    size_t size = sizeof head + sizeof gaze + sizeof text + head.rays * sizeof(FalseSunRay);
+    size_t read = sizeof head + sizeof gaze + sizeof(EyeReading);
+    size_t size = read + sizeof text + head.rays * sizeof(FalseSunRay);
     if (number > 2 || size + sizeof cells > max_size) return 0;
     memset(data, 0, size);
     memcpy(data, &head, sizeof head);
     memcpy(data + sizeof head, &gaze, sizeof gaze);
-    memcpy(data + sizeof head + sizeof gaze, &text, sizeof text);
+    memcpy(data + read, &text, sizeof text);
     for (int i = 0; i < head.rays; i++) {
         const FalseSunRay ray = {.sun = {0, 1, 0}, .seen = {0, 0, -1}, .sr = 1e-5f,
                                  .part_id = i % 3};
-        memcpy(data + sizeof head + sizeof gaze + sizeof text + (size_t)i * sizeof ray, &ray,
-               sizeof ray);
+        memcpy(data + read + sizeof text + (size_t)i * sizeof ray, &ray, sizeof ray);
     }
     memcpy(data + size, cells, sizeof cells);
     return size + sizeof cells;

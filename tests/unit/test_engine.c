@@ -2,7 +2,11 @@
 /* A whole review without a command line: a display on a wall under an even sky. */
 #include "fixture.h"
 
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
 #include "base/count.h"
+#include "keep/kept.h"
 #include "review/engine/engine.h"
 #include "review/request/request_read.h"
 #include "review/review_decide.h"
@@ -26,9 +30,11 @@ static const char scene_text[] =
     "'buffers':[{'byteLength':92,'uri':'data:application/octet-stream;base64,%s'}]}";
 
 static const char request_text[] =
-    "{'title':'Small','scene':['a.gltf'],'forward':[0,0,-1],'eyes':{'driver':{'camera':'eye'}},"
+    "{'title':'Small','scene':['a.gltf'],'forward':[0,0,-1],"
+    "'eyes':{'driver':{'camera':'eye'}},"
     "'symbols':{'speed':{'display':'cluster','content':'c.png','uv':[0.167,0.408,0.27,0.609],"
     "'polarity':'light-on-dark'}},'profile':'iso-15008','precision':{'contrast':0.2},"
+    "'gaze':[{'at':'symbols'},{'name':'road','direction':[0,0.2,-1],'eyes':['driver']}],"
     "'frames':{'size':[32,18],'noise':1,'worst':0},"
     "'variants':{'brighter':{'brightness':{'*':2}}},"
     "'conditions':[{'name':'grey','environment':{'type':'constant','luminance':500}},"
@@ -101,7 +107,8 @@ static bool hear_step(void *user, ReviewOutcome *outcome, Error *err)
     return !heard->refuses || error_set(err, ERROR_OUTPUT, "the disk is full");
 }
 
-static bool run_request(Heard *heard, Arena *arena, ReviewOutcome *out, Error *err)
+static bool run_request(Heard *heard, Journal *journal, Arena *arena, ReviewOutcome *out,
+                        Error *err)
 {
     Problems       problems = problems_start(arena);
     ReviewRequest  request;
@@ -112,7 +119,8 @@ static bool run_request(Heard *heard, Arena *arena, ReviewOutcome *out, Error *e
         fail_msg("%s: %s", fault.path, fault.text);
     WorkPlan  all = work_of_review(&request, NULL);
     Work      work = work_start(PROGRESS_NONE, &all);
-    ReviewRun run = {.request = &request, .profile = profile, .means.threads = 2,
+    ReviewRun run = {.request = &request, .profile = profile,
+                     .means = {.threads = 2, .journal = journal},
                      .problems = &problems, .work = &work,
                      .news = {hear_condition, hear_scene, heard}};
     ReviewSteps steps = {.with_sensitivities = true, .on_step = hear_step, .user = heard};
@@ -124,7 +132,7 @@ ARENA_TEST(a_review_is_a_call)
     ReviewOutcome outcome;
     Heard         heard = {0};
     write_files(arena);
-    assert_done(run_request(&heard, &arena, &outcome, &err));
+    assert_done(run_request(&heard, NULL, &arena, &outcome, &err));
     const Review *review = &outcome.review;
     assert_int_equal(heard.conditions, 2);
     assert_true(heard.scenes >= 2);
@@ -145,9 +153,71 @@ ARENA_TEST(a_listener_ends_it)
     ReviewOutcome outcome;
     Heard         heard = {.refuses = true};
     write_files(arena);
-    assert_fails_as(run_request(&heard, &arena, &outcome, &err), ERROR_OUTPUT,
+    assert_fails_as(run_request(&heard, NULL, &arena, &outcome, &err), ERROR_OUTPUT,
                     "the disk is full");
     assert_int_equal(heard.steps, 1);
+}
+
+/* ---- what was kept ----------------------------------------------------------------------- */
+
+static bool run_kept(Arena *arena, ReviewOutcome *out, int *answers, Error *fault)
+{
+    Heard    heard = {0};
+    Problems problems = problems_start(arena);
+    Journal *journal;
+    assert_done(journal_open(in_folder("journal"), arena, &problems, &journal, &err));
+    assert_int_equal(problems.count, 0);
+    bool ok = run_request(&heard, journal, arena, out, fault);
+    *answers = journal_count(journal);
+    journal_close(journal);
+    return ok;
+}
+
+/* Every answer with other bytes, and a checksum that fits. */
+static void patch(const FileBytes *file, uint64_t word, size_t from, Arena arena)
+{
+    unsigned char *bytes = ARENA_NEW(&arena, unsigned char, file->size);
+    memcpy(bytes, file->data, file->size);
+    for (size_t at = sizeof(KeptHead); at < file->size;) {
+        uint64_t     size;
+        XXH3_state_t sum;
+        memcpy(&size, bytes + at + 16, sizeof size);
+        for (size_t k = from; k + 8 <= size; k += 8) memcpy(bytes + at + 32 + k, &word, 8);
+        XXH3_64bits_reset(&sum);
+        XXH3_64bits_update(&sum, bytes + at, 24);
+        XXH3_64bits_update(&sum, bytes + at + 32, size);
+        uint64_t checksum = XXH3_64bits_digest(&sum);
+        memcpy(bytes + at + 24, &checksum, sizeof checksum);
+        at += 32 + size;
+    }
+    write_bytes(in_folder("journal"), bytes, file->size);
+}
+
+/* No member may lead anywhere: numbers that are none, indices that are far off. */
+ARENA_TEST(answers_with_any_bytes_do_no_harm)
+{
+    static const uint64_t words[] = {UINT64_MAX,            /* NaN; -1, -1 */
+                                     0x7fe1ccf385ebc8a0u,   /* 1e308 */
+                                     0x7ffffff07ffffff0u,   /* large ints; NaN */
+                                     0x3ff0000040000000u,   /* 1 and somewhat */
+                                     0x8000000080000000u,   /* the least ints */
+                                     0x0000000700000007u};
+    ReviewOutcome first, again;
+    FileBytes     file;
+    int           count, kept;
+    write_files(arena);
+    assert_done(run_kept(&arena, &first, &count, &err));
+    assert_true(count > 4);
+    assert_done(file_read(in_folder("journal"), 1 << 26, &arena, &file, &err));
+    assert_done(run_kept(&arena, &again, &kept, &err));
+    assert_int_equal(kept, count);
+    assert_true(again.review.cases[0].contrast_ratio == first.review.cases[0].contrast_ratio);
+    for (int i = 0; i < 2 * COUNT_OF(words); i++) {
+        Arena room = arena;
+        patch(&file, words[i / 2], i % 2 ? 8 : 0, room);
+        if (!run_kept(&room, &again, &kept, why())) assert_true(why()->text[0]);
+        else assert_int_equal(again.review.case_count, first.review.case_count);
+    }
 }
 
 TEST_PROGRAM(make_folder, clear_folder)
