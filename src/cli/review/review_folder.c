@@ -13,7 +13,7 @@
 #include "render/render.h"
 #include "review/run/frames.h"
 #include "review/run/live.h"
-#include "review/output/review_answer.h"
+#include "review/output/review_link.h"
 #include "review/export/review_csv.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_json.h"

@@ -7,7 +7,7 @@
 #include "base/file_write.h"
 #include "base/mathd.h"
 #include "page/page.h"
-#include "review/output/review_card.h"
+#include "review/output/review_link.h"
 #include "review/output/review_decide.h"
 
 /* Sweeps beyond that much text stay as they are drawn: one minute a step over a year. */
