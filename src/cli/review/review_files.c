@@ -12,9 +12,9 @@
 #include "base/file.h"
 #include "base/file_write.h"
 #include "review/output/review_link.h"
-#include "review/output/review_decide.h"
 #include "review/export/review_json_read.h"
 #include "review/output/review_words.h"
+#include "review/review_decide.h"
 #include "text/text.h"
 
 #define LIST "made-by-review.txt"

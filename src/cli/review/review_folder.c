@@ -15,11 +15,11 @@
 #include "review/run/live.h"
 #include "review/output/review_link.h"
 #include "review/export/review_csv.h"
-#include "review/output/review_decide.h"
 #include "review/output/review_json.h"
 #include "review/export/review_json_read.h"
 #include "review/export/review_junit.h"
 #include "review/output/review_words.h"
+#include "review/review_decide.h"
 #include "text/text.h"
 
 #define MAP_STEP_DEG 5

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "review/output/review_decide.h"
+#include "review/review_decide.h"
 #include "text/text.h"
 
 /* ---- cells ------------------------------------------------------------------------------- */

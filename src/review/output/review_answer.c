@@ -6,11 +6,11 @@
 
 #include "page/page.h"
 #include "review/output/review_card.h"
-#include "review/output/review_decide.h"
 #include "review/output/review_facts.h"
 #include "review/output/review_link.h"
 #include "review/output/review_rays.h"
 #include "review/output/review_words.h"
+#include "review/review_decide.h"
 #include "text/json_text.h"
 #include "text/text.h"
 

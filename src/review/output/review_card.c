@@ -9,11 +9,11 @@
 #include "image/plain/plain_png.h"
 #include "page/page.h"
 #include "review/output/review_bar.h"
-#include "review/output/review_decide.h"
 #include "review/output/review_link.h"
 #include "review/output/review_rays.h"
 #include "review/output/review_words.h"
 #include "review/quantity.h"
+#include "review/review_decide.h"
 #include "text/text.h"
 
 #define FIRST_CAUSES 4

@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "base/count.h"
-#include "review/output/review_decide.h"
 #include "review/output/review_members.h"
 #include "review/output/review_rests.h"
+#include "review/review_decide.h"
 #include "text/json_text.h"
 
 #define DIGITS 6

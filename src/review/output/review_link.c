@@ -3,8 +3,8 @@
 
 #include <strings.h>
 
-#include "review/output/review_decide.h"
 #include "review/output/review_words.h"
+#include "review/review_decide.h"
 
 /* ---- where its card is ------------------------------------------------------------------ */
 

@@ -8,7 +8,7 @@
 #include "base/mathd.h"
 #include "page/page.h"
 #include "review/output/review_link.h"
-#include "review/output/review_decide.h"
+#include "review/review_decide.h"
 
 /* Sweeps beyond that much text stay as they are drawn: one minute a step over a year. */
 #define SWEEPS_BYTES ((size_t)6 << 20)

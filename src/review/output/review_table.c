@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "page/page.h"
-#include "review/output/review_decide.h"
 #include "review/output/review_words.h"
+#include "review/review_decide.h"
 #include "text/json_text.h"
 #include "text/text.h"
 

@@ -2,8 +2,8 @@
 #include "review/output/review_values.h"
 
 #include "page/page.h"
-#include "review/output/review_decide.h"
 #include "review/output/review_words.h"
+#include "review/review_decide.h"
 
 json_t *values_list(json_t *to, const char *name)
 {

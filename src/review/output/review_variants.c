@@ -9,8 +9,8 @@
 
 #include "page/page.h"
 #include "review/output/review_card.h"
-#include "review/output/review_decide.h"
 #include "review/output/review_words.h"
+#include "review/review_decide.h"
 #include "text/effect_text.h"
 
 /* ---- the order --------------------------------------------------------------------------- */

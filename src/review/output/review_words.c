@@ -8,8 +8,8 @@
 
 #include "print/utf8.h"
 #include "plot/draw/ticks.h"
-#include "review/output/review_decide.h"
 #include "review/quantity.h"
+#include "review/review_decide.h"
 #include "text/interval_text.h"
 #include "text/text.h"
 #include "vision/discomfort.h"

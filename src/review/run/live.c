@@ -10,8 +10,8 @@
 #include "base/units.h"
 #include "image/exposure.h"
 #include "image/false_colour.h"
-#include "review/output/review_decide.h"
 #include "review/pace/work.h"
+#include "review/review_decide.h"
 #include "text/base64.h"
 #include "vision/eye_filter.h"
 

@@ -5,9 +5,9 @@
 
 #include "render/identity.h"
 #include "review/keep/journal.h"
-#include "review/output/review_decide.h"
 #include "review/pace/work.h"
 #include "review/request/request_check.h"
+#include "review/review_decide.h"
 #include "review/run/cases.h"
 #include "review/run/false_sun_times.h"
 #include "review/run/gazes.h"

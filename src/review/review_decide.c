@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/output/review_decide.h"
+#include "review/review_decide.h"
 
 #include <math.h>
 #include <stdlib.h>
