@@ -201,16 +201,10 @@ static json_t *script_text(json_t *data)
     return out;
 }
 
-/* Numbers of 1 to 4 bytes, as a script unpacks them. NULL: *err is filled. */
-static json_t *packed(const uint32_t *values, size_t count, int bytes, Arena scratch,
-                      Error *err)
+/* False: there are none. */
+static bool set_packed(json_t *to, const char *name, const char *numbers)
 {
-    Arena   own = arena_reserve(DATA_BYTES);
-    Text    text = {.arena = &own};
-    bool    ok = page_data_add(&text, values, count, bytes, scratch, err);
-    json_t *out = ok ? json_stringn_nocheck(text.data, text.size) : NULL;
-    arena_release(&own);
-    return out;
+    return !json_object_set_new(to, name, json_string(numbers));
 }
 
 static float coordinate(Vec3 v, int axis)
@@ -229,8 +223,7 @@ static bool add_positions(json_t *list, const Scene *scene, int axis, Arena scra
     }
     json_t *to = page_add(list);
     json_object_set_new(to, "axis", json_stringn(&"xyz"[axis], 1));
-    return !json_object_set_new(to, "steps",
-                                packed(steps, scene->vertex_count, 3, scratch, err));
+    return set_packed(to, "steps", page_packed(steps, scene->vertex_count, 3, &scratch, err));
 }
 
 /* u or v of a base colour's texture, of all vertices; who has none stays 0. */
@@ -267,8 +260,7 @@ static bool add_coordinates(json_t *list, const Scene *scene, bool is_v, Arena s
     page_set(to, "axis", is_v ? "v" : "u");
     json_object_set_new(to, "low", json_real((double)low));
     json_object_set_new(to, "size", json_real(size));
-    return !json_object_set_new(to, "steps",
-                                packed(steps, scene->vertex_count, 3, scratch, err));
+    return set_packed(to, "steps", page_packed(steps, scene->vertex_count, 3, &scratch, err));
 }
 
 static bool set_triangles(json_t *to, const Scene *scene, Arena scratch, Error *err)
@@ -276,9 +268,8 @@ static bool set_triangles(json_t *to, const Scene *scene, Arena scratch, Error *
     uint32_t *index = ARENA_NEW(&scratch, uint32_t, 3 * (size_t)scene->triangle_count);
     for (uint32_t t = 0; t < scene->triangle_count; t++)
         memcpy(index + 3 * (size_t)t, scene->triangles[t].vertex, 3 * sizeof *index);
-    return !json_object_set_new(to, "triangles",
-                                packed(index, 3 * (size_t)scene->triangle_count,
-                                       index_bytes(scene), scratch, err));
+    return set_packed(to, "triangles", page_packed(index, 3 * (size_t)scene->triangle_count,
+                                                   index_bytes(scene), &scratch, err));
 }
 
 static bool set_geometry(json_t *to, const Scene *scene, Arena scratch, Error *err)

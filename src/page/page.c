@@ -94,9 +94,10 @@ json_t *page_picture(const Picture *picture, bool is_jpeg, Arena scratch, Error 
 
 #define LEVEL 9 /* pages are written once and read often */
 
-bool page_data_add(Text *page, const uint32_t *values, size_t count, int bytes, Arena scratch,
-                   Error *err)
+const char *page_packed(const uint32_t *values, size_t count, int bytes, Arena *arena,
+                        Error *err)
 {
+    Arena  scratch = arena_reserve(PAGE_BYTES);
     size_t size = count * (size_t)bytes;
     uLong  room = compressBound((uLong)size);
     unsigned char *planes = ARENA_NEW(&scratch, unsigned char, size);
@@ -107,8 +108,10 @@ bool page_data_add(Text *page, const uint32_t *values, size_t count, int bytes, 
         uint32_t before = i > 0 ? values[i - 1] >> shift : 0;
         planes[at] = (unsigned char)((values[i] >> shift) - before);
     }
-    if (compress2(packed, &room, planes, (uLong)size, LEVEL) != Z_OK)
-        return error_set(err, ERROR_MEMORY, "memory is out: numbers of the page");
-    base64_encode(page, packed, room);
-    return true;
+    Text text = {.arena = arena};
+    bool ok = compress2(packed, &room, planes, (uLong)size, LEVEL) == Z_OK ||
+              error_set(err, ERROR_MEMORY, "memory is out: numbers of the page");
+    if (ok) base64_encode(&text, packed, room);
+    arena_release(&scratch);
+    return ok ? text.data : NULL;
 }

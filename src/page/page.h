@@ -58,7 +58,7 @@ json_t *page_picture(const Picture *picture, bool is_jpeg, Arena scratch, Error 
  * byte, then every byte less the one before it, modulo 256. What changes little from number to
  * number is short so. A script unpacks it by DecompressionStream('deflate').
  *
- * values: the lowest `bytes` of each go in. scratch: twice the numbers' bytes. The same numbers
- * give the same text (of one version of zlib). Fails when memory is out. */
-bool page_data_add(Text *page, const uint32_t *values, size_t count, int bytes, Arena scratch,
-                   Error *err);
+ * values: the lowest `bytes` of each go in. The same numbers give the same text (of one version
+ * of zlib). NULL: memory is out. */
+const char *page_packed(const uint32_t *values, size_t count, int bytes, Arena *arena,
+                        Error *err);

@@ -196,7 +196,7 @@ static bool set_live(const PageValues *v, Error *err)
     Arena own = arena_reserve(WORDS_BYTES);
     Text  html = {.arena = &own};
     bool  ok = !v->page->live ||
-              review_live_add(&html, v->review, v->page->live, v->arena, err);
+              review_live_add(&html, v->review, v->page->live, err);
     json_object_set_new(v->doc, "live", json_stringn(html.size ? html.data : "", html.size));
     arena_release(&own);
     return ok;
