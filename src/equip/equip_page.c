@@ -304,11 +304,11 @@ bool equip_page_write(const Scene *scene, const char *model, const char *command
     Text    three = {.arena = arena};
     text_add(&three, THREE_NOTICE);
     text_add(&three, THREE_SCRIPT);
-    page_set_head(values, &(PageHead){
-        .title = arena_format(arena, "%s: equip", path_name(model)), .command = command});
+    const PageHead head = {.title = arena_format(arena, "%s: equip", path_name(model)),
+                           .command = command};
     page_set(values, "three", three.data);
     json_object_set_new(values, "data", script_text(data_json(scene, model, command, arena)));
-    if (set_geometry(values, scene, *arena, err))
+    if (page_set_head(values, &head, err) && set_geometry(values, scene, *arena, err))
         return page_write_values("equip", values, NULL, path, err);
     json_decref(values);
     return false;

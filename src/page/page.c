@@ -1,14 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "page/page.h"
 
+#include <stdlib.h>
+#include <string.h>
 #include <zlib.h>
 
+#include "base/file.h"
 #include "base/file_write.h"
 #include "text/base64.h"
 #include "text/json_text.h"
 
 #define PAGE_BYTES ((size_t)16 << 30) /* address space for the text */
 #define WORDS_BYTES ((size_t)1 << 24) /* and for one format's words */
+#define STYLE_BYTES ((size_t)1 << 20)
 
 /* ---- values ------------------------------------------------------------------------------ */
 
@@ -34,14 +38,30 @@ json_t *page_add(json_t *list)
     return object;
 }
 
-void page_set_head(json_t *values, const PageHead *head)
+/* A style ends where HTML says so, whatever stands around that. */
+static bool set_style(json_t *values, const char *path, Error *err)
 {
+    FileBytes bytes;
+    Arena     own = arena_reserve(2 * STYLE_BYTES);
+    bool      ok = file_read(path, STYLE_BYTES, &own, &bytes, err);
+    if (ok && strstr((const char *)bytes.data, "</"))
+        ok = error_at(err, ERROR_INPUT, path, "", "has \"</\" in it, required: CSS alone");
+    if (ok) page_set(values, "style", (const char *)bytes.data);
+    else error_prefix(err, "$%s", PAGE_STYLE_VARIABLE);
+    arena_release(&own);
+    return ok;
+}
+
+bool page_set_head(json_t *values, const PageHead *head, Error *err)
+{
+    const char *style = getenv(PAGE_STYLE_VARIABLE);
     page_set(values, "window", head->title);
     page_set(values, "command", head->command);
-    page_set(values, "style", head->style);
+    page_set(values, "style", NULL);
     page_set(values, "version", PARHELION_VERSION);
     page_set_flag(values, "is_dark", head->is_dark);
     page_set_count(values, "renewed_s", head->renewed_s);
+    return !style || !*style || set_style(values, style, err);
 }
 
 /* ---- files ------------------------------------------------------------------------------- */

@@ -22,13 +22,15 @@
 typedef struct PageHead {
     const char *title;     /* of the window */
     const char *command;   /* that made the page */
-    const char *style;     /* CSS behind the page's own: a firm's; NULL: none */
     bool        is_dark;   /* for every reader */
     int         renewed_s; /* the file is written anew: it is asked for after so long; 0: not */
 } PageHead;
 
-/* The values that every page has. */
-void page_set_head(json_t *values, const PageHead *head);
+/* The file of a firm's own style, behind that of every page: CSS. */
+#define PAGE_STYLE_VARIABLE "PARHELION_STYLE"
+
+/* The values that every page has. Fails for a style that cannot be read. */
+bool page_set_head(json_t *values, const PageHead *head, Error *err);
 
 /* Names a text; NULL is null. */
 void page_set(json_t *values, const char *name, const char *text);

@@ -95,16 +95,17 @@ TEST(a_fault_of_a_template_is_named)
     }
 }
 
-/* head.html, as every page has it, and page.css and page.js in their places. */
+/* head.html, page.css and page.js, as every page has them. */
 static const char FRAME[] = "<!DOCTYPE html>\n<html{{#is_dark}} class=\"dark\"{{/is_dark}}>"
-                            "<head>\n{{>head}}\n</head><body>\n<footer>{{command}}</footer>\n"
+                            "<head>\n{{>head}}\n<link rel=\"stylesheet\" href=\"page.css\">\n"
+                            "</head><body>\n<footer>{{command}}</footer>\n"
                             "<script src=\"page.js\"></script>\n</body></html>\n";
 
 static const char *small_page(bool is_dark)
 {
     Text    page = {.arena = test_memory()};
     json_t *values = json_object();
-    page_set_head(values, &(PageHead){WILD, WILD, NULL, is_dark, 15});
+    assert_done(page_set_head(values, &(PageHead){WILD, WILD, is_dark, 15}, &err));
     assert_done(page_render_text(&page, (PageFile){"frame.html", FRAME}, values, NULL,
                                  arena_reserve(1 << 20), &err));
     json_decref(values);
@@ -127,6 +128,25 @@ TEST(a_page_is_whole_and_asks_nobody)
     assert_non_null(strstr(small_page(true), "<html class=\"dark\">"));
 }
 
+/* Behind the style of every page; CSS alone. */
+TEST(a_firm_has_a_style_of_its_own)
+{
+    const char *path = in_folder("firm.css");
+    json_t     *values = json_object();
+    setenv(PAGE_STYLE_VARIABLE, path, 1);
+    write_text(path, "h1{color:teal}");
+    assert_done(page_set_head(values, &(PageHead){"t", "c", false, 0}, &err));
+    assert_string_equal(json_string_value(json_object_get(values, "style")), "h1{color:teal}");
+    write_text(path, "</style><script>");
+    assert_false(page_set_head(values, &(PageHead){"t", "c", false, 0}, why()));
+    assert_string_equal(why()->file, path);
+    assert_string_equal(why()->text, "$PARHELION_STYLE: has \"</\" in it, required: CSS alone");
+    remove(path);
+    assert_false(page_set_head(values, &(PageHead){"t", "c", false, 0}, why()));
+    unsetenv(PAGE_STYLE_VARIABLE);
+    json_decref(values);
+}
+
 /* Every page and part: its files and parts are there, and sections nest. */
 TEST(all_templates_are_whole)
 {
@@ -134,6 +154,8 @@ TEST(all_templates_are_whole)
         const char *name = page_file_table[i].name, *at = page_file_table[i].text, *open[32];
         int         depth = 0;
         if (!strstr(name, ".html")) continue;
+        if (strstr(at, "<!DOCTYPE html>") == at)
+            assert_true(strstr(at, "{{>head}}") < strstr(at, "<style>{{{style}}}</style>"));
         for (; (at = strstr(at, "{{")); at += 2) {
             if (at[2] == '#' || at[2] == '^') open[depth++] = at + 3;
             if (at[2] != '/') continue;

@@ -338,16 +338,13 @@ void html_report_add_failure(HtmlReport *report, const char *name, const char *w
 #define CARDS "<!-- cards -->"
 #define PAIRS "<!-- pairs -->"
 
-static json_t *page_values(const HtmlReport *report, const char *reference, const char *test,
-                           Arena *arena)
+static bool set_page(json_t *to, const HtmlReport *report, const char *reference,
+                     const char *test, Arena *arena, Error *err)
 {
-    json_t *to = json_object();
     Text    ramps[2] = {{.arena = arena}, {.arena = arena}};
     const char *title = arena_format(arena, "%s against %s", path_name(test),
                                      path_name(reference));
     for (int i = 0; i < 2; i++) shot_ramp_digits(&ramps[i], i == 1);
-    page_set_head(to, &(PageHead){.title = title, .command = "compare --report",
-                                  .style = report->style});
     page_set(to, "reference", reference);
     page_set(to, "test", test);
     page_set(to, "cards", CARDS);
@@ -358,7 +355,7 @@ static json_t *page_values(const HtmlReport *report, const char *reference, cons
     page_set_flag(to, "is_one", report->count == 1);
     page_set_count(to, "count", report->count);
     page_set_count(to, "different", report->different);
-    return to;
+    return page_set_head(to, &(PageHead){.title = title, .command = "compare --report"}, err);
 }
 
 /* Cuts off what stands before the mark. */
@@ -375,8 +372,9 @@ bool html_report_write(const HtmlReport *report, const char *reference, const ch
 {
     Arena   arena = arena_reserve(FRAME_BYTES), scratch = arena_reserve(FRAME_BYTES);
     Text    page = {.arena = &arena};
-    json_t *values = page_values(report, reference, test, &scratch);
-    bool    ok = page_render(&page, "compare", values, NULL, scratch, err);
+    json_t *values = json_object();
+    bool    ok = set_page(values, report, reference, test, &scratch, err) &&
+              page_render(&page, "compare", values, NULL, scratch, err);
     if (ok) {
         const char *rest = page.data;
         Text        begin = cut_at(&rest, CARDS), between = cut_at(&rest, PAIRS);

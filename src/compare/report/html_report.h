@@ -14,7 +14,6 @@
 
 typedef struct HtmlReport {
     bool  is_folder;
-    const char *style; /* CSS behind the page's own: a firm's; NULL: none */
     Arena own[2];       /* of the two texts */
     Text  index, pairs; /* cards, and what stands below them */
     int   count, different, shown; /* pairs; of these, below the index */

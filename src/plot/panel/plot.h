@@ -15,7 +15,6 @@ typedef struct PlotOptions {
     PlotKind kind;
     int      width, height; /* of the picture, pixels (SVG: its units); 0: chosen */
     bool     is_dark;
-    const char *style;     /* of a report: CSS behind its own, a firm's; NULL: none */
     double   incidence_phi; /* azimuth of the light, radians; PI: from the left */
     int      threads;       /* at least 1 */
     PlotContours contours;  /* of luminance and contrast; none: chosen */

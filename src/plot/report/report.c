@@ -121,8 +121,8 @@ static bool write_page(json_t *to, const PlotData *s, const Report *report,
 {
     static const PageFormat FORMATS[] = {{"figure", figure_words}, {NULL, NULL}};
     Arena *arena = s->arena;
-    page_set_head(to, &(PageHead){.title = s->name, .command = "panel report",
-                                  .style = options->style, .is_dark = options->is_dark});
+    const PageHead head = {.title = s->name, .command = "panel report",
+                           .is_dark = options->is_dark};
     page_set(to, "name", s->name);
     page_set(to, "file_name", s->file_name);
     json_object_set(to, "note", json_object_get(s->source.report, "note"));
@@ -133,7 +133,9 @@ static bool write_page(json_t *to, const PlotData *s, const Report *report,
     if (s->reflects) set_reflection(to, s);
     json_object_set_new(to, "tables", report_values(report));
     report_of_file(to, s->source.report, *arena);
-    if (report_figures(to, plot_charts(s, PLOT_ALL, arena), options->is_dark, arena, err))
+    if (page_set_head(to, &head, err) &&
+        report_figures(to, plot_charts(s, PLOT_ALL, arena), options->is_dark, arena,
+                       err))
         return page_write_values("panel", to, FORMATS, path, err);
     json_decref(to);
     return false;

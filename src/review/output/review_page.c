@@ -41,7 +41,7 @@ static const char *only_symbol(const Review *review)
            : review->sweep_count ? review->sweeps[0].symbol : NULL;
 }
 
-static void set_head(const PageValues *v)
+static bool set_head(const PageValues *v, Error *err)
 {
     const Review *review = v->review;
     const char   *symbol = only_symbol(review);
@@ -49,12 +49,13 @@ static void set_head(const PageValues *v)
     bool          is_renewed = review->to_come && !review->is_beside;
     json_t       *elsewhere = values_object(v->doc, "elsewhere");
     page_set(v->doc, "title", title);
-    page_set_head(v->doc, &(PageHead){.title = symbol ? symbol : title, .command = "review",
-                                      .style = v->page->style, .is_dark = v->page->is_dark,
-                                      .renewed_s = is_renewed ? RENEWED_S : 0});
     page_set_flag(v->doc, "is_beside", review->is_beside);
     page_set(elsewhere, "href", review->is_beside ? "index.html" : REVIEW_PAGE_BESIDE);
     page_set(elsewhere, "what", review->is_beside ? "the worst" : "a page of their own");
+    return page_set_head(v->doc, &(PageHead){.title = symbol ? symbol : title,
+                                             .command = "review",
+                                             .is_dark = v->page->is_dark,
+                                             .renewed_s = is_renewed ? RENEWED_S : 0}, err);
 }
 
 /* ---- cards ------------------------------------------------------------------------------ */
@@ -205,8 +206,8 @@ static bool set_live(const PageValues *v, Error *err)
 /* most: verdicts that are listed; 0: all. */
 static bool set_all(const PageValues *v, int most, Error *err)
 {
-    set_head(v);
-    if (!values_add_cases(v, err) || !values_add_answer(v, err) || !set_sweeps(v, err))
+    if (!set_head(v, err) || !values_add_cases(v, err) || !values_add_answer(v, err) ||
+        !set_sweeps(v, err))
         return false;
     set_cards(v);
     values_add_matrices(v);
@@ -248,8 +249,7 @@ static const ReviewCase *case_of_part(const Review *part, const ReviewCase *of)
 
 static ReviewPage page_of_part(const ReviewPage *page, const Review *part, Arena *arena)
 {
-    ReviewPage     out = {.review = part, .style = page->style,
-                                  .is_dark = page->is_dark};
+    ReviewPage     out = {.review = part, .is_dark = page->is_dark};
     ReviewPicture *pictures = ARENA_NEW(arena, ReviewPicture, page->picture_count);
     ReviewMap     *maps = ARENA_NEW(arena, ReviewMap, page->map_count);
     for (int i = 0; i < page->picture_count; i++) {

@@ -45,7 +45,6 @@ typedef struct ReviewPage {
     int                   command_count;
     const ReviewDiff     *diff;     /* NULL: none */
     const ReviewLive     *live;     /* the interactive parts; NULL: none */
-    const char           *style;    /* CSS behind the page's own: a firm's; NULL: none */
     bool                  is_dark;  /* for readers with a light scheme, too */
 } ReviewPage;
 
