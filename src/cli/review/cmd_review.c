@@ -23,6 +23,7 @@
 #include "review/pace/work.h"
 #include "review/request/request_start.h"
 #include "review/request/request_read.h"
+#include "review/review_decide.h"
 #include "review/run/run.h"
 #include "review/vary/variants.h"
 #include "scene/load/scene_load.h"

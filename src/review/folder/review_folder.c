@@ -12,7 +12,7 @@
 #include "render/render.h"
 #include "review/run/frames.h"
 #include "review/folder/live.h"
-#include "review/output/review_answer.h"
+#include "review/output/review_link.h"
 #include "review/export/review_csv.h"
 #include "review/output/review_json.h"
 #include "review/export/review_junit.h"

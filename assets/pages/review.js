@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What a map or a calendar says under the pointer. Without script both are complete: this adds
-   the numbers. The build embeds it (review_page.c).
+   the numbers (src/review/output/review_map.c).
 
    data-values: base64 of a number of 16 bits a cell, low byte first, from the lower left. Of a
    map the upper two bits are the verdict, the others 1 + 16382 ln(contrast) / ln(10000), 0 for

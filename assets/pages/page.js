@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What every report does: a link opens the closed part that it leads to, and paper shows closed
-   parts too. Without script the reader opens them. The build embeds it (src/page/page.c). */
+   parts too. Without script the reader opens them. */
 (function(){
 function openFor(hash){
   var e=hash.length>1&&document.getElementById(hash.slice(1));
