@@ -77,7 +77,7 @@ static bool read_roles(const JsonView *root, const RecordRow *row, void *item, E
     JsonView     view;
     const char  *pattern;
     json_t      *value;
-    if (!json_view_child(root, row->key, true, &view, err)) return false;
+    if (!json_view_child(root, row->key, &view, err)) return false;
     json_object_foreach(view.object, pattern, value) {
         const char *role = plain_text(&view, value);
         Role        parsed;

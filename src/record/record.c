@@ -36,20 +36,24 @@ static bool is_integer(const RecordRow *row)
     return row->kind == RECORD_INTEGER || row->kind == RECORD_WHOLES;
 }
 
-/* It is in [low, high]; the low end itself may be out of range. */
-static bool check_number(const JsonView *view, const RecordRow *row, double value, Error *err)
+/* Is it a number of the row's: in [low, high], whole? */
+static bool check_number(const JsonView *view, const RecordRow *row, const json_t *value,
+                         double *out, Error *err)
 {
-    if (row->flags & RECORD_ABOVE && !(value > row->low))
-        return record_fails(view, row->key, err, "is %g, required: a number above %g", value,
+    if (!json_is_number(value))
+        return json_view_wrong_kind(view, row->key, value,
+                                    row->most ? "only numbers" : "a number", err);
+    double number = *out = json_number_value(value);
+    bool   is_above = row->flags & RECORD_ABOVE;
+    if (!isfinite(number) || number > row->high || (!is_above && number < row->low))
+        return record_fails(view, row->key, err, "is %g, required: a number from %g to %g",
+                            number, row->low, row->high);
+    if (is_above && !(number > row->low))
+        return record_fails(view, row->key, err, "is %g, required: a number above %g", number,
                             row->low);
-    return (!is_integer(row) && !(row->flags & RECORD_WHOLE)) || value == floor(value) ||
-           record_fails(view, row->key, err, "is %g, required: %s", value,
+    return (!is_integer(row) && !(row->flags & RECORD_WHOLE)) || number == floor(number) ||
+           record_fails(view, row->key, err, "is %g, required: %s", number,
                         row->most ? "whole numbers" : "a whole number");
-}
-
-static double low_of(const RecordRow *row)
-{
-    return row->flags & RECORD_ABOVE ? -HUGE_VAL : row->low;
 }
 
 /* The i-th of them, as the row keeps it. */
@@ -63,9 +67,8 @@ static void keep_number(const RecordRow *row, void *at, int i, double value)
 
 static bool read_number(const JsonView *view, const RecordRow *row, void *out, Error *err)
 {
-    double value = NAN;
-    if (!json_view_number(view, row->key, low_of(row), row->high, &value, err) ||
-        !check_number(view, row, value, err))
+    double value;
+    if (!check_number(view, row, json_object_get(view->object, row->key), &value, err))
         return false;
     if (row->flags & RECORD_RADIANS) value = radians_from_degrees(value);
     if (row->flags & RECORD_METRES) value /= 1000;
@@ -106,14 +109,14 @@ static bool find_count(const JsonView *view, const RecordRow *row, const char *w
 
 static bool read_numbers(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
-    int   count, found;
-    void *at = at_offset(item, row->offset);
+    int           count;
+    void         *at = at_offset(item, row->offset);
+    const json_t *values = json_object_get(view->object, row->key);
     if (!find_count(view, row, "an array of numbers", &count, err)) return false;
-    double   *list = ARENA_NEW(view->arena, double, count);
-    JsonRange range = {low_of(row), row->high, count};
-    if (count && !json_view_numbers(view, row->key, range, list, &found, err)) return false;
+    double *list = ARENA_NEW(view->arena, double, count);
     for (int i = 0; i < count; i++)
-        if (!check_number(view, row, list[i], err)) return false;
+        if (!check_number(view, row, json_array_get(values, (size_t)i), &list[i], err))
+            return false;
     if (row->flags & RECORD_UNIT && !make_unit(view, row, list, err)) return false;
     if (row->kind == RECORD_FIGURES) memcpy(at, &list, sizeof list);
     else
@@ -126,7 +129,10 @@ static bool read_numbers(const JsonView *view, const RecordRow *row, void *item,
 
 static bool read_text(const JsonView *view, const RecordRow *row, const char **out, Error *err)
 {
-    if (!json_view_text(view, row->key, out, err)) return false;
+    const json_t *value = json_object_get(view->object, row->key);
+    if (!json_is_string(value))
+        return json_view_wrong_kind(view, row->key, value, "a text", err);
+    *out = arena_string(view->arena, json_string_value(value), json_string_length(value));
     return !(row->flags & RECORD_FILLED) || **out ||
            record_fails(view, row->key, err, "is an empty text, required: some words");
 }
@@ -143,10 +149,10 @@ const char *record_word(const RecordRow *row, int i)
 static bool read_word(const JsonView *view, const RecordRow *row, int *place, const char **out,
                       Error *err)
 {
-    const char *text = NULL, *word, *known[KEYS_MAX];
+    const char *text, *word, *known[KEYS_MAX];
     char        advice[256];
     int         count = 0;
-    if (!json_view_text(view, row->key, &text, err)) return false;
+    if (!read_text(view, row, &text, err)) return false;
     for (; count < KEYS_MAX && (word = record_word(row, count)); count++) {
         known[count] = word;
         if (strcmp(text, word) != 0) continue;
@@ -218,7 +224,7 @@ static bool read_refer(const JsonView *view, const RecordRow *row, int *out, Err
 {
     const char *name, **names, *key = row->among->key;
     char        advice[256];
-    if (!json_view_text(view, row->key, &name, err)) return false;
+    if (!read_text(view, row, &name, err)) return false;
     int count = record_names(view, row->among, &names), place = place_of(name, names, count);
     if (place >= 0) {
         *out = place;
@@ -273,7 +279,7 @@ static bool read_item(const JsonView *view, const RecordRow *row, const char *na
         memcpy(item, &kept, sizeof kept);
     }
     if (!of->value)
-        return json_view_child(view, name, true, &inside, err) &&
+        return json_view_child(view, name, &inside, err) &&
                record_read(&inside, of, item, err);
     RecordRow value = *of->value;
     value.key = name;
@@ -323,7 +329,7 @@ static bool read_object(const JsonView *view, const RecordRow *row, void *item, 
 {
     JsonView inside;
     void    *at = at_offset(item, row->offset);
-    if (!json_view_child(view, row->key, true, &inside, err)) return false;
+    if (!json_view_child(view, row->key, &inside, err)) return false;
     if (row->flags & RECORD_APART) {
         void *apart = arena_alloc(view->arena, row->of->size, _Alignof(max_align_t), 1);
         if (row->of->start) row->of->start(apart);
@@ -411,6 +417,23 @@ bool record_read_value(const JsonView *view, const RecordRow *row, void *item, E
     return (row->read ? row->read : record_read_kind)(view, row, item, err);
 }
 
+/* Refuses a key that no row has, with the nearest one. */
+static bool check_keys(const JsonView *view, const RecordRow *rows, Error *err)
+{
+    const char *known[KEYS_MAX], *key;
+    json_t     *value;
+    int         count = 0;
+    for (const RecordRow *row = rows; row->key && count < KEYS_MAX; row++)
+        known[count++] = row->key;
+    json_object_foreach(view->object, key, value) {
+        if (place_of(key, known, count) >= 0) continue;
+        const char *meant = nearest_word_meant(key, known, count); /* "age" is "age_years" */
+        return record_fails(view, key, err, "unknown key; the nearest known one is '%s'",
+                            meant ? meant : nearest_word(key, known, count));
+    }
+    return true;
+}
+
 /* What nobody knows, of a row that says so by null. */
 static void clear(const RecordRow *row, void *item)
 {
@@ -428,13 +451,9 @@ static void clear(const RecordRow *row, void *item)
 
 bool record_read(const JsonView *outer, const RecordFormat *format, void *item, Error *err)
 {
-    const char *keys[KEYS_MAX];
-    int         count = 0;
-    JsonView    own = *outer, *view = &own;
+    JsonView own = *outer, *view = &own;
     if (!own.whole) own.whole = item;
-    for (const RecordRow *row = format->rows; row->key && count < KEYS_MAX; row++)
-        keys[count++] = row->key;
-    if (!format->takes_more && !json_view_check_keys(view, keys, count, err)) return false;
+    if (!format->takes_more && !check_keys(view, format->rows, err)) return false;
     for (const RecordRow *row = format->rows; row->key; row++) {
         const json_t *value = json_object_get(view->object, row->key);
         if (row->flags & RECORD_WRITTEN) continue;

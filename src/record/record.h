@@ -46,8 +46,8 @@ typedef enum RecordKind {
                        `among` each is a name of that list */
     RECORD_EITHER,  /* one of `forms`: the first of the value's JSON type. A form's offset
                        counts from the row's */
-    RECORD_OWN      /* whatever `read` makes of it; `schema` is its JSON Schema. NULL: it is one
-                       of `words` */
+    RECORD_OWN      /* whatever `read` makes of it; `schema` is its JSON Schema. NULL: that of
+                       `of`, or one of `words` */
 } RecordKind;
 
 enum RecordFlags {
@@ -107,15 +107,6 @@ struct RecordRow {
 #define RECORD_MANY(Type, member, counted) RECORD_AT(Type, member),                            \
     .count = offsetof(Type, counted)
 #define RECORD_COUNT(fewest, greatest) .least = (fewest), .most = (greatest)
-
-/* Usual rows, short enough for one line. */
-#define RECORD_NUMBER_ROW(key, Type, member, bottom, top, words)                               \
-    {key, RECORD_NUMBER, RECORD_AT(Type, member), RECORD_RANGE(bottom, top), .doc = words}
-#define RECORD_PAIR_ROW(key, Type, member, bottom, top, words)                                 \
-    {key, RECORD_NUMBERS, RECORD_AT(Type, member), RECORD_RANGE(bottom, top), .least = 2,      \
-     .most = 2, .doc = words}
-#define RECORD_TEXT_ROW(key, Type, member, words)                                              \
-    {key, RECORD_TEXT, RECORD_AT(Type, member), .doc = words}
 
 struct RecordFormat {
     const char      *name;  /* in a schema's "$defs" */

@@ -128,7 +128,9 @@ static json_t *value_schema(const RecordRow *row, const void *item)
     case RECORD_LIST: return list_schema(row, item_schema(row->of));
     case RECORD_MAP: return map_schema(row);
     case RECORD_EITHER: return either_schema(row);
-    default: return row->schema ? loaded(row->schema) : choice_schema(row);
+    default:
+        if (row->schema) return loaded(row->schema);
+        return row->of ? item_schema(row->of) : choice_schema(row);
     }
 }
 

@@ -53,7 +53,7 @@ TEST(unknown_keys_are_refused_with_the_nearest_known_one)
         {"'step_minutes'", "'step_minute'", "/conditions/4/sweep/step_minute",
          "'step_minutes'"},
         {"'turbidity'", "'turbidty'", "/conditions/4/environment/turbidty",
-         "is \"turbidity\" meant?"},
+         "nearest known one is 'turbidity'"},
     };
     CHECK_ALL(wrong);
 }

@@ -7,6 +7,7 @@
 #include "base/units.h"
 #include "record/rows.h"
 #include "review/request/request_format.h"
+#include "scene/check/our_extensions.h"
 #include "scene/load/environment.h"
 
 #define OWNER ReviewCondition
@@ -39,8 +40,9 @@ static bool read_weather(const JsonView *view, const RecordRow *row, void *item,
 {
     const ReviewRequest *request = view->whole;
     int                 *weather_id = &((ReviewCondition *)item)->weather_id;
+    RecordRow            word = {.key = row->key, .kind = RECORD_TEXT};
     const char          *text, *path;
-    if (!json_view_text(view, row->key, &text, err)) return false;
+    if (!record_read_kind(view, &word, &text, err)) return false;
     if (!strcmp(text, "clear")) return true;
     if (strcmp(path_ending(text), ".epw"))
         return record_fails(view, row->key, err,
@@ -295,7 +297,7 @@ static bool read_environment(const JsonView *view, const RecordRow *row, void *i
     JsonView             inside;
     ReviewCondition     *condition = item;
     const ReviewRequest *request = view->whole;
-    if (!json_view_child(view, row->key, true, &inside, err) ||
+    if (!json_view_child(view, row->key, &inside, err) ||
         !check_directions(view, &inside, condition, err))
         return false;
     char *text = json_dumps(inside.object, JSON_COMPACT);
@@ -351,7 +353,7 @@ static const RecordRow CONDITION[] = {
     OBJECT("sunglasses", RECORD_APART, glasses, review_glasses_format,
            "What the observer wears; default: none."),
     {"environment", RECORD_OWN, .read = read_environment,
-     .schema = "{'$ref': 'scene.PARHELION_environment.schema.json'}"},
+     .of = &environment_extension},
     {0}};
 
 static void start_condition(void *item)

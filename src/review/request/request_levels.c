@@ -22,13 +22,14 @@ static bool check_level(const JsonView *view, const char *place, double level, E
 
 static bool read_level(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
-    double *level = &((ReviewFixedLevel *)item)->level;
-    return json_view_number(view, row->key, -INFINITY, INFINITY, level, err) &&
-           check_level(view, row->key, *level, err);
+    RecordRow any = *row;
+    any.low = -HUGE_VAL, any.high = HUGE_VAL;
+    return record_read_kind(view, &any, item, err) &&
+           check_level(view, row->key, ((ReviewFixedLevel *)item)->level, err);
 }
 
-static const RecordRow FIXED = {.kind = RECORD_NUMBER, RECORD_RANGE(0, LEVEL_MAX),
-                                .read = read_level};
+static const RecordRow FIXED = {.kind = RECORD_NUMBER, RECORD_AT(ReviewFixedLevel, level),
+                                RECORD_RANGE(0, LEVEL_MAX), .read = read_level};
 static const RecordFormat fixed_format = {"fixed", sizeof(ReviewFixedLevel), .value = &FIXED};
 
 /* ---- by a sensor ------------------------------------------------------------------------- */

@@ -424,7 +424,7 @@ static bool read_variant(const JsonView *view, const RecordRow *row, void *item,
 {
     JsonView    inside;
     VariantSaid said = {.panels = NULL};
-    if (!json_view_child(view, row->key, true, &inside, err)) return false;
+    if (!json_view_child(view, row->key, &inside, err)) return false;
     if (!json_object_size(inside.object))
         return record_fails(view, row->key, err, "changes nothing, required: one of 'panels', "
                             "'levels', 'nodes' ...");
