@@ -24,6 +24,25 @@ bool record_fails(const JsonView *view, const char *key, Error *err, const char 
     return false;
 }
 
+bool record_has(const JsonView *view, const char *key)
+{
+    return json_object_get(view->object, key) != NULL;
+}
+
+bool record_misses(const JsonView *view, const char *key, Error *err)
+{
+    return error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing", key);
+}
+
+bool record_one_of(const JsonView *view, const char *one, const char *other, Error *err)
+{
+    bool has_one = record_has(view, one);
+    return has_one != record_has(view, other) ||
+           error_at(err, ERROR_INPUT, view->file, view->path,
+                    "has %s, required: one of '%s' and '%s'", has_one ? "both" : "neither",
+                    one, other);
+}
+
 static void *at_offset(void *item, size_t offset)
 {
     return (char *)item + offset;
@@ -40,6 +59,8 @@ static bool is_integer(const RecordRow *row)
 static bool check_number(const JsonView *view, const RecordRow *row, const json_t *value,
                          double *out, Error *err)
 {
+    *out = (double)NAN;
+    if (json_is_null(value) && row->flags & RECORD_NULL) return true;
     if (!json_is_number(value))
         return json_view_wrong_kind(view, row->key, value,
                                     row->most ? "only numbers" : "a number", err);
@@ -458,8 +479,7 @@ bool record_read(const JsonView *outer, const RecordFormat *format, void *item, 
         const json_t *value = json_object_get(view->object, row->key);
         if (row->flags & RECORD_WRITTEN) continue;
         if (!value && row->flags & RECORD_REQUIRED)
-            return error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing",
-                            row->key);
+            return record_misses(view, row->key, err);
         if (row->flags & RECORD_NULL) clear(row, item);
         if (value && !(json_is_null(value) && row->flags & RECORD_NULL) &&
             !record_read_value(view, row, item, err))

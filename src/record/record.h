@@ -139,6 +139,15 @@ bool record_read_value(const JsonView *view, const RecordRow *row, void *item, E
 /* The same as its kind has it, for a `read` that begins with that. */
 bool record_read_kind(const JsonView *view, const RecordRow *row, void *item, Error *err);
 
+/* Is there such a member? */
+bool record_has(const JsonView *view, const char *key);
+
+/* "key 'x' is missing": always false. */
+bool record_misses(const JsonView *view, const char *key, Error *err);
+
+/* Is there exactly one of two members? */
+bool record_one_of(const JsonView *view, const char *one, const char *other, Error *err);
+
 /* The items that names are of, as the outermost struct has them now. */
 int record_names(const JsonView *view, const RecordNames *among, const char ***out);
 

@@ -272,7 +272,7 @@ TEST(a_foreign_json_is_refused_in_one_line)
     assert_refused("\"ambient\": \"night\"", "\"ambient\": \"nigth\"", "/cases/0/ambient",
                    "did you mean night?");
     assert_refused("\"contrast_interval\": [", "\"contrast_interval\": [7, ",
-                   "/cases/0/contrast_interval", "required: [low, high]");
+                   "/cases/0/contrast_interval", "has 3 values, required: 2");
     assert_refused("\"limit\": {", "\"limit\": {\"x\": 1, ", "/cases/0/limit",
                    "one of 'limits'");
     assert_refused("\"foreground\": ", "\"foreground\": \"\", \"x\": ",

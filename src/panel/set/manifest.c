@@ -9,11 +9,6 @@
 #include "panel/set/primary_bands.h"
 #include "record/rows.h"
 
-static bool has(const JsonView *view, const char *key)
-{
-    return json_object_get(view->object, key) != NULL;
-}
-
 /* ---- emission ---------------------------------------------------------------------------- */
 
 #define OWNER ManifestTable
@@ -90,11 +85,11 @@ static bool sort_levels(const JsonView *view, const char *primary, ManifestLevel
 static bool check_white(const JsonView *view, Error *err)
 {
     for (int p = 0; p < 3; p++)
-        if (has(view, primary_names[p]))
+        if (record_has(view, primary_names[p]))
             return error_at(err, ERROR_INPUT, view->file, view->path,
                             "has both 'white' and '%s', required: either the white table or "
                             "the three primaries", primary_names[p]);
-    return !has(view, "black") ||
+    return !record_has(view, "black") ||
            error_at(err, ERROR_INPUT, view->file, view->path,
                     "has both 'white' and 'black'; a white-only set has a black of 0, or that "
                     "of its 'levels'");
@@ -104,15 +99,15 @@ static bool check_emission(const JsonView *view, void *item, Error *err)
 {
     ManifestEmission *emission = item;
     emission->path = view->path;
-    if (has(view, "white")) return check_white(view, err);
-    if (has(view, "levels"))
+    if (record_has(view, "white")) return check_white(view, err);
+    if (record_has(view, "levels"))
         return record_fails(view, "levels", err, "is for a set of 'white' alone; these "
                                                  "primaries' levels are measured");
-    if (!has(view, "black"))
+    if (!record_has(view, "black"))
         return error_at(err, ERROR_INPUT, view->file, view->path,
                         "key 'black' is missing: the black pattern's table");
     for (int p = 0; p < 3; p++) {
-        if (!has(view, primary_names[p]))
+        if (!record_has(view, primary_names[p]))
             return error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing",
                             primary_names[p]);
         if (!sort_levels(view, primary_names[p], emission->primary[p],
@@ -180,7 +175,7 @@ static bool check_reflection(const JsonView *view, void *item, Error *err)
     if (r->azimuth_count && !strstr(r->files, "{azimuth}"))
         return record_fails(view, "files", err, "required: a pattern that holds {azimuth}, "
                                                 "because incidence_phi_deg is there");
-    return !has(view, "specular") || !has(view, "gloss") ||
+    return !record_has(view, "specular") || !record_has(view, "gloss") ||
            error_at(err, ERROR_INPUT, view->file, view->path, "has both 'specular' and "
                     "'gloss', required: one of them: a specular table says more");
 }
@@ -217,8 +212,8 @@ static void start_spot(void *item)
 static bool check_position(const JsonView *view, ManifestSpot *spot, Error *err)
 {
     const double *size_mm = ((const Manifest *)view->whole)->set.size_mm;
-    bool          is_mm = has(view, "position_mm");
-    if (is_mm == has(view, "position"))
+    bool          is_mm = record_has(view, "position_mm");
+    if (is_mm == record_has(view, "position"))
         return error_at(err, ERROR_INPUT, view->file, view->path,
                         is_mm ? "has both 'position' and 'position_mm', required: one of them"
                               : "key 'position' is missing (or 'position_mm')");
@@ -318,15 +313,15 @@ static bool check_emitted(const JsonView *root, bool emits, Error *err)
 {
     static const char *const keys[] = {"polarisation", "subpixels", "backlight", "peaks_nm"};
     for (int i = 0; i < COUNT_OF(keys); i++) {
-        if (!has(root, keys[i])) continue;
+        if (!record_has(root, keys[i])) continue;
         if (!emits)
             return record_fails(root, keys[i], err, "tells of the emitted light, but the set "
                                                     "has no 'emission'");
-        if (i >= 2 && has(root, "primaries"))
+        if (i >= 2 && record_has(root, "primaries"))
             return record_fails(root, keys[i], err, "is for a set without 'primaries': their "
                                                     "spectra are measured");
     }
-    return emits || !has(root, "uniformity") ||
+    return emits || !record_has(root, "uniformity") ||
            record_fails(root, "uniformity", err, "says how even the emission is, but the set "
                                                  "has none");
 }
@@ -336,7 +331,7 @@ static bool check(const JsonView *root, void *item, Error *err)
     Manifest     *m = item;
     Measurement  *set = &m->set;
     const double *peak = set->peaks_nm;
-    set->backlight += has(root, "backlight");
+    set->backlight += record_has(root, "backlight");
     for (int i = 0; i < m->spot_count; i++) {
         set->spots_emit |= m->spot[i].emission.is_there;
         set->spots_reflect |= m->spot[i].reflection.is_there;

@@ -25,8 +25,8 @@
 #define AS_TEXT(key, flag, Type, member)                                                       \
     {key, RECORD_TEXT, RECORD_NULL | (flag), RECORD_AT(Type, member)}
 #define AS_RANGE(key, flag, Type, member)                                                      \
-    {key, RECORD_NUMBERS, RECORD_NULL | (flag), RECORD_AT(Type, member), RECORD_COUNT(2, 2),   \
-     .read = read_pair}
+    {key, RECORD_NUMBERS, RECORD_NULL | (flag), RECORD_AT(Type, member),                       \
+     RECORD_RANGE(-HUGE_VAL, HUGE_VAL), RECORD_COUNT(2, 2)}
 #define AS_FLAG(key, flag, Type, member) {key, RECORD_FLAG, flag, RECORD_AT(Type, member)}
 #define AS_COUNT(key, flag, Type, member)                                                      \
     {key, RECORD_INTEGER, RECORD_LONG | (flag), RECORD_AT(Type, member), RECORD_RANGE(0, 1e18)}
@@ -53,22 +53,6 @@
 #define TABLE(name, Type, ...)                                                                 \
     static const RecordRow    name##_rows[] = {__VA_ARGS__, {0}};                              \
     static const RecordFormat name = {#name, sizeof(Type), name##_rows, .takes_more = true}
-
-/* Two numbers or null. */
-static bool read_pair(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    const json_t *list = json_object_get(view->object, row->key);
-    double       *out = (void *)((char *)item + row->offset);
-    if (!json_is_array(list) || json_array_size(list) != 2)
-        return record_fails(view, row->key, err, "required: [low, high]");
-    for (size_t i = 0; i < 2; i++) {
-        const json_t *value = json_array_get(list, i);
-        if (!json_is_number(value) && !json_is_null(value))
-            return record_fails(view, row->key, err, "required: two numbers or null");
-        out[i] = json_is_null(value) ? (double)NAN : json_number_value(value);
-    }
-    return true;
-}
 
 /* Reviews before there were four outcomes call one of them otherwise. */
 static bool read_verdict(const JsonView *view, const RecordRow *row, void *item, Error *err)
@@ -192,8 +176,8 @@ static json_t *write_judged(const void *item)
 TABLE(case_json, ReviewCase,
     OWN(TEXT, ReviewCase, condition), OWN(TEXT, ReviewCase, eye), OWN(TEXT, ReviewCase, symbol),
     OWN(TEXT, ReviewCase, display), OWN(AMBIENT, ReviewCase, ambient),
-    {"sun", RECORD_OBJECT, MUST | RECORD_NULL, RECORD_MANY(ReviewCase, sun_azimuth_deg, has_sun),
-    .of = &sun_json},
+    {"sun", RECORD_OBJECT, MUST | RECORD_NULL, .of = &sun_json,
+     RECORD_MANY(ReviewCase, sun_azimuth_deg, has_sun)},
     PART("luminance_cd_m2", MUST, ReviewCase, luminance_cd_m2, luminance_json),
     PART("symbol_mean", 0, ReviewCase, whole, mean_json),
     LATER("lit_share", FIGURE, ReviewCase, whole.lit_share),

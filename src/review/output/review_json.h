@@ -8,8 +8,8 @@
  * Units    as in verdict.h; keys name them.
  * Memory   documents are jansson's: whoever gets one releases it.
  * Threads  pure.
- * Fails    when the file cannot be written; reading with the file, the JSON path, what was found
- *          and what is required. Keys that a later version may add are passed over.
+ * Fails    when the file cannot be written; reading with the file, the JSON path, what was
+ *          found and what is required. Keys that a later version may add are passed over.
  */
 #pragma once
 #include <jansson.h>

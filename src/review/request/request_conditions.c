@@ -12,11 +12,6 @@
 
 #define OWNER ReviewCondition
 
-static bool has(const JsonView *view, const char *key)
-{
-    return json_object_get(view->object, key) != NULL;
-}
-
 /* ---- weather ----------------------------------------------------------------------------- */
 
 static bool add_weather(const JsonView *view, const char *path, Error *err)
@@ -57,7 +52,7 @@ static bool read_weather(const JsonView *view, const RecordRow *row, void *item,
 
 static bool check_weather(const JsonView *view, const ReviewCondition *condition, Error *err)
 {
-    return condition->weather_id != NO_ID || !has(view, "weather_lux") ||
+    return condition->weather_id != NO_ID || !record_has(view, "weather_lux") ||
            record_fails(view, "weather_lux", err,
                         "stands without a weather file, required: one in 'weather'");
 }
@@ -176,14 +171,14 @@ static bool check_year(const JsonView *view, ReviewCondition *condition, Error *
     const ReviewRequest *request = view->whole;
     if (!check_weather(view, condition, err) || !check_headings(view, condition, err))
         return false;
-    if (!has(view, "step_minutes")) condition->step_minutes = 60;
-    if (!has(view, "headings_deg")) {
+    if (!record_has(view, "step_minutes")) condition->step_minutes = 60;
+    if (!record_has(view, "headings_deg")) {
         condition->headings_deg = NORTH;
         condition->heading_count = 1;
     }
-    if (has(view, "where")) return true;
+    if (record_has(view, "where")) return true;
     if (condition->weather_id == NO_ID)
-        return error_at(err, ERROR_INPUT, view->file, view->path, "key 'where' is missing");
+        return record_misses(view, "where", err);
     condition->where = request->weathers[condition->weather_id].weather.place;
     return true;
 }
@@ -211,13 +206,10 @@ static const RecordRow SWEEP[] = {
 static bool check_sweep(const JsonView *view, void *item, Error *err)
 {
     ReviewCondition *condition = item;
-    bool             has_sun = has(view, "sun");
-    if (has_sun == has(view, "year"))
-        return error_at(err, ERROR_INPUT, view->file, view->path,
-                        "has %s, required: one of 'sun' and 'year'",
-                        has_sun ? "both" : "neither");
+    bool             has_sun = record_has(view, "sun");
+    if (!record_one_of(view, "sun", "year", err)) return false;
     for (int i = 0; SWEEP[i].key; i++)
-        if (has(view, SWEEP[i].key) && (i < OF_SUN) != has_sun)
+        if (record_has(view, SWEEP[i].key) && (i < OF_SUN) != has_sun)
             return record_fails(view, SWEEP[i].key, err, "stands beside '%s', required: '%s'",
                                 has_sun ? "sun" : "year", has_sun ? "year" : "sun");
     condition->kind = has_sun ? CONDITION_SUN_SWEEP : CONDITION_YEAR_SWEEP;
@@ -248,7 +240,7 @@ static bool read_when(const JsonView *view, const RecordRow *row, void *item, Er
     Error       why;
     SkyTime     when;
     const char *text;
-    if (!has(view, "route"))
+    if (!record_has(view, "route"))
         return record_fails(view, row->key, err, "stands without 'route', required: beside a "
                                                  "route or in 'environment'");
     if (!record_read_kind(view, row, &text, err)) return false;
@@ -264,11 +256,11 @@ static bool read_when(const JsonView *view, const RecordRow *row, void *item, Er
 static bool check_directions(const JsonView *view, const JsonView *environment,
                              const ReviewCondition *condition, Error *err)
 {
-    bool has_heading = has(environment, "heading_deg");
-    if (has(environment, "forward"))
+    bool has_heading = record_has(environment, "heading_deg");
+    if (record_has(environment, "forward"))
         return record_fails(environment, "forward", err,
                             "stands in a condition, required: at the top of the file");
-    if (has_heading && has(view, "heading_deg"))
+    if (has_heading && record_has(view, "heading_deg"))
         return record_fails(view, "heading_deg", err,
                             "stands in 'environment' as well, required: once");
     return !has_heading || (condition->kind != CONDITION_ROUTE &&
@@ -308,7 +300,7 @@ static bool read_environment(const JsonView *view, const RecordRow *row, void *i
     if (!is_read) return false;
     condition->has_environment = true;
     condition->environment = found.environment;
-    if (has(&inside, "heading_deg")) {
+    if (record_has(&inside, "heading_deg")) {
         condition->has_heading = true;
         condition->heading_deg = json_number_value(json_object_get(inside.object,
                                                                    "heading_deg"));
@@ -367,17 +359,17 @@ static bool check_together(const JsonView *view, const ReviewCondition *conditio
 {
     static const char *const of_routes[] = {"weather", "weather_lux"};
     const ReviewGlasses     *glasses = condition->glasses;
-    if (has(view, "route") && has(view, "sweep"))
+    if (record_has(view, "route") && record_has(view, "sweep"))
         return error_at(err, ERROR_INPUT, view->file, view->path,
                         "has both 'route' and 'sweep', required: one of them");
-    for (int i = 0; i < 2 && !has(view, "route"); i++)
-        if (has(view, of_routes[i]))
+    for (int i = 0; i < 2 && !record_has(view, "route"); i++)
+        if (record_has(view, of_routes[i]))
             return record_fails(view, of_routes[i], err, "stands without 'route', required: "
                                 "beside a route or in the year of a sweep");
-    if (has(view, "heading_deg") && has(view, "route"))
+    if (record_has(view, "heading_deg") && record_has(view, "route"))
         return record_fails(view, "heading_deg", err, "stands beside 'route', required: the "
                             "route's own headings alone");
-    if (has(view, "heading_deg") && condition->kind == CONDITION_YEAR_SWEEP)
+    if (record_has(view, "heading_deg") && condition->kind == CONDITION_YEAR_SWEEP)
         return record_fails(view, "heading_deg", err, "stands beside the sweep of a year, "
                             "required: 'headings_deg' in it");
     if (glasses && (glasses->curve || glasses->is_polarising) &&
@@ -396,10 +388,10 @@ static bool check_condition(const JsonView *view, void *item, Error *err)
             return record_fails(view, "name", err, "is '%.60s' as that of condition %d, "
                                 "required: another name", condition->name,
                                 (int)(before - request->conditions));
-    condition->has_heading |= has(view, "heading_deg");
+    condition->has_heading |= record_has(view, "heading_deg");
     if (!condition->polarity) read_polarity(view, NULL, condition, err);
     return check_together(view, condition, err) &&
-           (!has(view, "route") || check_weather(view, condition, err));
+           (!record_has(view, "route") || check_weather(view, condition, err));
 }
 
 const RecordFormat review_condition_format = {

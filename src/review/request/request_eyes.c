@@ -8,11 +8,6 @@
 #define OWNER ReviewEye
 #define METRES_MAX 1e6
 
-static bool has(const JsonView *view, const char *key)
-{
-    return json_object_get(view->object, key) != NULL;
-}
-
 /* ---- eyes -------------------------------------------------------------------------------- */
 
 static const RecordRow CAMERA[] = {
@@ -53,18 +48,17 @@ static bool check_grid(const JsonView *view, const ReviewEye *eye, Error *err)
 
 static bool check_wide(const JsonView *view, ReviewEye *eye, Error *err)
 {
-    bool is_ellipse = has(view, "ellipse_m");
-    if (is_ellipse && has(view, "half_size_m"))
+    bool is_ellipse = record_has(view, "ellipse_m");
+    if (is_ellipse && record_has(view, "half_size_m"))
         return record_fails(view, "ellipse_m", err,
                             "stands beside 'half_size_m', required: one");
-    if (is_ellipse && has(view, "grid"))
+    if (is_ellipse && record_has(view, "grid"))
         return record_fails(view, "grid", err, "is a box's, not an ellipse's");
-    if (!is_ellipse && has(view, "tilt_deg"))
+    if (!is_ellipse && record_has(view, "tilt_deg"))
         return record_fails(view, "tilt_deg", err,
                             "is an ellipse's: 'ellipse_m' is missing");
-    if (!is_ellipse && !has(view, "half_size_m"))
-        return error_at(err, ERROR_INPUT, view->file, view->path,
-                        "key 'half_size_m' is missing");
+    if (!is_ellipse && !record_has(view, "half_size_m"))
+        return record_misses(view, "half_size_m", err);
     eye->kind = is_ellipse ? EYE_ELLIPSE : EYE_BOX;
     return is_ellipse || check_grid(view, eye, err);
 }
@@ -72,10 +66,10 @@ static bool check_wide(const JsonView *view, ReviewEye *eye, Error *err)
 static bool check_eye(const JsonView *view, void *item, Error *err)
 {
     ReviewEye *eye = item;
-    bool has_centre = has(view, "centre_m");
-    int  forms = has(view, "camera") + has(view, "position_m") + has_centre;
-    bool has_more = has(view, "half_size_m") || has(view, "ellipse_m") || has(view, "grid") ||
-                    has(view, "tilt_deg");
+    bool has_centre = record_has(view, "centre_m");
+    int  forms = record_has(view, "camera") + record_has(view, "position_m") + has_centre;
+    bool has_more = record_has(view, "half_size_m") || record_has(view, "ellipse_m") ||
+                    record_has(view, "grid") || record_has(view, "tilt_deg");
     if (forms != 1 || (!has_centre && has_more))
         return error_at(err, ERROR_INPUT, view->file, view->path,
                         "is %s, required: one of 'camera', 'position_m', or 'centre_m' with "
@@ -83,7 +77,7 @@ static bool check_eye(const JsonView *view, void *item, Error *err)
                         forms > 1 ? "said in several ways"
                         : forms   ? "a box without a centre"
                                   : "nowhere");
-    eye->kind = has(view, "camera") ? EYE_CAMERA : EYE_POINT;
+    eye->kind = record_has(view, "camera") ? EYE_CAMERA : EYE_POINT;
     return !has_centre || check_wide(view, eye, err);
 }
 
@@ -139,14 +133,9 @@ static bool check_gaze(const JsonView *view, void *item, Error *err)
 {
     ReviewGaze    *gaze = item;
     ReviewRequest *request = view->whole;
-    bool           has_direction = has(view, "direction");
-    gaze->at_symbols = has(view, "at");
-    if (gaze->at_symbols == has_direction)
-        return error_at(err, ERROR_INPUT, view->file, view->path,
-                        "has %s, required: one of 'at' and 'direction'",
-                        has_direction ? "both" : "neither");
-    if (!gaze->name && has_direction)
-        return error_at(err, ERROR_INPUT, view->file, view->path, "key 'name' is missing");
+    gaze->at_symbols = record_has(view, "at");
+    if (!record_one_of(view, "at", "direction", err)) return false;
+    if (!gaze->name && !gaze->at_symbols) return record_misses(view, "name", err);
     if (!gaze->name) gaze->name = SYMBOLS[0];
     for (const ReviewGaze *before = request->gazes; before < gaze; before++)
         if (!strcmp(before->name, gaze->name))

@@ -32,7 +32,7 @@ typedef struct WordsSaid {
     int           count;
 } WordsSaid;
 
-/* Of a row whose two forms fill a WordsSaid, the second by names: out gets that of each name. */
+/* Of a row whose two forms fill a WordsSaid, the second by names: out gets each name's. */
 bool request_read_words(const JsonView *view, const RecordRow *row, int *out, Error *err);
 
 /* The forms of a polarity of symbols; the words are in the order of ReviewPolarity. */

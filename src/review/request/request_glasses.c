@@ -96,11 +96,7 @@ static bool check_glasses(const JsonView *view, void *item, Error *err)
 {
     ReviewGlasses *out = item;
     double         most = 0.5 * (1 + 1 / out->extinction);
-    bool           has_category = json_object_get(view->object, "category") != NULL;
-    if (has_category == (json_object_get(view->object, "transmittance") != NULL))
-        return error_at(err, ERROR_INPUT, view->file, view->path,
-                        "has %s, required: one of 'category' and 'transmittance'",
-                        has_category ? "both" : "neither");
+    if (!record_one_of(view, "category", "transmittance", err)) return false;
     if (!out->is_polarising) return true;
     if (!out->curve && !(out->transmittance <= most))
         return record_fails(view, "polarising", err,

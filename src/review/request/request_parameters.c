@@ -75,7 +75,7 @@ static bool find_kind(const JsonView *view, ReviewParameter *out, Error *err)
 {
     int found = 0;
     for (int k = 0; k < PARAMETER_KINDS; k++)
-        if (json_object_get(view->object, PARAMETER[k].key)) {
+        if (record_has(view, PARAMETER[k].key)) {
             out->kind = (ReviewParameterKind)k;
             found++;
         }
@@ -91,15 +91,14 @@ static bool check_keys(const JsonView *view, const ReviewParameter *p, Error *er
 {
     for (const RecordRow *row = PARAMETER + PARAMETER_KINDS; row->key; row++) {
         const char *key = row->key;
-        bool is_there = json_object_get(view->object, key) != NULL;
+        bool is_there = record_has(view, key);
         bool is_needed = !strcmp(key, KINDS[p->kind].target) ||
                          (!strcmp(key, "direction") && KINDS[p->kind].has_direction) ||
                          (!strcmp(key, "at") && p->kind == PARAMETER_REFLECTANCE);
         bool is_free = !strcmp(key, "range") ||
                        (!strcmp(key, "with") && KINDS[p->kind].has_with);
         if (is_needed && !is_there)
-            return error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing",
-                            key);
+            return record_misses(view, key, err);
         if (is_there && !is_needed && !is_free)
             return record_fails(view, key, err, "stands beside '%s', required: '%s'%s",
                                 PARAMETER[p->kind].key, KINDS[p->kind].target,
@@ -126,7 +125,7 @@ static bool check_parameter(const JsonView *view, void *item, Error *err)
     if (!find_kind(view, p, err) || !check_keys(view, p, err)) return false;
     p->place = view->path;
     if (p->kind != PARAMETER_REFLECTANCE) p->at = KINDS[p->kind].at;
-    if (!json_object_get(view->object, "range")) {
+    if (!record_has(view, "range")) {
         p->low = KINDS[p->kind].low;
         p->high = KINDS[p->kind].high;
     }

@@ -43,8 +43,8 @@ static const RecordRow GLARE[] = {
 static bool check_glare(const JsonView *view, void *item, Error *err)
 {
     (void)item;
-    return !json_object_get(view->object, "threshold_cd_m2") ||
-           !json_object_get(view->object, "task_factor") ||
+    return !record_has(view, "threshold_cd_m2") ||
+           !record_has(view, "task_factor") ||
            record_fails(view, "threshold_cd_m2", err,
                         "stands beside 'task_factor', required: one of the two");
 }
@@ -74,7 +74,7 @@ static const RecordRow PRECISION[] = {
 static bool check_precision(const JsonView *view, void *item, Error *err)
 {
     ReviewRequest *r = item;
-    if (!json_object_get(view->object, "clear"))
+    if (!record_has(view, "clear"))
         r->precision_clear = fmax(r->precision_clear, r->precision_contrast);
     return r->precision_clear >= r->precision_contrast ||
            record_fails(view, "clear", err, "is %g, required: at least 'contrast', %g",

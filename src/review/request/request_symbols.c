@@ -70,8 +70,8 @@ static bool check_symbol(const JsonView *view, void *item, Error *err)
 {
     ReviewSymbol *symbol = item;
     const double *uv = symbol->uv;
-    symbol->has_uv = json_object_get(view->object, "uv") != NULL;
-    symbol->find_text = json_object_get(view->object, "find") != NULL;
+    symbol->has_uv = record_has(view, "uv");
+    symbol->find_text = record_has(view, "find");
     if (!(uv[0] < uv[2] && uv[1] < uv[3]))
         return record_fails(view, "uv", err,
                             "is [%g, %g, %g, %g], required: [left, top, right, bottom] with "

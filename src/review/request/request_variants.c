@@ -114,7 +114,7 @@ static const RecordRow HINGE[] = {
 static bool check_hinge(const JsonView *view, void *item, Error *err)
 {
     (void)err;
-    ((SceneHinge *)item)->is_own = !json_object_get(view->object, "through_m");
+    ((SceneHinge *)item)->is_own = !record_has(view, "through_m");
     return true;
 }
 
@@ -165,20 +165,17 @@ static const RecordRow MIRROR[] = {
 static const RecordFormat mirror_format = {"mirror", sizeof(OWNER), MIRROR, .doc = NULL};
 #undef OWNER
 
+/* What a variant keeps as the file has it, and what becomes changes of its scene. */
 typedef struct VariantSaid {
-    const SceneOverride    *panels;
-    const ReviewContent    *contents;
-    ReviewLevel            *levels;
-    const ReviewFixedLevel *brightness, *hoods;
+    ReviewVariant           of;
     const PatchSaid        *coatings, *glazings, *materials;
     const SceneChange      *nodes;
+    const ReviewFixedLevel *hoods;
     const FinishSaid       *finishes;
     const MirrorSaid       *mirror;
     const EyeMove          *eyes;
-    const char            **scenes, **more;
-    int panel_count, content_count, level_count, brightness_count, hood_count, coating_count,
-        glazing_count, material_count, node_count, finish_count, eye_count, scene_count,
-        more_count;
+    int coating_count, glazing_count, material_count, node_count, hood_count, finish_count,
+        eye_count;
 } VariantSaid;
 
 #define OWNER VariantSaid
@@ -186,13 +183,14 @@ typedef struct VariantSaid {
     MAP(key, 0, member, counted, NAMES_MAX, format, words)
 
 static const RecordRow VARIANT[] = {
-    BY_NAME("panels", panels, panel_count, panel_format, "By display: its panel."),
-    BY_NAME("contents", contents, content_count, review_content_format,
+    BY_NAME("panels", of.change.panels, of.change.panel_count, panel_format,
+            "By display: its panel."),
+    BY_NAME("contents", of.change.contents, of.change.content_count, review_content_format,
             "By display: what it shows, in every condition."),
-    {"levels", RECORD_MAP, RECORD_MANY(OWNER, levels, level_count), RECORD_COUNT(1, NAMES_MAX),
-     .among = &review_level_names, .of = &review_level_format,
+    {"levels", RECORD_MAP, RECORD_MANY(OWNER, of.levels, of.level_count),
+     RECORD_COUNT(1, NAMES_MAX), .among = &review_level_names, .of = &review_level_format,
      .doc = "They take the places of the review's of their names."},
-    BY_NAME("brightness", brightness, brightness_count, brightness_format,
+    BY_NAME("brightness", of.change.brightness, of.change.brightness_count, brightness_format,
             "By display (* all others): times as bright, whatever sets its level."),
     BY_NAME("coatings", coatings, coating_count, coating_format,
             "By material: a PARHELION_coating instead of its own, a stack's name, or null for "
@@ -214,8 +212,8 @@ static const RecordRow VARIANT[] = {
            "Displays keep their panels and contents as they are. Sun and sky stay."),
     {"eyes", RECORD_MAP, RECORD_MANY(OWNER, eyes, eye_count), RECORD_COUNT(1, NAMES_MAX),
      .among = &review_eye_names, .of = &eye_format, .doc = "By eye: where it is moved."},
-    FILES("scene", 0, scenes, scene_count, 256, "Instead of the review's."),
-    FILES("add", 0, more, more_count, 256, "More files of the scene."),
+    FILES("scene", 0, of.scenes, of.scene_count, 256, "Instead of the review's."),
+    FILES("add", 0, of.more, of.more_count, 256, "More files of the scene."),
     {0}};
 
 static const RecordFormat said_format = {"variant", sizeof(OWNER), VARIANT,
@@ -258,14 +256,16 @@ static SceneChange *add_change(Making *m, SceneChangeKind kind, const char *grou
 /* Those of displays: their words alone. */
 static void make_displays(Making *m)
 {
-    const VariantSaid *said = m->said;
-    for (int i = 0; i < said->panel_count; i++)
-        say(m, "panel of %s: %s", said->panels[i].material, path_name(said->panels[i].value));
-    for (int i = 0; i < said->content_count; i++)
-        say(m, "%s shows %s", said->contents[i].display, path_name(said->contents[i].path));
-    for (int i = 0; i < said->level_count; i++) say(m, "level '%s'", said->levels[i].name);
-    for (int i = 0; i < said->brightness_count; i++) {
-        const ReviewFixedLevel *b = &said->brightness[i];
+    const ReviewChange *change = &m->variant->change;
+    for (int i = 0; i < change->panel_count; i++)
+        say(m, "panel of %s: %s", change->panels[i].material,
+            path_name(change->panels[i].value));
+    for (int i = 0; i < change->content_count; i++)
+        say(m, "%s shows %s", change->contents[i].display, path_name(change->contents[i].path));
+    for (int i = 0; i < m->variant->level_count; i++)
+        say(m, "level '%s'", m->variant->levels[i].name);
+    for (int i = 0; i < change->brightness_count; i++) {
+        const ReviewFixedLevel *b = &change->brightness[i];
         say(m, "%s %g times as bright", strcmp(b->display, "*") ? b->display : "every display",
             b->level);
     }
@@ -390,27 +390,25 @@ static void make_eyes(Making *m)
 
 static void make_files(Making *m)
 {
-    const VariantSaid *said = m->said;
-    if (said->scene_count) say(m, "scene %s", path_name(said->scenes[0]));
-    for (int i = 0; i < said->more_count; i++) say(m, "with %s", path_name(said->more[i]));
+    const ReviewVariant *v = m->variant;
+    if (v->scene_count) say(m, "scene %s", path_name(v->scenes[0]));
+    for (int i = 0; i < v->more_count; i++) say(m, "with %s", path_name(v->more[i]));
 }
 
 static void make_variant(const JsonView *view, const VariantSaid *said, ReviewVariant *out)
 {
-    int patches = 2 * (said->coating_count + said->glazing_count) + said->material_count;
-    int changes = patches + said->node_count + said->hood_count + said->finish_count + 1;
-    int words = changes + said->panel_count + said->content_count + said->level_count +
-                said->brightness_count + said->eye_count + said->more_count + 1;
-    SceneChange *scene = ARENA_NEW(view->arena, SceneChange, changes);
-    Making       m = {view, said, out, scene};
-    *out = (ReviewVariant){
-        .name = out->name, .words = ARENA_NEW(view->arena, const char *, words),
-        .levels = said->levels, .level_count = said->level_count, .scenes = said->scenes,
-        .scene_count = said->scene_count, .more = said->more, .more_count = said->more_count,
-        .change = {.place = view->path, .scene = scene, .panels = said->panels,
-                   .panel_count = said->panel_count, .contents = said->contents,
-                   .content_count = said->content_count, .brightness = said->brightness,
-                   .brightness_count = said->brightness_count}};
+    const ReviewChange *c = &said->of.change;
+    int changes = 2 * (said->coating_count + said->glazing_count) + said->material_count +
+                  said->node_count + said->hood_count + said->finish_count + 1;
+    int words = changes + c->panel_count + c->content_count + said->of.level_count +
+                c->brightness_count + said->eye_count + said->of.more_count + 1;
+    Making m = {view, said, out, ARENA_NEW(view->arena, SceneChange, changes)};
+    const char *name = out->name;
+    *out = said->of;
+    out->name = name;
+    out->words = ARENA_NEW(view->arena, const char *, words);
+    out->change.place = view->path;
+    out->change.scene = m.scene;
     make_displays(&m);
     make_materials(&m);
     for (int i = 0; i < said->node_count; i++) make_node(&m, &said->nodes[i]);
@@ -423,7 +421,7 @@ static void make_variant(const JsonView *view, const VariantSaid *said, ReviewVa
 static bool read_variant(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
     JsonView    inside;
-    VariantSaid said = {.panels = NULL};
+    VariantSaid said = {.coatings = NULL};
     if (!json_view_child(view, row->key, &inside, err)) return false;
     if (!json_object_size(inside.object))
         return record_fails(view, row->key, err, "changes nothing, required: one of 'panels', "
