@@ -79,7 +79,8 @@ TEST(a_template_shows_its_values)
 TEST(a_template_of_csv_quotes_its_cells)
 {
     Text    page = {.arena = test_memory()};
-    json_t *values = values_of("{'rows': [{'a': 'x, y', 'b': 1.23456789}, {'a': 'z', 'b': null}]}");
+    json_t *values = values_of("{'rows': [{'a': 'x, y', 'b': 1.23456789},"
+                               " {'a': 'z', 'b': null}]}");
     assert_done(page_render_text(&page, (PageFile){"t.csv", "a,b\n{{#rows}}\n{{a}},{{b}}\n"
                                                             "{{/rows}}\n"},
                                  values, NULL, arena_reserve(1 << 20), &err));

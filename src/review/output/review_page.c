@@ -302,9 +302,9 @@ bool review_page_write_summary(const ReviewPage *page, const char *symbol, const
 
 bool review_page_write(const ReviewPage *page, const char *path, Error *err)
 {
-    Arena words = arena_reserve(WORDS_BYTES);
-    bool  ok = write_page(page, page->review->is_beside ? "cases.html" : "review.html", 0, &words, path,
-                         err);
+    Arena       words = arena_reserve(WORDS_BYTES);
+    const char *template = page->review->is_beside ? "cases.html" : "review.html";
+    bool        ok = write_page(page, template, 0, &words, path, err);
     arena_release(&words);
     return ok;
 }
