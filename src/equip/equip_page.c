@@ -309,7 +309,7 @@ bool equip_page_write(const Scene *scene, const char *model, const char *command
     page_set(values, "three", three.data);
     json_object_set_new(values, "data", script_text(data_json(scene, model, command, arena)));
     if (page_set_head(values, &head, err) && set_geometry(values, scene, *arena, err))
-        return page_write_values("equip", values, NULL, path, err);
+        return page_write_values("equip.html", values, NULL, path, err);
     json_decref(values);
     return false;
 }

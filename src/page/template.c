@@ -2,6 +2,7 @@
 #include "page/template.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/count.h"
@@ -36,15 +37,14 @@ static bool starts_with(const char *text, const char *start)
     return !strncmp(text, start, strlen(start));
 }
 
-/* A tag that is no value and has a line to itself takes the line's end with it, and the next
- * one's indentation. */
+/* A tag that is no value and has a line to itself takes the line's end with it. */
 static const char *behind_line(const Tag *tag, const char *text)
 {
     const char *before = tag->begin;
     while (before > text && before[-1] == ' ') before--;
     bool is_alone = (before == text || before[-1] == '\n') && *tag->after == '\n';
     if (!is_alone || tag->kind == TAG_VALUE || tag->kind == TAG_RAW) return tag->after;
-    return tag->after + 1 + strspn(tag->after + 1, " ");
+    return tag->after + 1;
 }
 
 static bool read_tag(const char *text, const char *at, Tag *tag)
@@ -83,6 +83,7 @@ typedef struct Render {
     Error            *err;
     const json_t     *context[DEPTH_MOST]; /* the innermost last */
     int               depth;
+    bool              is_csv, is_indented; /* kinds of files: .csv; all but .html */
     const char       *file, *text;         /* the template in hand, */
     const Tag        *tag;                 /* and the tag */
 } Render;
@@ -98,16 +99,40 @@ static bool fails(const Render *r, const char *what)
     return error_at(r->err, ERROR_LIBRARY, r->file, where, "%s '%s'", what, r->tag->name);
 }
 
-/* Templates are indented; the page is not. */
-static void add_plain(Text *to, const char *at, const char *end)
+/* Templates of HTML are indented, the page is not; a line of CSV ends as RFC 4180 says. */
+static void add_plain(const Render *r, const char *at, const char *end)
 {
+    bool begins_line = at > r->text && at[-1] == '\n';
+    while (begins_line && !r->is_indented && at < end && *at == ' ') at++;
     while (at < end) {
         const char *line = memchr(at, '\n', (size_t)(end - at));
         const char *next = line ? line + 1 : end;
-        text_add_bytes(to, at, (size_t)(next - at));
-        while (line && next < end && *next == ' ') next++;
+        text_add_bytes(r->to, at, (size_t)((line ? line : end) - at));
+        if (line) text_add(r->to, r->is_csv ? "\r\n" : "\n");
+        while (line && !r->is_indented && next < end && *next == ' ') next++;
         at = next;
     }
+}
+
+/* RFC 4180: a cell with a comma or a quote stands in quotes, quotes doubled. No text has a
+ * line's end as it may be shown. */
+static void add_csv(Text *csv, const char *text)
+{
+    bool is_quoted = strpbrk(text, ",\"") != NULL;
+    if (is_quoted) text_add(csv, "\"");
+    for (size_t plain; *text; text += plain) {
+        plain = strcspn(text, "\"");
+        text_add_printable(csv, text, plain);
+        if (text[plain]) text_add(csv, "\"\"");
+        plain += text[plain] != '\0';
+    }
+    if (is_quoted) text_add(csv, "\"");
+}
+
+static void add_words(const Render *r, const char *words)
+{
+    if (r->is_csv) add_csv(r->to, words);
+    else escape_markup(r->to, words);
 }
 
 static const char *file_text(const char *name)
@@ -115,6 +140,16 @@ static const char *file_text(const char *name)
     for (int i = 0; i < page_file_count; i++)
         if (!strcmp(page_file_table[i].name, name)) return page_file_table[i].text;
     return NULL;
+}
+
+/* A member of an object; of a list the item of that number, null behind its last; of null
+ * null. */
+static const json_t *member_of(const json_t *value, const char *name, size_t length)
+{
+    if (json_is_null(value)) return value;
+    if (!json_is_array(value)) return json_object_getn(value, name, length);
+    const json_t *item = json_array_get(value, (size_t)strtoul(name, NULL, 10));
+    return item ? item : json_null();
 }
 
 /* NULL: no value has that name. */
@@ -128,7 +163,7 @@ static const json_t *look_up(const Render *r)
         found = json_object_getn(r->context[i], name, first);
     for (name += first; found && *name; name += first) {
         first = strcspn(++name, ".");
-        found = json_object_getn(found, name, first);
+        found = member_of(found, name, first);
     }
     return found;
 }
@@ -159,7 +194,7 @@ static bool add_number(Render *r, const json_t *value)
     const char *format = r->tag->format, *words = NULL;
     double      number = json_is_number(value) ? json_number_value(value) : (double)NAN;
     Arena       scratch = *r->scratch;
-    if (!format && json_is_real(value)) format = "g9";
+    if (!format && json_is_real(value)) format = r->is_csv ? "g6" : "g9";
     if (!format) {
         if (json_is_integer(value)) text_format(r->to, "%lld", json_integer_value(value));
         return true;
@@ -167,8 +202,23 @@ static bool add_number(Render *r, const json_t *value)
     for (const PageFormat *f = r->formats; f && f->name && !words; f++)
         if (!strcmp(f->name, format)) words = f->of(number, &scratch);
     if (!words) words = common_format(format, number, &scratch);
+    if (!words && json_is_null(value)) return true; /* it may be a list's, of texts */
     if (!words) return fails(r, "has no such format:");
-    escape_markup(r->to, words);
+    add_words(r, words);
+    return true;
+}
+
+/* The texts of a list, with what stands behind the bar between them. */
+static bool add_joined(Render *r, const json_t *list)
+{
+    Arena scratch = *r->scratch;
+    Text  joined = {.arena = &scratch};
+    for (size_t i = 0; i < json_array_size(list); i++) {
+        const char *text = json_string_value(json_array_get(list, i));
+        if (i > 0) text_add(&joined, r->tag->format ? r->tag->format : "");
+        text_add(&joined, text ? text : "");
+    }
+    if (joined.data) add_words(r, joined.data);
     return true;
 }
 
@@ -176,8 +226,9 @@ static bool add_value(Render *r)
 {
     const json_t *value = look_up(r);
     if (!value) return fails(r, "has no value for");
+    if (json_is_array(value)) return add_joined(r, value);
     if (!json_is_string(value)) return add_number(r, value);
-    if (r->tag->kind == TAG_VALUE) escape_markup(r->to, json_string_value(value));
+    if (r->tag->kind == TAG_VALUE) add_words(r, json_string_value(value));
     else text_add_bytes(r->to, json_string_value(value), json_string_length(value));
     return true;
 }
@@ -229,6 +280,8 @@ static bool render_whole(Render *r, PageFile file)
     Render part = *r;
     part.file = file.name;
     part.text = file.text;
+    part.is_csv = strstr(file.name, ".csv") != NULL;
+    part.is_indented = !strstr(file.name, ".html");
     return render_item(&part, r->context[r->depth - 1], file.text,
                        file.text + strlen(file.text));
 }
@@ -272,12 +325,12 @@ static bool render(Render *r, const char *at, const char *end)
     const Tag *outer = r->tag;
     bool       ok = true;
     while (ok && next_tag(r->text, at, end, &tag)) {
-        add_plain(r->to, at, tag.begin);
+        add_plain(r, at, tag.begin);
         at = tag.after;
         r->tag = &tag;
         ok = add_tag(r, end, &at);
     }
-    if (ok) add_plain(r->to, at, end);
+    if (ok) add_plain(r, at, end);
     r->tag = outer;
     return ok;
 }
@@ -295,8 +348,6 @@ bool page_render_text(Text *to, PageFile page, const json_t *values, const PageF
 bool page_render(Text *to, const char *name, const json_t *values, const PageFormat *formats,
                  Arena scratch, Error *err)
 {
-    char file[NAME_MOST + 16];
-    snprintf(file, sizeof file, "%.*s.html", NAME_MOST, name);
-    return page_render_text(to, (PageFile){file, file_text(file)}, values, formats, scratch,
+    return page_render_text(to, (PageFile){name, file_text(name)}, values, formats, scratch,
                             err);
 }

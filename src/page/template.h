@@ -2,7 +2,10 @@
 /* template.h -- a page is a template (assets/pages) over a tree of values (a JSON document).
  *
  *   {{name}}          a value, escaped; {{a.b}} a member of a member, {{.}} the item itself
+ *   {{a.0}}           the first item of a list; a member of null, and what is behind a list's
+ *                     last item, is null
  *   {{name|format}}   a number in a named format; what is a text already stays as it is
+ *   {{name| > }}      the texts of a list, with that between them
  *   {{{name}}}        a value that is markup: a drawing, a picture's bytes
  *   {{#name}} {{/name}}  for each item of a list, within an object; once for a text or number;
  *                     not at all for what is absent, null, false, "", 0 or an empty list
@@ -11,9 +14,10 @@
  *   <link rel="stylesheet" href="x.css">, <script src="x.js"></script> on a line of its own:
  *                     that file as it stands, so that a page needs nothing beside it
  *
+ * Escaped is as the file's kind wants it: .html and .xml as markup, .csv as a cell (RFC 4180).
  * Names are looked up from the innermost section outwards. Comments, spaces at the start of a
- * line, and lines that hold nothing but one of these stay behind: templates are indented, and
- * read well in a browser as they lie there. There is no other logic.
+ * line (of HTML), and lines that hold nothing but one of these stay behind: templates are
+ * indented, and read well in a browser as they lie there. There is no other logic.
  *
  * Memory   the text's arena, and scratch for the texts of formats.
  * Threads  one at a time per text; templates are constant.
@@ -42,8 +46,8 @@ typedef struct PageFile {
 extern const PageFile page_file_table[];
 extern const int      page_file_count;
 
-/* name: "review" for assets/pages/review.html, which must be there. formats: more than every
- * page has; NULL: none. */
+/* name: "review.html" of assets/pages, which must be there. formats: more than every page has;
+ * NULL: none. */
 bool page_render(Text *to, const char *name, const json_t *values, const PageFormat *formats,
                  Arena scratch, Error *err);
 

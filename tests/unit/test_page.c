@@ -65,6 +65,7 @@ TEST(a_template_shows_its_values)
          "<ul>\n<li>p</li>\n<li>q</li>\n</ul>\n"},
         {"a<!-- not\nshown -->b <link rel=\"stylesheet\" href=\"{{one}}\">", "ab "
          "<link rel=\"stylesheet\" href=\"1\">"},
+        {"{{list.1.name}}{{list.7.name}}{{null.any}}{{words| > }}", "yp &gt; q"},
         {"{ {a} {{text}} }}", "{ {a} a&lt;b }}"}};
     for (int i = 0; i < COUNT_OF(ROWS); i++) {
         Text page;
@@ -72,6 +73,19 @@ TEST(a_template_shows_its_values)
                                                                 why()->text);
         assert_string_equal(page.data ? page.data : "", ROWS[i].page);
     }
+}
+
+/* Lines and cells as RFC 4180 has them. */
+TEST(a_template_of_csv_quotes_its_cells)
+{
+    Text    page = {.arena = test_memory()};
+    json_t *values = values_of("{'rows': [{'a': 'x, y', 'b': 1.23456789},"
+                               " {'a': 'z', 'b': null}]}");
+    assert_done(page_render_text(&page, (PageFile){"t.csv", "a,b\n{{#rows}}\n{{a}},{{b}}\n"
+                                                            "{{/rows}}\n"},
+                                 values, NULL, arena_reserve(1 << 20), &err));
+    assert_string_equal(page.data, "a,b\r\n\"x, y\",1.23457\r\nz,\r\n");
+    json_decref(values);
 }
 
 TEST(a_fault_of_a_template_is_named)

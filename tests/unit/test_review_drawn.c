@@ -128,13 +128,13 @@ static const char *html_of(const char *template, json_t *values)
 static const char *map_of(const ReviewMap *map)
 {
     ENDS_BY(arena_release) Arena scratch = arena_reserve((size_t)1 << 26);
-    return html_of("map", review_map_values(map, scratch, why()));
+    return html_of("map.html", review_map_values(map, scratch, why()));
 }
 
 static const char *calendar_of(const ReviewCalendar *calendar)
 {
     ENDS_BY(arena_release) Arena scratch = arena_reserve((size_t)1 << 26);
-    return html_of("calendar", review_calendar_values(calendar, scratch, why()));
+    return html_of("calendar.html", review_calendar_values(calendar, scratch, why()));
 }
 
 /* One failing cell of three by three has a border of four edges; a failing corner too, for

@@ -298,7 +298,7 @@ static bool add_card(HtmlReport *report, json_t *values, const Comparison *c, Ar
         if (!picture) return false;
         json_object_set_new(values, "picture", picture);
     }
-    return page_render(&report->index, "compare_card", values, NULL, scratch, err);
+    return page_render(&report->index, "compare_card.html", values, NULL, scratch, err);
 }
 
 bool html_report_add(HtmlReport *report, const char *name, const Comparison *c,
@@ -308,8 +308,9 @@ bool html_report_add(HtmlReport *report, const char *name, const Comparison *c,
     bool    is_shown = !report->is_folder || !c->same;
     long    most = report->is_folder ? FOLDER_PIXELS : PAIR_PIXELS;
     bool    ok = (!report->is_folder || add_card(report, values, c, scratch, err)) &&
-              (!is_shown || (set_shots(values, c, most, scratch, err) &&
-                             page_render(&report->pairs, "pair", values, NULL, scratch, err)));
+              (!is_shown ||
+               (set_shots(values, c, most, scratch, err) &&
+                page_render(&report->pairs, "pair.html", values, NULL, scratch, err)));
     json_decref(values);
     report->shown += is_shown;
     report->count++;
@@ -328,7 +329,7 @@ void html_report_add_failure(HtmlReport *report, const char *name, const char *w
     page_set(values, "name", name);
     page_set(values, "why", why);
     page_set_flag(values, "failed", true);
-    page_render(&report->index, "compare_card", values, NULL, (Arena){0}, &none);
+    page_render(&report->index, "compare_card.html", values, NULL, (Arena){0}, &none);
     json_decref(values);
 }
 
@@ -374,7 +375,7 @@ bool html_report_write(const HtmlReport *report, const char *reference, const ch
     Text    page = {.arena = &arena};
     json_t *values = json_object();
     bool    ok = set_page(values, report, reference, test, &scratch, err) &&
-              page_render(&page, "compare", values, NULL, scratch, err);
+              page_render(&page, "compare.html", values, NULL, scratch, err);
     if (ok) {
         const char *rest = page.data;
         Text        begin = cut_at(&rest, CARDS), between = cut_at(&rest, PAIRS);

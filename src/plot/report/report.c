@@ -136,7 +136,7 @@ static bool write_page(json_t *to, const PlotData *s, const Report *report,
     if (page_set_head(to, &head, err) &&
         report_figures(to, plot_charts(s, PLOT_ALL, arena), options->is_dark, arena,
                        err))
-        return page_write_values("panel", to, FORMATS, path, err);
+        return page_write_values("panel.html", to, FORMATS, path, err);
     json_decref(to);
     return false;
 }

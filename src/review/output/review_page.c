@@ -295,16 +295,16 @@ bool review_page_write_summary(const ReviewPage *page, const char *symbol, const
     Arena      words = arena_reserve(WORDS_BYTES);
     Review     part = part_of(page->review, symbol, &words);
     ReviewPage alone = page_of_part(page, &part, &words);
-    bool       ok = write_page(&alone, "summary", SUMMARY_ROWS, &words, path, err);
+    bool       ok = write_page(&alone, "summary.html", SUMMARY_ROWS, &words, path, err);
     arena_release(&words);
     return ok;
 }
 
 bool review_page_write(const ReviewPage *page, const char *path, Error *err)
 {
-    Arena words = arena_reserve(WORDS_BYTES);
-    bool  ok = write_page(page, page->review->is_beside ? "cases" : "review", 0, &words, path,
-                         err);
+    Arena       words = arena_reserve(WORDS_BYTES);
+    const char *template = page->review->is_beside ? "cases.html" : "review.html";
+    bool        ok = write_page(page, template, 0, &words, path, err);
     arena_release(&words);
     return ok;
 }
