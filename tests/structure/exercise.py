@@ -55,6 +55,47 @@ EXERCISES = {
          ("src/kernel/tile.c", "    sample->part_id = features.part_id;",
           "    sample->facing = fabsf(vec3_dot(features.normal, result->direction));\n")],
         ["test_film", "test_film_merge", "kernel"], ["test_film", "test_film_merge"]),
+    # Soot on a material: a share of its base colour is gone.
+    "soot": Exercise(
+        "A layer of a glTF material", 4, {},
+        [("src/scene/check/schema_extensions.c", "static const Schema SCHEMA_SHEEN =",
+          'static const Schema SCHEMA_SOOT = {"KHR_materials_soot", false, NULL, RULES(\n'
+          '    {"sootFactor", RULE_NUMBER, .max = 1})};\n\n'),
+         ("src/scene/check/schema_extensions.c",
+          '    {"KHR_materials_sheen", "material", &SCHEMA_SHEEN},',
+          '    {"KHR_materials_soot", "material", &SCHEMA_SOOT},\n'),
+         ("src/scene/scene.h", "    SheenLayer *sheen;         /* NULL: none */",
+          "    float soot;                /* [0, 1] */\n"),
+         ("src/scene/load/material.c",
+          '    read_sheen(file, tree_extension(value, "KHR_materials_sheen"), m);',
+          '    m->soot = tree_float(tree_extension(value, "KHR_materials_soot"), "sootFactor", '
+          "0);\n"),
+         ("src/path/surface.c", "    if (m->sheen) set_sheen(site, surface, model);",
+          "    model->base_color *= spectrum_all(1 - m->soot);\n")],
+        ["test_scene_errors", "path"], ["test_scene_errors"]),
+    # The width of an eye's pupil.
+    "eyes": Exercise(
+        "A key of REVIEW.json", 3, {},
+        [("src/review/request/request.h", "    ReviewEyeKind kind;\n",
+          "    double        pupil_mm; /* 0: of the light */\n"),
+         ("src/review/request/request_eyes.c", '    TEXT("proposed_from",',
+          '    NUMBER("pupil_mm", RECORD_OPEN, pupil_mm, 1, 9, "Of the pupil, mm."),\n'),
+         ("tests/unit/records/review.json", '"proposed_from":', '"pupil_mm": 4, ')],
+        ["test_record"], ["test_record"]),
+    # The width of a symbol's strokes.
+    "stroke_arcmin": Exercise(
+        "A figure of a case", 5, {},
+        [("src/review/verdict.h", "    double  stroke_ratio; ",
+          "    double  stroke_arcmin; /* width of its strokes */\n"),
+         ("src/review/verdict.c", "c.height_arcmin = c.stroke_ratio =", "c.stroke_arcmin = "),
+         ("src/review/run/cases.c", "    c->stroke_ratio = symbol_stroke_ratio(look->symbol);",
+          "    c->stroke_arcmin = c->height_arcmin * symbol_stroke_ratio(look->symbol);\n"),
+         ("src/review/output/review_json.c", '    LATER("stroke_ratio", FIGURE,',
+          '    LATER("stroke_arcmin", FIGURE, ReviewCase, stroke_arcmin),\n'),
+         ("assets/pages/card.html", "    {{#height_arcmin}}\n",
+          "    {{#stroke_arcmin}}\n    <dt>Stroke</dt><dd>{{stroke_arcmin|figure}} arc minutes"
+          "</dd>\n    {{/stroke_arcmin}}\n")],
+        ["test_review_page", "test_review_output"], ["test_review_page", "test_review_output"]),
 }
 
 
