@@ -39,36 +39,62 @@ typedef struct BsdfLobes {
     float alpha;
 } BsdfLobes;
 
-/* Traits that decide how a path goes on past a surface. */
+/* Traits that decide how a path goes on past a surface, and what is known of it. */
 typedef enum BsdfTrait {
     BSDF_IS_SHEET = 1, /* thin, and light goes straight through: shadow rays pass, and an eye's
                           ray follows what lies behind besides what the sheet shows */
     BSDF_REFRACTS = 2, /* the boundary of a solid, which light crosses bent */
+    BSDF_HAS_LAMBERTIAN = 4,  /* a lambertian part that is known separately */
+    BSDF_SHOWS_ITSELF = 8,    /* it can leave out what passes it (BsdfSetting) */
 } BsdfTrait;
 
-typedef struct BsdfModel {
-    unsigned traits; /* of BsdfTrait */
-    /* room: the model's own member of BsdfRoom. NULL: nothing is kept. */
-    void     (*look)(void *parameters, Vec3 wo, void *room);
+/* What one surface point is, whatever the directions. All 0: it has none of these. */
+typedef struct BsdfFacts {
+    bool  scatters;     /* has a part that light samples can hit */
+    bool  sends_across; /* sends light diffusely to its other side */
+    float alpha;        /* GGX alpha of its lobe; INFINITY: it has none */
+    float index;        /* mean index behind a boundary that refracts, over that outside */
+} BsdfFacts;
+
+/* Known of the queries to come; a model takes what it has a use for. */
+typedef struct BsdfSetting {
+    const Vec3     *wo;    /* of all queries from now on; NULL: any */
+    void           *room;  /* with wo: the model's own member of BsdfRoom */
+    const Spectrum *light; /* the path's throughput, per lane; NULL: not known */
+    bool            shows_itself; /* sampling leaves out what passes straight through */
+} BsdfSetting;
+
+/* Parts of what goes from wi to wo that are known separately. */
+typedef enum BsdfPart {
+    BSDF_GLINT,       /* of eval, sr^-1: by the facets of a nearly smooth boundary */
+    BSDF_LAMBERTIAN,  /* share of eval, 0 to 1 */
+    BSDF_EXTRAPOLATED /* 1: all of it is read from measurements of other directions */
+} BsdfPart;
+
+/* Scattering, of which light samples and BSDF samples are two estimators. */
+typedef struct BsdfScatter {
     Spectrum (*eval)(const void *parameters, Vec3 wo, Vec3 wi, float *pdf);
-    bool     (*reaches)(const void *parameters, Vec3 wo, Vec3 wi); /* NULL: may, everywhere */
     bool     (*sample)(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample);
-    Spectrum (*pass)(const void *parameters, Vec3 wo);
-    Spectrum (*mirror)(const void *parameters, Vec3 wo);
-    Spectrum (*glint)(const void *parameters, Vec3 wo, Vec3 wi);
-    bool     (*scatters)(const void *parameters);
-    void     (*lobes)(const void *parameters, Vec3 wo, BsdfLobes *lobes);
+    bool     (*reaches)(const void *parameters, Vec3 wo, Vec3 wi); /* NULL: may, everywhere */
     Spectrum (*albedo)(const void *parameters, Vec3 wo);
-    /* way: wi, is_delta, passes and along are set. False or NULL: all becomes unpolarised. */
-    bool     (*polarise)(const void *parameters, Vec3 wo, const BsdfSample *way,
-                         BsdfPolarisation *out);
-    /* Few models have these; NULL: not this one. */
-    float    (*sharpest)(const void *parameters);
-    float    (*index)(const void *parameters);
+    void     (*lobes)(const void *parameters, Vec3 wo, BsdfLobes *lobes);
+} BsdfScatter;
+
+/* The smooth boundary: light that goes on in one direction. */
+typedef struct BsdfBoundary {
+    Spectrum (*mirror)(const void *parameters, Vec3 wo);
+    Spectrum (*pass)(const void *parameters, Vec3 wo);
     float    (*shift)(const void *parameters, float cosine);
-    void     (*show_itself)(void *parameters);
-    void     (*carry)(void *parameters, const Spectrum *light);
-    bool     (*sends_across)(const void *parameters);
-    Spectrum (*lambertian)(const void *parameters, Spectrum f, Vec3 wi);
-    bool     (*is_extrapolated)(const void *parameters, Vec3 wo, Vec3 wi);
+} BsdfBoundary;
+
+typedef struct BsdfModel {
+    unsigned     traits; /* of BsdfTrait */
+    BsdfScatter  scatter;
+    BsdfBoundary boundary;
+    void (*facts)(const void *parameters, BsdfFacts *facts);
+    void (*set)(void *parameters, const BsdfSetting *setting);
+    Spectrum (*part)(const void *parameters, BsdfPart part, Vec3 wo, Vec3 wi);
+    /* way: wi, is_delta, passes and along are set. False or NULL: all becomes unpolarised. */
+    bool (*polarise)(const void *parameters, Vec3 wo, const BsdfSample *way,
+                     BsdfPolarisation *out);
 } BsdfModel;

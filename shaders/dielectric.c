@@ -325,9 +325,11 @@ static bool solid_sample(const void *parameters, Vec3 wo, const float u[3], Bsdf
                       smooth_sample(d, &s, u[2], sample);
 }
 
-static bool solid_scatters(const void *parameters)
+static void solid_facts(const void *parameters, BsdfFacts *facts)
 {
-    return !is_delta(parameters);
+    const Dielectric *d = parameters;
+    facts->scatters = !is_delta(d);
+    facts->index = d->ior;
 }
 
 static Spectrum solid_mirror(const void *parameters, Vec3 wo)
@@ -372,18 +374,16 @@ static bool solid_polarise(const void *parameters, Vec3 wo, const BsdfSample *wa
     return true;
 }
 
-static float solid_index(const void *parameters)
+static void solid_set(void *parameters, const BsdfSetting *setting)
 {
-    return ((const Dielectric *)parameters)->ior;
+    if (setting->light) ((Dielectric *)parameters)->light = setting->light;
 }
 
-static void solid_carry(void *parameters, const Spectrum *light)
-{
-    ((Dielectric *)parameters)->light = light;
-}
-
-const BsdfModel dielectric_model = {.traits = BSDF_REFRACTS, .eval = solid_eval,
-                                    .sample = solid_sample, .mirror = solid_mirror,
-                                    .scatters = solid_scatters, .albedo = solid_albedo,
-                                    .polarise = solid_polarise, .index = solid_index,
-                                    .carry = solid_carry};
+const BsdfModel dielectric_model = {
+    .traits = BSDF_REFRACTS,
+    .scatter = {.eval = solid_eval, .sample = solid_sample, .albedo = solid_albedo},
+    .boundary = {.mirror = solid_mirror},
+    .facts = solid_facts,
+    .set = solid_set,
+    .polarise = solid_polarise,
+};

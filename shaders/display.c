@@ -182,10 +182,10 @@ static Spectrum model_mirror(const void *parameters, Vec3 wo)
     return mirror_at(display, wo.z);
 }
 
-static bool model_scatters(const void *parameters)
+static void model_facts(const void *parameters, BsdfFacts *facts)
 {
     const DisplaySurface *display = parameters;
-    return panel_reflects(display->panel);
+    facts->scatters = panel_reflects(display->panel);
 }
 
 static Spectrum model_albedo(const void *parameters, Vec3 wo)
@@ -195,10 +195,11 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
     return clear_mirror_at(display, wo.z) + spectrum_all(haze_albedo_of(display, wo.z));
 }
 
-/* Share of the panel's lambertian part, no haze, in f as eval gave it; 0 where f is 0. */
-static Spectrum model_lambertian(const void *parameters, Spectrum f, Vec3 wi)
+/* Of the panel's lambertian part, no haze; 0 where eval is 0. */
+static Spectrum lambertian_share(const DisplaySurface *display, Vec3 wo, Vec3 wi)
 {
-    const DisplaySurface *display = parameters;
+    float    pdf;
+    Spectrum f = model_eval(display, wo, wi, &pdf);
     Spectrum lambertian = display->mix.count
         ? panel_mix_lambertian(&display->mix, f, wi, display->wavelengths)
         : panel_lambertian_at(display->panel, f, wi, &display->lanes);
@@ -206,15 +207,23 @@ static Spectrum model_lambertian(const void *parameters, Spectrum f, Vec3 wi)
 }
 
 /* Of several panels all have to be measured there. */
-static bool model_is_extrapolated(const void *parameters, Vec3 wo, Vec3 wi)
+static bool is_extrapolated(const DisplaySurface *display, Vec3 wo, Vec3 wi)
 {
-    const DisplaySurface *display = parameters;
     bool is_measured = true;
-    if (!model_reaches(parameters, wo, wi)) return false;
+    if (!model_reaches(display, wo, wi)) return false;
     if (!display->mix.count) return !panel_brdf_is_measured(display->panel, wo, wi);
     for (int i = 0; i < display->mix.count; i++)
         is_measured &= panel_brdf_is_measured(display->mix.panel[i], wo, wi);
     return !is_measured;
+}
+
+static Spectrum model_part(const void *parameters, BsdfPart part, Vec3 wo, Vec3 wi)
+{
+    switch (part) {
+    case BSDF_LAMBERTIAN: return lambertian_share(parameters, wo, wi);
+    case BSDF_EXTRAPOLATED: return spectrum_all(is_extrapolated(parameters, wo, wi));
+    default: return spectrum_all(0);
+    }
 }
 
 /* The mirror polarises as the cover's glass does; haze is scattered more than once. */
@@ -234,9 +243,12 @@ static bool model_polarise(const void *parameters, Vec3 wo, const BsdfSample *wa
     return true;
 }
 
-const BsdfModel display_model = {.eval = model_eval, .reaches = model_reaches,
-                                 .sample = model_sample, .mirror = model_mirror,
-                                 .scatters = model_scatters, .albedo = model_albedo,
-                                 .polarise = model_polarise,
-                                 .lambertian = model_lambertian,
-                                 .is_extrapolated = model_is_extrapolated};
+const BsdfModel display_model = {
+    .traits = BSDF_HAS_LAMBERTIAN,
+    .scatter = {.eval = model_eval, .sample = model_sample, .reaches = model_reaches,
+                .albedo = model_albedo},
+    .boundary = {.mirror = model_mirror},
+    .facts = model_facts,
+    .part = model_part,
+    .polarise = model_polarise,
+};

@@ -333,10 +333,10 @@ static Spectrum window_mirror(const void *parameters, Vec3 wo)
     return m.reflected;
 }
 
-static bool window_scatters(const void *parameters)
+static void window_facts(const void *parameters, BsdfFacts *facts)
 {
     const GlazedWindow *window = parameters;
-    return window->pane->haze_share > 0;
+    facts->scatters = window->pane->haze_share > 0;
 }
 
 static Spectrum window_albedo(const void *parameters, Vec3 wo)
@@ -419,15 +419,17 @@ static bool window_polarise(const void *parameters, Vec3 wo, const BsdfSample *w
     return true;
 }
 
-static void window_show_itself(void *parameters)
+static void window_set(void *parameters, const BsdfSetting *setting)
 {
-    ((GlazedWindow *)parameters)->shows_itself = true;
+    if (setting->shows_itself) ((GlazedWindow *)parameters)->shows_itself = true;
 }
 
-const BsdfModel glazed_window_model = {.traits = BSDF_IS_SHEET, .eval = window_eval,
-                                       .reaches = window_reaches,
-                                       .sample = window_sample, .pass = window_pass,
-                                       .mirror = window_mirror, .scatters = window_scatters,
-                                       .albedo = window_albedo,
-                                       .polarise = window_polarise, .shift = window_shift,
-                                       .show_itself = window_show_itself};
+const BsdfModel glazed_window_model = {
+    .traits = BSDF_IS_SHEET | BSDF_SHOWS_ITSELF,
+    .scatter = {.eval = window_eval, .sample = window_sample, .reaches = window_reaches,
+                .albedo = window_albedo},
+    .boundary = {window_mirror, window_pass, window_shift},
+    .facts = window_facts,
+    .set = window_set,
+    .polarise = window_polarise,
+};

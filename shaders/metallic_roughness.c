@@ -110,13 +110,14 @@ MetallicRoughness metallic_roughness_default(const EnergyTable *energy)
                                .energy = energy};
 }
 
-static void model_look(void *parameters, Vec3 wo, void *room)
+static void model_set(void *parameters, const BsdfSetting *setting)
 {
     MetallicRoughness *m = parameters;
-    MetallicView *view = room;
+    MetallicView *view = setting->room;
+    if (!setting->wo) return;
     m->seen = NULL;
-    if (!(wo.z > 0)) return;
-    metallic_look(view, m, wo);
+    if (!(setting->wo->z > 0)) return;
+    metallic_look(view, m, *setting->wo);
     m->seen = view;
 }
 
@@ -152,12 +153,12 @@ static Spectrum model_mirror(const void *parameters, Vec3 wo)
     return by_coat + eval_smooth(view, vec3(-wo.x, -wo.y, wo.z));
 }
 
-static Spectrum model_glint(const void *parameters, Vec3 wo, Vec3 wi)
+static Spectrum model_part(const void *parameters, BsdfPart part, Vec3 wo, Vec3 wi)
 {
     const MetallicRoughness *m = parameters;
     ThroughCoat below;
     bool    is_glint = !is_smooth(m->alpha) && m->alpha <= GLINT_ALPHA && !is_brushed(m);
-    if (!(wo.z > 0 && wi.z > 0 && is_glint)) return spectrum_all(0);
+    if (part != BSDF_GLINT || !(wo.z > 0 && wi.z > 0 && is_glint)) return spectrum_all(0);
     MetallicView own;
     const MetallicView *view = metallic_seen(m, wo, &own);
     if (m->clearcoat > 0) below = coat_through(m, wi);
@@ -293,12 +294,14 @@ static bool model_sample(const void *parameters, Vec3 wo, const float u[3], Bsdf
 
 /* ---- for choosing where to look ---------------------------------------------------------- */
 
-static bool model_scatters(const void *parameters)
+static void model_facts(const void *parameters, BsdfFacts *facts)
 {
     const MetallicRoughness *m = parameters;
     bool has_base = (1 - m->metallic) * (1 - m->transmission) > 0;
     bool has_coat = m->clearcoat > 0 && !is_smooth(m->clearcoat_alpha);
-    return has_base || has_coat || !is_smooth(m->alpha) || has_sheen(m);
+    facts->scatters = has_base || has_coat || !is_smooth(m->alpha) || has_sheen(m);
+    facts->sends_across = m->across > 0;
+    facts->alpha = m->alpha;
 }
 
 /* f0 of the non-metal and of the metal, and what the face sends back in all. */
@@ -513,22 +516,11 @@ static bool model_polarise(const void *parameters, Vec3 wo, const BsdfSample *wa
 
 /* ---- the model --------------------------------------------------------------------------- */
 
-static float model_sharpest(const void *parameters)
-{
-    return ((const MetallicRoughness *)parameters)->alpha;
-}
-
-static bool model_sends_across(const void *parameters)
-{
-    return ((const MetallicRoughness *)parameters)->across > 0;
-}
-
-const BsdfModel metallic_roughness_model = {.eval = model_eval,
-                                            .reaches = model_reaches, .sample = model_sample,
-                                            .pass = model_pass, .mirror = model_mirror,
-                                            .glint = model_glint,
-                                            .scatters = model_scatters, .lobes = model_lobes,
-                                            .albedo = model_albedo, .look = model_look,
-                                            .polarise = model_polarise,
-                                            .sharpest = model_sharpest,
-                                            .sends_across = model_sends_across};
+const BsdfModel metallic_roughness_model = {
+    .scatter = {model_eval, model_sample, model_reaches, model_albedo, model_lobes},
+    .boundary = {.mirror = model_mirror, .pass = model_pass},
+    .facts = model_facts,
+    .set = model_set,
+    .part = model_part,
+    .polarise = model_polarise,
+};

@@ -87,7 +87,9 @@ static bool window_polarise(const void *parameters, Vec3 wo, const BsdfSample *w
     return true;
 }
 
-const BsdfModel thin_window_model = {.traits = BSDF_IS_SHEET, .sample = window_sample,
-                                     .pass = window_pass,
-                                     .mirror = window_mirror, .albedo = window_albedo,
-                                     .polarise = window_polarise};
+const BsdfModel thin_window_model = {
+    .traits = BSDF_IS_SHEET,
+    .scatter = {.sample = window_sample, .albedo = window_albedo},
+    .boundary = {.mirror = window_mirror, .pass = window_pass},
+    .polarise = window_polarise,
+};

@@ -15,9 +15,8 @@
 #include "scene/load/material_data.h"
 #include "text/json_text.h"
 
-/* Files beside this one, and Debian's three.js; the build embeds them. */
-extern const char EQUIP_STYLE[], EQUIP_BODY[], EQUIP_VIEW[], EQUIP_FACE[], EQUIP_EYE[],
-    EQUIP_BASE[], EQUIP_DISPLAY[], EQUIP_SCRIPT[], THREE_NOTICE[], THREE_SCRIPT[];
+/* Debian's three.js, and its notice beside this file; the build embeds both. */
+extern const char THREE_NOTICE[], THREE_SCRIPT[];
 
 #define STEPS 16777215.0 /* of a coordinate over the model's size: three bytes */
 #define DATA_BYTES ((size_t)1 << 32) /* address space: what is not touched costs nothing */
@@ -181,24 +180,31 @@ static json_t *data_json(const Scene *scene, const char *model, const char *comm
     return data;
 }
 
-/* Inside a script element nothing may look like its end. */
-static void add_data(Text *page, json_t *data)
+/* Inside a script element nothing may look like its end. Takes the data. */
+static json_t *script_text(json_t *data)
 {
-    Arena own = arena_reserve(DATA_BYTES);
-    Text  text = {.arena = &own};
+    Arena own = arena_reserve(DATA_BYTES), more = arena_reserve(DATA_BYTES);
+    Text  text = {.arena = &own}, script = {.arena = &more};
     if (!json_dump_text(&text, data, JSON_COMPACT | JSON_REAL_PRECISION(9)))
         text_add(&text, "{}");
-    text_add(page, "<script type=\"application/json\" id=\"equip-data\">");
     for (const char *c = text.data; *c;) {
         size_t plain = strcspn(c, "<");
-        text_add_bytes(page, c, plain);
+        text_add_bytes(&script, c, plain);
         c += plain;
-        if (*c) text_add(page, "\\u003c");
+        if (*c) text_add(&script, "\\u003c");
         c += *c != 0;
     }
-    text_add(page, "</script>\n");
+    json_t *out = json_stringn(script.data, script.size);
+    arena_release(&more);
     arena_release(&own);
     json_decref(data);
+    return out;
+}
+
+/* False: there are none. */
+static bool set_packed(json_t *to, const char *name, const char *numbers)
+{
+    return !json_object_set_new(to, name, json_string(numbers));
 }
 
 static float coordinate(Vec3 v, int axis)
@@ -206,7 +212,7 @@ static float coordinate(Vec3 v, int axis)
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-static bool add_positions(Text *page, const Scene *scene, int axis, Arena scratch, Error *err)
+static bool add_positions(json_t *list, const Scene *scene, int axis, Arena scratch, Error *err)
 {
     double    low = (double)coordinate(scene->bounds_min, axis);
     double    size = (double)coordinate(scene->bounds_max, axis) - low;
@@ -215,10 +221,9 @@ static bool add_positions(Text *page, const Scene *scene, int axis, Arena scratc
         double at = ((double)coordinate(scene->positions[i], axis) - low) / size;
         if (at > 0 && at <= 1) steps[i] = (uint32_t)lround(at * STEPS);
     }
-    text_format(page, "<script type=\"text/plain\" id=\"equip-%c\">", "xyz"[axis]);
-    if (!page_data_add(page, steps, scene->vertex_count, 3, scratch, err)) return false;
-    text_add(page, "</script>\n");
-    return true;
+    json_t *to = page_add(list);
+    json_object_set_new(to, "axis", json_stringn(&"xyz"[axis], 1));
+    return set_packed(to, "steps", page_packed(steps, scene->vertex_count, 3, &scratch, err));
 }
 
 /* u or v of a base colour's texture, of all vertices; who has none stays 0. */
@@ -240,8 +245,8 @@ static float *coordinates(const Scene *scene, bool is_v, Arena *arena)
     return out;
 }
 
-/* Like a position, its range in the element: data-low and data-size. */
-static bool add_coordinates(Text *page, const Scene *scene, bool is_v, Arena scratch,
+/* Like a position, with its range. */
+static bool add_coordinates(json_t *list, const Scene *scene, bool is_v, Arena scratch,
                             Error *err)
 {
     float    *uv = coordinates(scene, is_v, &scratch), low = 0, high = 0;
@@ -251,24 +256,33 @@ static bool add_coordinates(Text *page, const Scene *scene, bool is_v, Arena scr
     double size = fmax(1e-6, (double)high - (double)low);
     for (uint32_t i = 0; i < scene->vertex_count; i++)
         steps[i] = (uint32_t)lround(((double)uv[i] - (double)low) / size * STEPS);
-    text_format(page, "<script type=\"text/plain\" id=\"equip-%c\" data-low=\"%.9g\" "
-                "data-size=\"%.9g\">", is_v ? 'v' : 'u', (double)low, size);
-    if (!page_data_add(page, steps, scene->vertex_count, 3, scratch, err)) return false;
-    text_add(page, "</script>\n");
-    return true;
+    json_t *to = page_add(list);
+    page_set(to, "axis", is_v ? "v" : "u");
+    json_object_set_new(to, "low", json_real((double)low));
+    json_object_set_new(to, "size", json_real(size));
+    return set_packed(to, "steps", page_packed(steps, scene->vertex_count, 3, &scratch, err));
 }
 
-static bool add_triangles(Text *page, const Scene *scene, Arena scratch, Error *err)
+static bool set_triangles(json_t *to, const Scene *scene, Arena scratch, Error *err)
 {
     uint32_t *index = ARENA_NEW(&scratch, uint32_t, 3 * (size_t)scene->triangle_count);
     for (uint32_t t = 0; t < scene->triangle_count; t++)
         memcpy(index + 3 * (size_t)t, scene->triangles[t].vertex, 3 * sizeof *index);
-    text_add(page, "<script type=\"text/plain\" id=\"equip-i\">");
-    if (!page_data_add(page, index, 3 * (size_t)scene->triangle_count, index_bytes(scene),
-                       scratch, err))
-        return false;
-    text_add(page, "</script>\n");
-    return true;
+    return set_packed(to, "triangles", page_packed(index, 3 * (size_t)scene->triangle_count,
+                                                   index_bytes(scene), &scratch, err));
+}
+
+static bool set_geometry(json_t *to, const Scene *scene, Arena scratch, Error *err)
+{
+    json_t *axes = json_array(), *textured = json_array();
+    bool    ok = true;
+    json_object_set_new(to, "axes", axes);
+    json_object_set_new(to, "textured", textured);
+    for (int axis = 0; axis < 3 && ok; axis++)
+        ok = add_positions(axes, scene, axis, scratch, err);
+    for (int axis = 0; axis < 2 && ok; axis++)
+        ok = add_coordinates(textured, scene, axis == 1, scratch, err);
+    return ok && set_triangles(to, scene, scratch, err);
 }
 
 static bool check_size(const Scene *scene, const char *model, Error *err)
@@ -285,27 +299,17 @@ static bool check_size(const Scene *scene, const char *model, Error *err)
 bool equip_page_write(const Scene *scene, const char *model, const char *command,
                       const char *path, Arena *arena, Error *err)
 {
-    static const char *const scripts[] = {THREE_NOTICE, THREE_SCRIPT, "\n", EQUIP_VIEW,
-                                          EQUIP_FACE, EQUIP_EYE, EQUIP_BASE, EQUIP_DISPLAY,
-                                          EQUIP_SCRIPT, NULL};
     if (!check_size(scene, model, err)) return false;
-    json_t *data = data_json(scene, model, command, arena);
-    Arena   own = arena_reserve((size_t)64 << 30);
-    Text    page = {.arena = &own};
-    page_begin(&page, &(PageHead){arena_format(arena, "%s: equip", path_name(model)),
-                                  EQUIP_STYLE, false, 0});
-    text_add(&page, EQUIP_BODY);
-    add_data(&page, data);
-    bool ok = true;
-    for (int axis = 0; axis < 3 && ok; axis++)
-        ok = add_positions(&page, scene, axis, *arena, err);
-    for (int axis = 0; axis < 2 && ok; axis++)
-        ok = add_coordinates(&page, scene, axis == 1, *arena, err);
-    if (ok) ok = add_triangles(&page, scene, *arena, err);
-    if (ok) {
-        page_end(&page, command, scripts);
-        ok = text_write(&page, path, err);
-    }
-    arena_release(&own);
-    return ok;
+    json_t *values = json_object();
+    Text    three = {.arena = arena};
+    text_add(&three, THREE_NOTICE);
+    text_add(&three, THREE_SCRIPT);
+    const PageHead head = {.title = arena_format(arena, "%s: equip", path_name(model)),
+                           .command = command};
+    page_set(values, "three", three.data);
+    json_object_set_new(values, "data", script_text(data_json(scene, model, command, arena)));
+    if (page_set_head(values, &head, err) && set_geometry(values, scene, *arena, err))
+        return page_write_values("equip.html", values, NULL, path, err);
+    json_decref(values);
+    return false;
 }

@@ -15,7 +15,7 @@ static size_t pixel_bytes(unsigned layers, int light_count)
 {
     size_t numbers = layers & LAYER_LIGHT ? 3 * (size_t)light_count : 0;
     for (int i = 0; i < SUMS_COUNT; i++)
-        if (layers & layer_sums_users(i)) numbers += (size_t)layer_sums_size(i);
+        if (layers & sums_rows[i].users) numbers += (size_t)sums_rows[i].size;
     return sizeof(PixelSums) + numbers * sizeof(Fixed);
 }
 
@@ -44,9 +44,9 @@ Film *film_create(int width, int height, FilmRect crop, unsigned layers,
     film->stride = pixel_bytes(layers, film->lights.count);
     int next = 0;
     for (int i = 0; i < SUMS_COUNT; i++) {
-        bool is_kept = (layers & layer_sums_users(i)) != 0;
+        bool is_kept = (layers & sums_rows[i].users) != 0;
         film->first[i] = is_kept ? next : -1;
-        if (is_kept) next += layer_sums_size(i);
+        if (is_kept) next += sums_rows[i].size;
     }
     film->first_light = next;
     film->pixels = arena_alloc(arena, film->stride, _Alignof(PixelSums), pixel_count(crop));
@@ -119,9 +119,35 @@ static void add_squares(Fixed *squares, const float xyz[3])
 static void add_layer(const Film *film, PixelSums *sums, LayerSums layer, const float *values)
 {
     int first = film->first[layer];
-    if (first < 0) return;
-    for (int i = 0; i < layer_sums_size(layer); i++)
+    for (int i = 0; i < sums_rows[layer].size; i++)
         sums->layers[first + i] += fixed_from_float(values[i]);
+}
+
+/* The sample's values that these sums add as they are; NULL: none, or the film has none. */
+static const float *values_of(const Film *film, LayerSums layer, const FilmSample *sample)
+{
+    size_t member = sums_rows[layer].member;
+    if (film->first[layer] < 0 || member == NO_MEMBER) return NULL;
+    return (const float *)(const void *)((const char *)sample + member);
+}
+
+static bool layers_in_range(const Film *film, LayerSums first, LayerSums end,
+                            const FilmSample *sample)
+{
+    for (LayerSums i = first; i < end; i++) {
+        const float *values = values_of(film, i, sample);
+        if (values && !in_range(values, sums_rows[i].size)) return false;
+    }
+    return true;
+}
+
+static void add_layers(const Film *film, PixelSums *sums, LayerSums first, LayerSums end,
+                       const FilmSample *sample)
+{
+    for (LayerSums i = first; i < end; i++) {
+        const float *values = values_of(film, i, sample);
+        if (values) add_layer(film, sums, i, values);
+    }
 }
 
 /* An id times its light is a sum, too. */
@@ -134,14 +160,8 @@ static bool shared_in_range(const FilmSample *sample)
 
 static bool display_in_range(const Film *film, const FilmSample *sample)
 {
-    return (film->first[SUMS_EMITTED] < 0 || in_range(sample->emitted, 3)) &&
+    return layers_in_range(film, SUMS_FIRST_DISPLAY, SUMS_COUNT, sample) &&
            (film->first[SUMS_REFLECTED] < 0 || in_range(sample->emitted, 3)) &&
-           (film->first[SUMS_WHITE] < 0 || in_range(sample->white, 3)) &&
-           (film->first[SUMS_BLACK] < 0 || in_range(sample->black, 3)) &&
-           (film->first[SUMS_FINE] < 0 || in_range(sample->fine, 3)) &&
-           (film->first[SUMS_MIRROR] < 0 || in_range(sample->mirror, 3)) &&
-           (film->first[SUMS_LAMBERTIAN] < 0 || in_range(sample->lambertian, 3)) &&
-           (film->first[SUMS_EXTRAPOLATED] < 0 || in_range(sample->extrapolated, 2)) &&
            (film->first[SUMS_SHARED] < 0 || shared_in_range(sample)) &&
            (film->first[SUMS_DIRECTION] < 0 ||
             (fabsf(sample->theta) <= 4 && fabsf(sample->phi) <= 8));
@@ -186,13 +206,7 @@ static void add_display(const Film *film, PixelSums *sums, const FilmSample *sam
         sums->display_sample = sample->sample_index;
         sums->display_id = sample->display_id;
     }
-    add_layer(film, sums, SUMS_EMITTED, sample->emitted);
-    add_layer(film, sums, SUMS_WHITE, sample->white);
-    add_layer(film, sums, SUMS_BLACK, sample->black);
-    add_layer(film, sums, SUMS_FINE, sample->fine);
-    add_layer(film, sums, SUMS_MIRROR, sample->mirror);
-    add_layer(film, sums, SUMS_LAMBERTIAN, sample->lambertian);
-    add_layer(film, sums, SUMS_EXTRAPOLATED, sample->extrapolated);
+    add_layers(film, sums, SUMS_FIRST_DISPLAY, SUMS_COUNT, sample);
     add_reflected(film, sums, sample);
     if (film->first[SUMS_SQUARES] >= 0)
         add_squares(sums->layers + film->first[SUMS_SQUARES], sample->xyz);
@@ -207,29 +221,16 @@ static void add_display(const Film *film, PixelSums *sums, const FilmSample *sam
     }
 }
 
-static bool features_in_range(const Film *film, const FilmSample *sample)
-{
-    return (film->first[SUMS_DEPTH] < 0 || in_range(&sample->depth, 1)) &&
-           (film->first[SUMS_POSITION] < 0 || in_range(sample->position, 3)) &&
-           (film->first[SUMS_NORMAL] < 0 || in_range(sample->normal, 3)) &&
-           (film->first[SUMS_ALBEDO] < 0 || in_range(sample->albedo, 3)) &&
-           (film->first[SUMS_UV] < 0 || in_range(sample->uv, 2));
-}
-
 static void add_features(const Film *film, PixelSums *sums, const FilmSample *sample)
 {
     if (sample->display_id >= 0) add_display(film, sums, sample);
-    if (!features_in_range(film, sample)) return;
+    if (!layers_in_range(film, SUMS_DEPTH, SUMS_FIRST_DISPLAY, sample)) return;
     sums->hits++;
     if (sample->sample_index < sums->part_sample) {
         sums->part_sample = sample->sample_index;
         sums->part_id = sample->part_id;
     }
-    add_layer(film, sums, SUMS_DEPTH, &sample->depth);
-    add_layer(film, sums, SUMS_POSITION, sample->position);
-    add_layer(film, sums, SUMS_NORMAL, sample->normal);
-    add_layer(film, sums, SUMS_ALBEDO, sample->albedo);
-    add_layer(film, sums, SUMS_UV, sample->uv);
+    add_layers(film, sums, SUMS_DEPTH, SUMS_FIRST_DISPLAY, sample);
 }
 
 /* ---- groups of lights -------------------------------------------------------------------- */

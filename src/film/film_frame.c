@@ -78,11 +78,11 @@ static void mean_of(const Fixed *sums, int size, uint32_t count, float *out)
 static void mean_layer(const Film *film, const PixelSums *sums, LayerSums layer, float *out)
 {
     uint32_t count = layer >= SUMS_FIRST_DISPLAY ? sums->display_hits : sums->hits;
-    mean_of(sums->layers + film->first[layer], layer_sums_size(layer), count, out);
+    mean_of(sums->layers + film->first[layer], sums_rows[layer].size, count, out);
 }
 
 /* A layer that is a mean of its sums; of displays the sums are XYZ and the layer RGB. */
-static void read_mean(const Film *film, const PixelSums *sums, LayerSums layer, float v[3])
+static void read_sums_mean(const Film *film, const PixelSums *sums, LayerSums layer, float v[3])
 {
     float mean[3];
     mean_layer(film, sums, layer, mean);
@@ -332,7 +332,7 @@ static void read_source(const Film *film, const ChannelSource *from, const Pixel
 {
     switch (from->kind) {
     case KIND_READ: from->read(film, sums, v); break;
-    case KIND_MEAN: read_mean(film, sums, from->mean, v); break;
+    case KIND_MEAN: read_sums_mean(film, sums, from->mean, v); break;
     case KIND_LIGHT: read_light(film, sums, from->group, v); break;
     }
 }
@@ -360,71 +360,66 @@ static void fill(const ChannelFill *to)
 
 /* ---- the frame --------------------------------------------------------------------------- */
 
+#define read_mean NULL
+#define LAYER_ROW(NAME, bit, of, option, letters, reader, sums)                                \
+    {LAYER_##NAME, option, letters, read_##reader, SUMS_##sums},
+
+/* Layers of a colour or a vector. */
 static const struct {
     unsigned     layer;
-    const char  *name, *letters;
+    const char  *name, *letters; /* "": none here */
     PixelReader *read; /* NULL: a mean of */
     LayerSums    mean;
 } layer_channels[] = {
-    {LAYER_XYZ, "xyz", "XYZ", read_xyz, 0},
-    {LAYER_DEPTH, "depth", "Z", NULL, SUMS_DEPTH},
-    {LAYER_POSITION, "position", "XYZ", NULL, SUMS_POSITION},
-    {LAYER_NORMAL, "normal", "XYZ", NULL, SUMS_NORMAL},
-    {LAYER_ALBEDO, "albedo", "RGB", NULL, SUMS_ALBEDO},
-    {LAYER_UV, "uv", "UV", NULL, SUMS_UV},
-    {LAYER_VARIANCE, "variance", "RGB", read_variance, 0},
-    {LAYER_HALVES, "halves", "RGB", read_halves, 0},
-    {LAYER_DISPLAY_EMITTED, "display.emitted", "RGB", NULL, SUMS_EMITTED},
-    {LAYER_DISPLAY_REFLECTED, "display.reflected", "RGB", NULL, SUMS_REFLECTED},
-    {LAYER_DISPLAY_MIRROR, "display.mirror", "RGB", NULL, SUMS_MIRROR},
-    {LAYER_DISPLAY_SCATTERED, "display.scattered", "RGB", read_scattered, 0},
-    {LAYER_DISPLAY_HAZE, "display.haze", "RGB", read_haze, 0},
-    {LAYER_DISPLAY_LAMBERTIAN, "display.lambertian", "RGB", NULL, SUMS_LAMBERTIAN},
-    {LAYER_DISPLAY_WHITE, "display.white", "RGB", NULL, SUMS_WHITE},
-    {LAYER_DISPLAY_BLACK, "display.black", "RGB", NULL, SUMS_BLACK},
-    {LAYER_DISPLAY_FINE, "display.fine", "RGB", NULL, SUMS_FINE},
-    {LAYER_DISPLAY_HALVES, "display.halves", "RGB", read_display_halves, 0},
-    {LAYER_DISPLAY_VARIANCE, "display.variance", "RGB", read_display_variance, 0},
-    {LAYER_DISPLAY_SECOND, "display.second", "RGB", read_second, 0},
-    {LAYER_DISPLAY_SECOND, "display.second.variance", "RGB", read_second_variance, 0},
-};
+    FILM_LAYERS(LAYER_ROW)
+    {LAYER_DISPLAY_SECOND, "display.second.variance", "RGB", read_second_variance, 0}};
+
+/* Numbers with names of their own. */
+static const struct {
+    unsigned     layers; /* any of them */
+    const char  *name;
+    bool         is_whole;
+    PixelReader *read;
+    int          index; /* of what it reads; above 0: the row before reads it, too */
+} number_channels[] = {
+    {LAYER_SAMPLES | LAYER_DISPLAY_VARIANCE, "samples.N", true, read_samples, 0},
+    {LAYER_ID, "id.part", true, read_part_id, 0},
+    {LAYER_ID | LAYER_DISPLAYS, "id.display", true, read_display_id, 0},
+    {LAYER_DISPLAY_ANGLES, "display.theta", false, read_angles, 0},
+    {LAYER_DISPLAY_ANGLES, "display.phi", false, read_angles, 1},
+    {LAYER_DISPLAY_EXTRAPOLATED, "display.extrapolated.emitted", false, read_extrapolated, 0},
+    {LAYER_DISPLAY_EXTRAPOLATED, "display.extrapolated.reflected", false, read_extrapolated, 1},
+    {LAYER_DISPLAY_CONTRAST, "display.contrast", false, read_contrast, 0},
+    {LAYER_DISPLAY_SECOND, "id.second", true, read_second_id, 0},
+    {LAYER_DISPLAY_SECOND, "display.second.coverage", false, read_second_id, 1},
+    {LAYER_DISPLAY_FINE | LAYER_DISPLAY_VARIANCE, "display.coverage", false, read_coverage, 0},
+    {LAYER_STOKES, "stokes.S0", false, read_luminance, 0},
+    {LAYER_STOKES, "stokes.S1", false, read_stokes, 0},
+    {LAYER_STOKES, "stokes.S2", false, read_stokes, 1},
+    {LAYER_STOKES, "stokes.S3", false, read_stokes, 2},
+    {LAYER_STOKES, "stokes.degree", false, read_degree, 0}};
 
 static void add_layers(ChannelFill *to)
 {
     for (size_t i = 0; i < sizeof layer_channels / sizeof *layer_channels; i++) {
         PixelReader *read = layer_channels[i].read;
-        if (!(to->film->layers & layer_channels[i].layer)) continue;
+        if (!(to->film->layers & layer_channels[i].layer) || !*layer_channels[i].letters)
+            continue;
         add_layer(to, layer_channels[i].name, layer_channels[i].letters,
                   (ChannelSource){.kind = read ? KIND_READ : KIND_MEAN, .read = read,
                                   .mean = layer_channels[i].mean});
     }
 }
 
-static void add_angles(ChannelFill *to)
+static void add_numbers(ChannelFill *to)
 {
-    add_number(to, "display.theta", false, read_angles);
-    add_channel(to, 1, "display.phi", false);
-}
-
-static void add_extrapolated(ChannelFill *to)
-{
-    add_number(to, "display.extrapolated.emitted", false, read_extrapolated);
-    add_channel(to, 1, "display.extrapolated.reflected", false);
-}
-
-static void add_second(ChannelFill *to)
-{
-    add_number(to, "id.second", true, read_second_id);
-    add_channel(to, 1, "display.second.coverage", false);
-}
-
-static void add_stokes(ChannelFill *to)
-{
-    add_number(to, "stokes.S0", false, read_luminance);
-    add_number(to, "stokes.S1", false, read_stokes);
-    add_channel(to, 1, "stokes.S2", false);
-    add_channel(to, 2, "stokes.S3", false);
-    add_number(to, "stokes.degree", false, read_degree);
+    for (size_t i = 0; i < sizeof number_channels / sizeof *number_channels; i++) {
+        int index = number_channels[i].index;
+        if (!(to->film->layers & number_channels[i].layers)) continue;
+        ChannelSource from = {.kind = KIND_READ, .read = number_channels[i].read};
+        if (index == 0) begin_layer(to, from);
+        add_channel(to, index, number_channels[i].name, number_channels[i].is_whole);
+    }
 }
 
 static void add_light(ChannelFill *to, int group)
@@ -448,19 +443,7 @@ static void add_wished_layers(ChannelFill *to)
 {
     const Film *film = to->film;
     add_layers(to);
-    if (film->layers & (LAYER_SAMPLES | LAYER_DISPLAY_VARIANCE))
-        add_number(to, "samples.N", true, read_samples);
-    if (film->layers & LAYER_ID) add_number(to, "id.part", true, read_part_id);
-    if (film->layers & (LAYER_ID | LAYER_DISPLAYS))
-        add_number(to, "id.display", true, read_display_id);
-    if (film->layers & LAYER_DISPLAY_ANGLES) add_angles(to);
-    if (film->layers & LAYER_DISPLAY_EXTRAPOLATED) add_extrapolated(to);
-    if (film->layers & LAYER_DISPLAY_CONTRAST)
-        add_number(to, "display.contrast", false, read_contrast);
-    if (film->layers & LAYER_DISPLAY_SECOND) add_second(to);
-    if (film->layers & (LAYER_DISPLAY_FINE | LAYER_DISPLAY_VARIANCE))
-        add_number(to, "display.coverage", false, read_coverage);
-    if (film->layers & LAYER_STOKES) add_stokes(to);
+    add_numbers(to);
     for (int i = 0; i < film->lights.count; i++) add_light(to, i);
 }
 

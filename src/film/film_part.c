@@ -40,27 +40,12 @@ static const char *const sum_names[] = {
 static const char *const count_names[] = {
     "samples", "hits", "displayHits", "part.sample", "part.id", "display.sample", "display.id",
     "odd.samples"};
-static const struct {
-    const char *name, *letters;
-} layer_names[SUMS_COUNT] = {
-    [SUMS_DEPTH] = {"depth", "Z"},          [SUMS_POSITION] = {"position", "XYZ"},
-    [SUMS_NORMAL] = {"normal", "XYZ"},      [SUMS_ALBEDO] = {"albedo", "RGB"},
-    [SUMS_UV] = {"uv", "UV"},               [SUMS_EMITTED] = {"emitted", "XYZ"},
-    [SUMS_REFLECTED] = {"reflected", "XYZ"}, [SUMS_WHITE] = {"white", "XYZ"},
-    [SUMS_BLACK] = {"black", "XYZ"},        [SUMS_DIRECTION] = {"direction", "XYZ"},
-    [SUMS_FINE] = {"fine", "XYZ"},           [SUMS_MIRROR] = {"mirror", "XYZ"},
-    [SUMS_LAMBERTIAN] = {"lambertian", "XYZ"},
-    [SUMS_EXTRAPOLATED] = {"extrapolated", "ER"}, [SUMS_ODD] = {"odd_reflected", "XYZN"},
-    [SUMS_SQUARES] = {"display_squares", "RrGgBb"}, [SUMS_SHARED] = {"shared", "123XYZRrGgBb"},
-    [SUMS_STOKES] = {"stokes", "123"},
-};
 
 #define SUM_NAMES (sizeof sum_names / sizeof *sum_names)
 #define COUNT_NAMES (sizeof count_names / sizeof *count_names)
 _Static_assert(SUM_NAMES * sizeof(Fixed) == offsetof(PixelSums, samples) &&
                    SUM_NAMES * sizeof(Fixed) + COUNT_NAMES * 4 == sizeof(PixelSums),
                "a new member of PixelSums has no name here, and is not added in film_add.c");
-_Static_assert(SUMS_STOKES + 1 == SUMS_COUNT, "a new sum has no name here");
 
 typedef struct NameList {
     const char **names;
@@ -89,9 +74,9 @@ static ExrWords name_words(const FilmPart *part, Arena *arena)
     for (size_t i = 0; i < SUM_NAMES; i++) add_sum(&list, sum_names[i]);
     for (size_t i = 0; i < COUNT_NAMES; i++) add_name(&list, count_names[i]);
     for (int i = 0; i < SUMS_COUNT; i++)
-        for (int k = 0; (layers & layer_sums_users(i)) && k < layer_sums_size(i); k++)
-            add_sum(&list, arena_format(arena, "%s.%c", layer_names[i].name,
-                                        layer_names[i].letters[k]));
+        for (int k = 0; (layers & sums_rows[i].users) && k < sums_rows[i].size; k++)
+            add_sum(&list, arena_format(arena, "%s.%c", sums_rows[i].name,
+                                        sums_rows[i].letters[k]));
     for (int i = 0; i < 3 * part->lights.count; i++)
         add_sum(&list, arena_format(arena, "light.%d.%c", i / 3, "XYZ"[i % 3]));
     return (ExrWords){.name = PART_NAME, .count = list.count, .names = list.names};

@@ -4,6 +4,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "film/layers.h"
+
 #define FILM_SAMPLES_MAX 0x7fffffffu
 #define FILM_DROPPED_KEPT 8
 #define FILM_LIGHTS_MAX 256
@@ -40,50 +42,6 @@ typedef struct FilmSample {
     const FilmLight *lights; /* what makes up xyz, but for rounding; no group twice; */
     int   light_count;       /* groups that are not there gave nothing */
 } FilmSample;
-
-typedef enum FilmLayer {
-    LAYER_XYZ = 1 << 0,
-    LAYER_DEPTH = 1 << 1,
-    LAYER_POSITION = 1 << 2,
-    LAYER_NORMAL = 1 << 3,
-    LAYER_ALBEDO = 1 << 4,
-    LAYER_ID = 1 << 5,
-    LAYER_UV = 1 << 6,
-    LAYER_VARIANCE = 1 << 7,
-    LAYER_SAMPLES = 1 << 8,
-    LAYER_DISPLAY_EMITTED = 1 << 9,
-    LAYER_DISPLAY_REFLECTED = 1 << 10,
-    LAYER_DISPLAY_WHITE = 1 << 11,
-    LAYER_DISPLAY_BLACK = 1 << 12,
-    LAYER_DISPLAY_ANGLES = 1 << 13,
-    LAYER_DISPLAY_CONTRAST = 1 << 14,
-    LAYER_HALVES = 1 << 15,
-    LAYER_DISPLAY_FINE = 1 << 16,
-    LAYER_DISPLAY_MIRROR = 1 << 17,
-    LAYER_DISPLAY_SCATTERED = 1 << 18,
-    LAYER_DISPLAY_HAZE = 1 << 19,
-    LAYER_DISPLAY_LAMBERTIAN = 1 << 20,
-    LAYER_LIGHT = 1 << 21,
-    LAYER_DISPLAY_HALVES = 1 << 22,
-    LAYER_STOKES = 1 << 23, /* the one that not every render can have */
-    LAYER_DISPLAY_VARIANCE = 1 << 24,
-    LAYER_DISPLAY_SECOND = 1 << 25,
-    LAYER_ROUNDED = 1 << 26, /* no layer: variances and halves have 8 bits, which pack well */
-    LAYER_DISPLAY_EXTRAPOLATED = 1 << 27,
-    LAYER_EVERY = (1 << 28) - 1,
-    LAYER_ALL = LAYER_EVERY & ~(LAYER_STOKES | LAYER_ROUNDED),
-    LAYER_DISPLAYS = ((LAYER_HALVES - 1) & ~(LAYER_DISPLAY_EMITTED - 1)) | LAYER_DISPLAY_FINE |
-                     LAYER_DISPLAY_MIRROR | LAYER_DISPLAY_SCATTERED | LAYER_DISPLAY_HAZE |
-                     LAYER_DISPLAY_LAMBERTIAN | LAYER_DISPLAY_HALVES |
-                     LAYER_DISPLAY_VARIANCE | LAYER_DISPLAY_SECOND |
-                     LAYER_DISPLAY_EXTRAPOLATED,
-    LAYER_COMPARED = LAYER_VARIANCE | LAYER_DISPLAY_EMITTED | LAYER_DISPLAY_REFLECTED |
-                     LAYER_DISPLAY_WHITE | LAYER_DISPLAY_BLACK | LAYER_DISPLAY_VARIANCE |
-                     LAYER_DISPLAY_SECOND | LAYER_ROUNDED, /* what src/compare reads */
-    LAYER_NEEDS_LAMBERTIAN = LAYER_DISPLAY_HAZE | LAYER_DISPLAY_LAMBERTIAN,
-    LAYER_FEATURES = LAYER_ALL & ~(LAYER_XYZ | LAYER_VARIANCE | LAYER_SAMPLES | LAYER_HALVES |
-                                   LAYER_LIGHT)
-} FilmLayer; /* LAYER_FEATURES: those that need the members from `hit` on */
 
 typedef struct FilmRect {
     int x0, y0, x1, y1; /* half-open, pixels of the whole frame */

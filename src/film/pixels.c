@@ -5,43 +5,12 @@
 
 #include "spectrum/spectral_table.h"
 
-#define LIGHT_USERS (LAYER_DISPLAY_VARIANCE | LAYER_DISPLAY_SECOND) /* of a display's light */
+#define AT(member) offsetof(FilmSample, member)
+#define OWN NO_MEMBER
+#define SUMS_ROW(NAME, name, letters, users, member)                                           \
+    {name, letters, sizeof letters - 1, users, member},
 
-static const struct {
-    unsigned users;
-    int      size;
-} layer_sums[SUMS_COUNT] = {
-    [SUMS_DEPTH] = {LAYER_DEPTH, 1},
-    [SUMS_POSITION] = {LAYER_POSITION, 3},
-    [SUMS_NORMAL] = {LAYER_NORMAL, 3},
-    [SUMS_ALBEDO] = {LAYER_ALBEDO, 3},
-    [SUMS_UV] = {LAYER_UV, 2},
-    [SUMS_EMITTED] = {LAYER_DISPLAY_EMITTED | LAYER_DISPLAY_EXTRAPOLATED | LIGHT_USERS, 3},
-    [SUMS_REFLECTED] = {LAYER_DISPLAY_REFLECTED | LAYER_DISPLAY_CONTRAST |
-                        LAYER_DISPLAY_SCATTERED | LAYER_DISPLAY_HAZE | LAYER_DISPLAY_HALVES |
-                        LAYER_DISPLAY_EXTRAPOLATED | LIGHT_USERS, 3},
-    [SUMS_WHITE] = {LAYER_DISPLAY_WHITE | LAYER_DISPLAY_CONTRAST, 3},
-    [SUMS_BLACK] = {LAYER_DISPLAY_BLACK | LAYER_DISPLAY_CONTRAST, 3},
-    [SUMS_DIRECTION] = {LAYER_DISPLAY_ANGLES, 3},
-    [SUMS_FINE] = {LAYER_DISPLAY_FINE, 3},
-    [SUMS_MIRROR] = {LAYER_DISPLAY_MIRROR | LAYER_DISPLAY_SCATTERED | LAYER_DISPLAY_HAZE, 3},
-    [SUMS_LAMBERTIAN] = {LAYER_NEEDS_LAMBERTIAN, 3},
-    [SUMS_EXTRAPOLATED] = {LAYER_DISPLAY_EXTRAPOLATED, 2},
-    [SUMS_ODD] = {LAYER_DISPLAY_HALVES, 4},
-    [SUMS_SQUARES] = {LIGHT_USERS, 6},
-    [SUMS_SHARED] = {LAYER_DISPLAY_SECOND, 12},
-    [SUMS_STOKES] = {LAYER_STOKES, 3},
-};
-
-unsigned layer_sums_users(LayerSums sums)
-{
-    return layer_sums[sums].users;
-}
-
-int layer_sums_size(LayerSums sums)
-{
-    return layer_sums[sums].size;
-}
+const SumsRow sums_rows[SUMS_COUNT] = {FILM_SUMS(SUMS_ROW)};
 
 /* (sum of squares - (sum)^2 / n) / (n - 1) / n for each of R, G, B, of sums of XYZ and of
  * squares of RGB. */

@@ -23,19 +23,8 @@ __extension__ typedef __int128 Fixed;
 #define BLOCK_SAMPLES 16 /* consecutive samples that are well spread among themselves */
 #define BLOCK_LEAST 8    /* that still are: the half of a block */
 
-/* Layers with sums of their own. */
-typedef enum LayerSums {
-    SUMS_DEPTH, SUMS_POSITION, SUMS_NORMAL, SUMS_ALBEDO, SUMS_UV,
-    SUMS_EMITTED, SUMS_REFLECTED, SUMS_WHITE, SUMS_BLACK, SUMS_DIRECTION, /* display */
-    SUMS_FINE, SUMS_MIRROR, SUMS_LAMBERTIAN, SUMS_EXTRAPOLATED,
-    SUMS_ODD, /* XYZ reflected in every second block, and how many samples that is of */
-    SUMS_SQUARES, /* of displays' light, as PixelSums.squares */
-    SUMS_SHARED,  /* powers 1, 2 and 3 of the displays' ids, in ones, id times XYZ, and id times
-                     the squares, small ones in steps of 2^-SHARED_LOW_BITS: what belongs to
-                     each of two displays follows from these and the sums of both */
-    SUMS_STOKES, /* of all samples */
-    SUMS_COUNT
-} LayerSums;
+#define SUMS_ID(NAME, name, letters, users, member) SUMS_##NAME,
+typedef enum LayerSums { FILM_SUMS(SUMS_ID) SUMS_COUNT } LayerSums;
 
 #define SUMS_FIRST_DISPLAY SUMS_EMITTED
 
@@ -66,9 +55,17 @@ struct Film {
     FilmDropped     dropped;
 };
 
-/* Which of FilmLayer need these sums, and how many numbers they are. */
-unsigned layer_sums_users(LayerSums sums);
-int      layer_sums_size(LayerSums sums);
+/* One of FILM_SUMS. */
+typedef struct SumsRow {
+    const char *name, *letters; /* one number a letter */
+    int         size;
+    unsigned    users;
+    size_t      member; /* offset in FilmSample; NO_MEMBER: film.c computes it */
+} SumsRow;
+
+#define NO_MEMBER ((size_t)-1)
+
+extern const SumsRow sums_rows[SUMS_COUNT];
 
 /* From the difference of two interleaved halves of the samples, each a mean of whole blocks
  * that are spread evenly: XYZ whose square has the expectation of the variance of the pixel's

@@ -6,20 +6,13 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "base/file.h"
-#include "base/file_write.h"
+#include "keep/kept.h"
 
-#define MAGIC "PRHLFELD"
-#define FILE_MAX ((size_t)1 << 26)
 #define ASKED_LEAST 0.01f /* of a set that is there */
 
-_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "numbers go out as they lie");
-
-typedef struct GuideHead {
-    char     magic[8];
-    uint32_t version, node_count, cell_count, bins;
-    uint64_t hash;
-} GuideHead;
+typedef struct GuideFacts {
+    uint32_t node_count, cell_count, bins, zero;
+} GuideFacts;
 
 typedef struct CellRow {
     uint16_t light[GUIDE_AIMS][GUIDE_BINS];
@@ -27,8 +20,16 @@ typedef struct CellRow {
     GuideLamps lamps;
 } CellRow;
 
-_Static_assert(sizeof(GuideHead) == 32 && sizeof(CellRow) == 1120 && sizeof(GuideNode) == 16,
+_Static_assert(sizeof(GuideFacts) == 16 && sizeof(CellRow) == 1120 && sizeof(GuideNode) == 16,
                "no padding goes to a file");
+
+static const KeptFormat format = {"PRHLFELD", "a field of a render", GUIDE_VERSION,
+                                  sizeof(GuideFacts)};
+
+static size_t body_bytes(uint32_t nodes, uint32_t cells)
+{
+    return nodes * sizeof(GuideNode) + cells * sizeof(CellRow);
+}
 
 static CellRow row_of(const GuideCell *cell)
 {
@@ -52,21 +53,17 @@ uint64_t guide_hash(const LightGuide *guide)
 
 bool guide_write(const char *path, const LightGuide *guide, Arena scratch, Error *err)
 {
-    size_t nodes = guide->node_count * sizeof *guide->nodes;
-    size_t size = sizeof(GuideHead) + nodes + guide->cell_count * sizeof(CellRow);
-    unsigned char *bytes = ARENA_NEW(&scratch, unsigned char, size), *at = bytes;
-    GuideHead head = {.version = GUIDE_VERSION, .node_count = guide->node_count,
-                      .cell_count = guide->cell_count, .bins = GUIDE_BINS,
-                      .hash = guide_hash(guide)};
-    memcpy(head.magic, MAGIC, sizeof head.magic);
-    memcpy(at, &head, sizeof head);
-    memcpy(at += sizeof head, guide->nodes, nodes);
-    at += nodes;
+    const GuideFacts facts = {guide->node_count, guide->cell_count, GUIDE_BINS, 0};
+    const KeptFile   file = {&format, path, "", &facts,
+                             body_bytes(guide->node_count, guide->cell_count)};
+    unsigned char *body = ARENA_NEW(&scratch, unsigned char, file.body_bytes);
+    unsigned char *at = body + guide->node_count * sizeof *guide->nodes;
+    memcpy(body, guide->nodes, (size_t)(at - body));
     for (uint32_t i = 0; i < guide->cell_count; i++, at += sizeof(CellRow)) {
         CellRow row = row_of(&guide->cells[i]);
         memcpy(at, &row, sizeof row);
     }
-    return file_write(path, bytes, size, err);
+    return kept_write(&file, body, scratch, err);
 }
 
 /* ---- reading ----------------------------------------------------------------------------- */
@@ -134,58 +131,60 @@ static bool check_row(const CellRow *row, uint32_t cell, const GuideScene *scene
     return check_lamps(&row->lamps, cell, scene, err);
 }
 
-static bool check_head(const FileBytes *file, GuideHead *head, Error *err)
+static bool check_facts(const KeptReader *reader, const GuideFacts *facts, Error *err)
 {
-    if (file->size < sizeof *head || memcmp(file->data, MAGIC, sizeof head->magic) != 0)
-        return error_set(err, ERROR_INPUT, "is not a field of a render");
-    memcpy(head, file->data, sizeof *head);
-    if (head->version != GUIDE_VERSION || head->bins != GUIDE_BINS)
-        return error_set(err, ERROR_INPUT, "field of version %u with %u bins, required: %u "
-                         "with %d", head->version, head->bins, GUIDE_VERSION,
-                         GUIDE_BINS);
-    if (!head->cell_count || head->cell_count > GUIDE_CELLS_MAX ||
-        head->node_count != 2 * head->cell_count - 1 ||
-        file->size != sizeof *head + head->node_count * sizeof(GuideNode) +
-                          head->cell_count * sizeof(CellRow))
-        return error_set(err, ERROR_INPUT, "damaged field: %zu bytes for %u nodes and %u cells",
-                         file->size, head->node_count, head->cell_count);
+    if (facts->bins != GUIDE_BINS)
+        return kept_damaged(reader, err, "its cells have %u bins, required: %d", facts->bins,
+                            GUIDE_BINS);
+    if (!facts->cell_count || facts->cell_count > GUIDE_CELLS_MAX ||
+        facts->node_count != 2 * facts->cell_count - 1)
+        return kept_damaged(reader, err, "%u nodes and %u cells, required: 1 to %u cells, and "
+                                         "twice as many nodes less one", facts->node_count,
+                            facts->cell_count, GUIDE_CELLS_MAX);
+    return kept_has_left(reader, body_bytes(facts->node_count, facts->cell_count), err);
+}
+
+static bool take_cells(KeptReader *reader, const GuideScene *scene, LightGuide *guide,
+                       Error *err)
+{
+    for (uint32_t i = 0; i < guide->cell_count; i++) {
+        GuideCell *cell = &guide->cells[i];
+        CellRow    row;
+        if (!kept_take(reader, &row, sizeof row, err) || !check_row(&row, i, scene, err))
+            return false;
+        memcpy(cell->light, row.light, sizeof row.light);
+        memcpy(cell->asked, row.asked, sizeof row.asked);
+        cell->is_lit = row.is_lit;
+        cell->lamps = row.lamps;
+    }
     return true;
 }
 
-static bool take(const FileBytes *file, const GuideHead *head, const GuideScene *scene,
-                 LightGuide *guide, Error *err)
+static bool take_guide(KeptReader *reader, const GuideFacts *facts, const GuideScene *scene,
+                       Arena *arena, const LightGuide **out, Error *err)
 {
-    const unsigned char *at = file->data + sizeof *head;
-    memcpy(guide->nodes, at, head->node_count * sizeof(GuideNode));
-    at += head->node_count * sizeof(GuideNode);
-    for (uint32_t i = 0; i < head->cell_count; i++, at += sizeof(CellRow)) {
-        CellRow row;
-        memcpy(&row, at, sizeof row);
-        if (!check_row(&row, i, scene, err)) return false;
-        memcpy(guide->cells[i].light, row.light, sizeof row.light);
-        memcpy(guide->cells[i].asked, row.asked, sizeof row.asked);
-        guide->cells[i].is_lit = row.is_lit;
-        guide->cells[i].lamps = row.lamps;
-    }
-    if (!check_tree(guide, err)) return false;
-    if (guide_hash(guide) == head->hash) return true;
-    return error_set(err, ERROR_INPUT, "damaged field: its hash is %016llx, required: %016llx",
-                     (unsigned long long)guide_hash(guide), (unsigned long long)head->hash);
+    if (!check_facts(reader, facts, err)) return false;
+    LightGuide *guide = ARENA_NEW(arena, LightGuide, 1);
+    *guide = (LightGuide){.node_count = facts->node_count, .cell_count = facts->cell_count,
+                          .asks = true,
+                          .nodes = ARENA_NEW(arena, GuideNode, facts->node_count),
+                          .cells = ARENA_NEW(arena, GuideCell, facts->cell_count)};
+    guide_place_bins(guide);
+    *out = guide;
+    return kept_take(reader, guide->nodes, guide->node_count * sizeof *guide->nodes, err) &&
+           check_tree(guide, err) && take_cells(reader, scene, guide, err);
 }
 
 bool guide_read(const char *path, const GuideScene *scene, Arena *arena,
                 const LightGuide **out, Error *err)
 {
-    FileBytes file;
-    GuideHead head;
-    if (!file_read(path, FILE_MAX, arena, &file, err)) return false;
-    if (!check_head(&file, &head, err)) return error_in_file(err, path);
-    LightGuide *guide = ARENA_NEW(arena, LightGuide, 1);
-    *guide = (LightGuide){.node_count = head.node_count, .cell_count = head.cell_count,
-                     .asks = true, .nodes = ARENA_NEW(arena, GuideNode, head.node_count),
-                     .cells = ARENA_NEW(arena, GuideCell, head.cell_count)};
-    guide_place_bins(guide);
-    if (!take(&file, &head, scene, guide, err)) return error_in_file(err, path);
+    KeptReader        reader;
+    GuideFacts        facts;
+    const LightGuide *guide;
+    if (!kept_open(&format, path, &facts, arena, &reader, err)) return false;
+    bool ok = take_guide(&reader, &facts, scene, arena, &guide, err);
+    kept_close(&reader);
+    if (!ok) return error_in_file(err, path);
     *out = guide;
     return true;
 }

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* guide_file.h -- a guide as a file, and its hash.
  *
- * The file: a head (magic, version, counts, hash), the tree's nodes, then every cell's bins,
- * probabilities and lamps; numbers little-endian as they lie. A reader takes nothing on trust:
- * a tree that does not part its box, or a number out of its range, is refused.
+ * The file is one that is kept (keep/kept.h): its facts are the counts, its body the tree's
+ * nodes, then every cell's bins, probabilities and lamps. A reader takes nothing on trust: a
+ * tree that does not part its box, or a number out of its range, is refused.
  */
 #pragma once
 #include "base/arena.h"
 #include "base/error.h"
 #include "guide/guide.h"
 
-#define GUIDE_VERSION 4u
+#define GUIDE_VERSION 5u
 
 /* A hash of all that decides a guide's choices; never 0. */
 uint64_t guide_hash(const LightGuide *guide);

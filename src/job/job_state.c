@@ -146,7 +146,7 @@ JournalKey job_part_mark(const SharedJob *job, int index, Arena scratch)
 static bool has_all_answers(const SharedJob *job, int index, const char *path, Arena scratch,
                             Error *err)
 {
-    return journal_file_has(path, job_part_mark(job, index, scratch), scratch) ||
+    return journal_file_has(path, job_part_mark(job, index, scratch)) ||
            error_at(err, ERROR_INPUT, path, "",
                     "is damaged, or another part, or of another review");
 }
@@ -171,7 +171,7 @@ bool job_part_is_done(const SharedJob *job, int index, bool with_sums, Arena scr
 /* Samples of every pixel, or answers, that it holds; 0: it is damaged, or of something else. */
 static uint32_t kept_in(const SharedJob *job, int index, const char *path, Arena scratch)
 {
-    if (job->kind == JOB_REVIEW) return (uint32_t)journal_file_count(path, scratch);
+    if (job->kind == JOB_REVIEW) return (uint32_t)journal_file_count(path);
     const JobPart *part = &job->parts[index];
     const FilmPart wanted = {.crop = part->crop, .first_sample = part->first_sample,
                              .end_sample = part->end_sample};

@@ -9,7 +9,7 @@
 #include "base/lines.h"
 #include "job/job.h"
 #include "job/job_queue.h"
-#include "review/keep/journal.h"
+#include "keep/journal.h"
 
 typedef enum JobPartState {
     JOB_PART_MISSING, /* nothing is kept of it, and nobody is known to be at it */

@@ -3,38 +3,11 @@
 
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_place.h"
+#include "scene/point/coverage.h"
 #include "spectrum/fresnel.h"
 #include "spectrum/photometry.h"
 
 #include "base/units.h"
-
-/* The direction in the triangle's plane in which the slot's u grows: with edges e1, e2 and the
- * differences (du1, dv1), (du2, dv2) along them, dP/du ~ (dv2 e1 - dv1 e2) / det. */
-static Vec3 direction_of_u(const Scene *scene, const TextureSlot *slot, uint32_t triangle)
-{
-    Vec2 uv[3];
-    Vec3 p[3];
-    for (int i = 0; i < 3; i++) {
-        uv[i] = slot_corner_uv(scene, slot, triangle, i);
-        p[i] = scene_corner(scene, triangle, i);
-    }
-    float du1 = uv[1].x - uv[0].x, dv1 = uv[1].y - uv[0].y;
-    float du2 = uv[2].x - uv[0].x, dv2 = uv[2].y - uv[0].y;
-    float det = du1 * dv2 - du2 * dv1;
-    Vec3  along = vec3_sub(vec3_scale(vec3_sub(p[1], p[0]), dv2),
-                           vec3_scale(vec3_sub(p[2], p[0]), dv1));
-    return det < 0 ? vec3_neg(along) : along;
-}
-
-Frame display_frame(const Scene *scene, const Display *display, uint32_t triangle,
-                    const TrianglePoint *point)
-{
-    Vec3 n = vec3_dot(point->ns, point->ng) < 0 ? vec3_neg(point->ns) : point->ns;
-    Vec3 right = direction_of_u(scene, &display->content, triangle);
-    right = vec3_normalize(vec3_along(right, n, -vec3_dot(right, n)));
-    if (!(vec3_dot(right, right) > 0.5f)) return frame_from_z(n);
-    return (Frame){right, vec3_cross(n, right), n};
-}
 
 void display_codes(const Scene *scene, const Display *display, const TrianglePoint *point,
                    float codes[3])
@@ -43,22 +16,6 @@ void display_codes(const Scene *scene, const Display *display, const TrianglePoi
     if (display->content.texture_id == NO_ID) return;
     Vec2 uv = slot_uv(&display->content, point);
     texture_codes(&scene->textures[display->content.texture_id], uv.x, uv.y, codes);
-}
-
-bool vertex_color(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
-                  float rgba[4])
-{
-    const VertexColor *colors = scene_part(scene, triangle)->colors;
-    const float weight[3] = {1 - point->u - point->v, point->u, point->v};
-    if (!colors) return false;
-    for (int i = 0; i < 4; i++) {
-        float colour = 0;
-        for (int k = 0; k < 3; k++)
-            colour +=
-                weight[k] * (float)colors[scene_corner_place(scene, triangle, k)].linear[i];
-        rgba[i] = colour * (1.0f / 65535);
-    }
-    return true;
 }
 
 /* KHR_materials_unlit: base colour, its texture and the vertices' colour, multiplied. */
@@ -78,14 +35,6 @@ void emitted_rgb(const Scene *scene, uint32_t triangle, const TrianglePoint *poi
     }
     if (!material->unlit || !vertex_color(scene, triangle, point, texel)) return;
     for (int i = 0; i < 3; i++) rgb[i] *= texel[i];
-}
-
-void display_place(const Display *display, const TrianglePoint *point, float place[2])
-{
-    const float *m = display->place_from_uv;
-    Vec2 uv = slot_uv(&display->content, point);
-    place[0] = m[0] * uv.x + m[1];
-    place[1] = m[2] * uv.y + m[3];
 }
 
 void display_panel_xyz(const Display *display, const TrianglePoint *point, Vec3 local,

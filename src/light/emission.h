@@ -5,16 +5,8 @@
  */
 #pragma once
 #include "bvh/ray.h"
-#include "light/texture_slot.h"
+#include "scene/point/display_frame.h"
 #include "spectrum/wavelengths.h"
-
-/* The display's frame at a point: +z the shading normal on the front's side, +x the direction
- * of growing U of its content, +y up. */
-Frame display_frame(const Scene *scene, const Display *display, uint32_t triangle,
-                    const TrianglePoint *point);
-
-/* The point's place on the panel's active area (panel_place.h), for panels that vary. */
-void display_place(const Display *display, const TrianglePoint *point, float place[2]);
 
 /* Emission of the display's panel there along `local`, a direction of display_frame, for
  * codes, without the display's level: XYZ, cd m^-2, or spectral radiance. */
@@ -34,10 +26,6 @@ void display_codes(const Scene *scene, const Display *display, const TrianglePoi
  * the front's side). */
 void display_emission_xyz(const Scene *scene, const Display *display, uint32_t triangle,
                           const TrianglePoint *point, Vec3 direction, float xyz[3]);
-
-/* COLOR_0 at the point, linear; false: the part has none. */
-bool vertex_color(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
-                  float rgba[4]);
 
 /* Emitted colour of a material that is no display, linear Rec.709, cd m^-2; front side, below
  * any coat. */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "light/light.h"
 
-#include "light/coverage.h"
+#include "scene/point/coverage.h"
 #include "light/emitters_build.h"
 #include "light/punctual_build.h"
-#include "light/ray_ends.h"
+#include "scene/point/ray_ends.h"
 #include "light/sky.h"
 
 /* How often an emitter is chosen changes the noise alone: displays that become up to so many

@@ -1,39 +1,70 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "page/page.h"
 
-#include <stdarg.h>
-#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
 
+#include "base/file.h"
 #include "base/file_write.h"
 #include "text/base64.h"
-#include "text/text.h"
+#include "text/json_text.h"
 
-/* page.css and page.js beside this file; the build embeds them. */
-extern const char PAGE_STYLE[], PAGE_SCRIPT[];
+#define PAGE_BYTES ((size_t)16 << 30) /* address space for the text */
+#define WORDS_BYTES ((size_t)1 << 24) /* and for one format's words */
+#define STYLE_BYTES ((size_t)1 << 20)
 
-void page_begin(Text *page, const PageHead *head)
+/* ---- values ------------------------------------------------------------------------------ */
+
+void page_set(json_t *values, const char *name, const char *text)
 {
-    text_format(page, "<!DOCTYPE html>\n<html lang=\"en\"%s><head><meta charset=\"utf-8\">\n"
-                "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-                "<meta name=\"generator\" content=\"Parhelion %s\">\n",
-                head->is_dark ? " class=\"dark\"" : "", PARHELION_VERSION);
-    if (head->renewed_s)
-        text_format(page, "<meta http-equiv=\"refresh\" content=\"%d\">\n", head->renewed_s);
-    page_element(page, "title", head->title);
-    text_format(page, "<style>\n%s%s</style></head>\n<body><main>\n", PAGE_STYLE, head->style);
+    json_object_set_new(values, name, json_text_or_null(text));
 }
 
-void page_end(Text *page, const char *command, const char *const *scripts)
+void page_set_flag(json_t *values, const char *name, bool is_set)
 {
-    text_format(page, "<footer>Parhelion %s, ", PARHELION_VERSION);
-    escape_markup(page, command);
-    text_add(page, "</footer>\n</main>\n<script>\n");
-    text_add(page, PAGE_SCRIPT);
-    while (*scripts) text_add(page, *scripts++);
-    text_add(page, "</script>\n</body></html>\n");
+    json_object_set_new(values, name, json_boolean(is_set));
 }
+
+void page_set_count(json_t *values, const char *name, long count)
+{
+    json_object_set_new(values, name, json_integer(count));
+}
+
+json_t *page_add(json_t *list)
+{
+    json_t *object = json_object();
+    json_array_append_new(list, object);
+    return object;
+}
+
+/* A style ends where HTML says so, whatever stands around that. */
+static bool set_style(json_t *values, const char *path, Error *err)
+{
+    FileBytes bytes;
+    Arena     own = arena_reserve(2 * STYLE_BYTES);
+    bool      ok = file_read(path, STYLE_BYTES, &own, &bytes, err);
+    if (ok && strstr((const char *)bytes.data, "</"))
+        ok = error_at(err, ERROR_INPUT, path, "", "has \"</\" in it, required: CSS alone");
+    if (ok) page_set(values, "style", (const char *)bytes.data);
+    else error_prefix(err, "$%s", PAGE_STYLE_VARIABLE);
+    arena_release(&own);
+    return ok;
+}
+
+bool page_set_head(json_t *values, const PageHead *head, Error *err)
+{
+    const char *style = getenv(PAGE_STYLE_VARIABLE);
+    page_set(values, "window", head->title);
+    page_set(values, "command", head->command);
+    page_set(values, "style", NULL);
+    page_set(values, "version", PARHELION_VERSION);
+    page_set_flag(values, "is_dark", head->is_dark);
+    page_set_count(values, "renewed_s", head->renewed_s);
+    return !style || !*style || set_style(values, style, err);
+}
+
+/* ---- files ------------------------------------------------------------------------------- */
 
 bool page_write(const Text *const *parts, int count, const char *path, Error *err)
 {
@@ -44,146 +75,49 @@ bool page_write(const Text *const *parts, int count, const char *path, Error *er
     return file_writer_commit(&writer, err);
 }
 
-/* ---- text ------------------------------------------------------------------------------- */
-
-static void add_between(Text *page, const char *before, const char *text, const char *after)
+bool page_write_values(const char *page, json_t *values, const PageFormat *formats,
+                       const char *path, Error *err)
 {
-    text_add(page, before);
-    escape_markup(page, text);
-    text_add(page, after);
+    Arena own = arena_reserve(PAGE_BYTES), scratch = arena_reserve(WORDS_BYTES);
+    Text  text = {.arena = &own};
+    bool  ok = page_render(&text, page, values, formats, scratch, err) &&
+              text_write(&text, path, err);
+    json_decref(values);
+    arena_release(&scratch);
+    arena_release(&own);
+    return ok;
 }
 
-/* <name>, or <name class="kind">. */
-static void open_element(Text *page, const char *name, const char *kind)
+/* ---- pictures ---------------------------------------------------------------------------- */
+
+json_t *page_bytes(const char *kind, const void *bytes, size_t size, Arena scratch)
 {
-    text_format(page, kind[0] ? "<%s class=\"%s\">" : "<%s>", name, kind);
+    Text text = {.arena = &scratch};
+    text_format(&text, "data:image/%s;base64,", kind);
+    base64_encode(&text, bytes, size);
+    return json_stringn_nocheck(text.data, text.size);
 }
 
-void page_element(Text *page, const char *element, const char *text)
-{
-    text_format(page, "<%s>", element);
-    escape_markup(page, text);
-    text_format(page, "</%.*s>\n", (int)strcspn(element, " "), element);
-}
-
-void page_fact(Text *page, const char *name, const char *value)
-{
-    page_element(page, "dt", name);
-    page_element(page, "dd", value);
-}
-
-void page_list(Text *page, const char *kind, const char *const *texts, int count)
-{
-    open_element(page, "ul", kind);
-    text_add(page, "\n");
-    for (int i = 0; i < count; i++) page_element(page, "li", texts[i]);
-    text_add(page, "</ul>\n");
-}
-
-void page_keys_begin(Text *page)
-{
-    text_add(page, "<div class=\"key\">\n");
-}
-
-void page_key(Text *page, const char *value, const char *name, bool is_bad)
-{
-    add_between(page, is_bad ? "<div class=\"over\"><b>" : "<div><b>", value, "</b><span>");
-    add_between(page, "", name, "</span></div>\n");
-}
-
-void page_keys_end(Text *page)
-{
-    text_add(page, "</div>\n");
-}
-
-void page_more_begin(Text *page, const char *text)
-{
-    add_between(page, "<details><summary>", text, "</summary>\n");
-}
-
-void page_more_end(Text *page)
-{
-    text_add(page, "</details>\n");
-}
-
-/* ---- tables ----------------------------------------------------------------------------- */
-
-void page_table_begin(Text *page, const char *title, const char *kind,
-                      const PageColumn *columns, int count)
-{
-    if (title[0]) page_element(page, "h3", title);
-    text_add(page, "<div class=\"wide\">");
-    open_element(page, "table", kind);
-    text_add(page, "<thead><tr>");
-    for (int i = 0; i < count; i++) {
-        text_add(page, columns[i].is_number ? "<th class=\"n\"" : "<th");
-        if (columns[i].hint) add_between(page, " title=\"", columns[i].hint, "\"");
-        add_between(page, ">", columns[i].title, "</th>");
-    }
-    text_add(page, "</tr></thead><tbody>\n");
-}
-
-void page_table_end(Text *page)
-{
-    text_add(page, "</tbody></table></div>\n");
-}
-
-void page_row_begin(Text *page, const char *kind)
-{
-    open_element(page, "tr", kind);
-}
-
-void page_row_end(Text *page)
-{
-    text_add(page, "</tr>\n");
-}
-
-void page_cell(Text *page, const char *kind, const char *text)
-{
-    open_element(page, "td", kind);
-    add_between(page, "", text, "</td>");
-}
-
-void page_cell_format(Text *page, const char *kind, const char *format, ...)
-{
-    char    text[256];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    page_cell(page, kind, text);
-}
-
-void page_cell_long(Text *page, const char *text)
-{
-    add_between(page, "<td><div class=\"long\">", text, "</div></td>");
-}
-
-/* ---- pictures --------------------------------------------------------------------------- */
-
-bool page_picture(Text *page, const char *alt, const Picture *picture, bool is_jpeg,
-                  Arena scratch, Error *err)
+json_t *page_picture(const Picture *picture, bool is_jpeg, Arena scratch, Error *err)
 {
     FileBytes   bytes;
     const char *kind = "png";
     PictureFile file = {.bits = 8, .is_srgb = true};
-    if (is_jpeg ? !picture_encode_small(picture, &scratch, &bytes, &kind, err)
-                : !picture_encode("a.png", picture, file, &scratch, &bytes, err))
-        return error_prefix(err, "a picture of the report");
-    add_between(page, "<img alt=\"", alt, "\" ");
-    text_format(page, "src=\"data:image/%s;base64,", kind);
-    base64_encode(page, bytes.data, bytes.size);
-    text_add(page, "\">");
-    return true;
+    if (is_jpeg ? picture_encode_small(picture, &scratch, &bytes, &kind, err)
+                : picture_encode("a.png", picture, file, &scratch, &bytes, err))
+        return page_bytes(kind, bytes.data, bytes.size, scratch);
+    error_prefix(err, "a picture of the report");
+    return NULL;
 }
 
 /* ---- numbers for the script ------------------------------------------------------------- */
 
 #define LEVEL 9 /* pages are written once and read often */
 
-bool page_data_add(Text *page, const uint32_t *values, size_t count, int bytes, Arena scratch,
-                   Error *err)
+const char *page_packed(const uint32_t *values, size_t count, int bytes, Arena *arena,
+                        Error *err)
 {
+    Arena  scratch = arena_reserve(PAGE_BYTES);
     size_t size = count * (size_t)bytes;
     uLong  room = compressBound((uLong)size);
     unsigned char *planes = ARENA_NEW(&scratch, unsigned char, size);
@@ -194,8 +128,10 @@ bool page_data_add(Text *page, const uint32_t *values, size_t count, int bytes, 
         uint32_t before = i > 0 ? values[i - 1] >> shift : 0;
         planes[at] = (unsigned char)((values[i] >> shift) - before);
     }
-    if (compress2(packed, &room, planes, (uLong)size, LEVEL) != Z_OK)
-        return error_set(err, ERROR_MEMORY, "memory is out: numbers of the page");
-    base64_encode(page, packed, room);
-    return true;
+    Text text = {.arena = arena};
+    bool ok = compress2(packed, &room, planes, (uLong)size, LEVEL) == Z_OK ||
+              error_set(err, ERROR_MEMORY, "memory is out: numbers of the page");
+    if (ok) base64_encode(&text, packed, room);
+    arena_release(&scratch);
+    return ok ? text.data : NULL;
 }

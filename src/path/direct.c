@@ -2,7 +2,7 @@
 /* HOT: no allocation, no lock, no libm. */
 #include "path/direct.h"
 
-#include "light/ray_ends.h"
+#include "scene/point/ray_ends.h"
 #include "path/emitted.h"
 
 /* ---- solids ------------------------------------------------------------------------------ */
@@ -253,7 +253,7 @@ static void find_sample(PathState *path, const Surface *surface, Vec3 wo,
         .sr = light->is_delta ? 0 : 1 / (light->pdf * asked->prob),
         .point = light->set == LIGHTS_EMITTERS ? &light->point : NULL, .by = surface, .wo = wo,
         .local_wi = asked->local_wi, .shadow = ray};
-    collect_found(path, &found);
+    path_gather(path, &found);
 }
 
 /* Most samples end in shadow: radiance and BSDF are evaluated once the ray has arrived. */
@@ -357,7 +357,7 @@ static void find_mirrored(const MirrorWalk *asked, const SunMirror *mirror, Vec3
                        .wo = asked->wo, .local_wi = local_wi, .shadow = &rays->to_mirror,
                        .mirror = mirror, .beyond = &rays->to_sun,
                        .by_rough = asked->question.is_rough};
-    collect_found(path, &found);
+    path_gather(path, &found);
 }
 
 static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoint *point)

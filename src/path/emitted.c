@@ -69,7 +69,7 @@ static void find_distant(PathState *path, LightSet set, Spectrum radiance)
     Vec3      towards = path->ray.direction;
     PathFound found = {.set = set, .from = towards, .is_distant = true,
                        .way = vec3_neg(towards), .radiance = radiance};
-    collect_found(path, &found);
+    path_gather(path, &found);
 }
 
 void emitted_distant(PathState *path)
@@ -148,7 +148,7 @@ static void add_display_xyz(PathState *path, const Surface *surface, const Hit *
     found.radiance = spectrum_all(0);
     found.xyz = xyz;
     found.share = spectrum_mean(path->throughput) * weight;
-    collect_found(path, &found);
+    path_gather(path, &found);
 }
 
 /* Density of the last vertex's light samples there, sr^-1; 0, unused, behind a mirror. */
@@ -173,5 +173,5 @@ void emitted_add(PathState *path, const Surface *surface, const Hit *hit, Vec3 w
     PathFound found = found_on(surface, hit, wo, weight);
     found.radiance = path->throughput * spectrum_all(weight) *
                      emitted_seen(path, surface, hit->triangle, wo);
-    collect_found(path, &found);
+    path_gather(path, &found);
 }

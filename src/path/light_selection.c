@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "base/units.h"
 #include "bvh/bvh.h"
-#include "light/ray_ends.h"
+#include "scene/point/ray_ends.h"
 #include "path/sheets.h"
 #include "sunlit/sunlit_way.h"
 

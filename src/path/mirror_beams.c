@@ -5,7 +5,7 @@
 
 #include "base/mathf.h"
 #include "base/parallel.h"
-#include "light/ray_ends.h"
+#include "scene/point/ray_ends.h"
 #include "mirror/mirrors_build.h"
 #include "path/sheets.h"
 #include "shaders/facets/microfacet.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "path/path.h"
 
-#include "light/ray_ends.h"
+#include "scene/point/ray_ends.h"
 #include "path/direct.h"
 #include "path/emitted.h"
 #include "path/path_collector.h"
@@ -193,7 +193,10 @@ static void follow_both(PathState *path, const Surface *surface, const Hit *hit,
     sheet_pass(path, surface, wo);
 }
 
-/* The loop: find the hit, add what it emits, ask the lights, choose where the path goes on. */
+/* The rendering equation (Kajiya 1986), y being what the ray from x along wi meets:
+ *     L(x, wo) = Le(x, wo) + integral over wi of f(x, wo, wi) |cos wi| L(y, -wi)
+ * A step adds Le and what light samples find of the integral, both by path_gather(), and
+ * follows the rest in one direction: the throughput times f |cos wi| / pdf. */
 static void walk(PathState *path)
 {
     const PathContext *context = path->context;

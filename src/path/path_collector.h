@@ -60,37 +60,44 @@ typedef struct PathFound {
 
 typedef struct PathCollector PathCollector;
 
-/* The calls of a collector; NULL: not called. */
-typedef struct CollectorKind {
-    size_t size; /* of the whole structure */
-    bool   of_first; /* light samples of the eye's own surface alone are of use to it */
-    void (*start)(PathCollector *c, PathState *path); /* its first ray is known */
-    void (*meet)(PathCollector *c, PathState *path);  /* the ray meets a surface */
-    /* The surface that the eye itself sees, before it is shaded. */
-    void (*see)(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
-                uint32_t triangle);
-    /* A vertex, before it asks the lights. True: it does not. */
+/* How a collector steers a path: these calls decide where it goes, or what counts. NULL: as
+ * without it. The first collector that answers true decides. */
+typedef struct PathSteering {
+    /* At a vertex, before light samples. True: none are taken there. */
     bool (*vertex)(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
                    const Guiding *guiding);
     /* True: the path goes on by *next, not by a choice of the surface. */
     bool (*choose)(PathCollector *c, PathState *path, const Surface *surface,
                    BsdfSample *next);
-    /* It leaves by `next`, straight on included; the throughput has its weight. */
-    void (*leave)(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
-                  const BsdfSample *next);
     /* True: it ends instead of being turned there. */
     bool (*refuse)(PathCollector *c, PathState *path, const Surface *surface,
                    const BsdfSample *next);
+    bool (*escape)(PathCollector *c, PathState *path); /* it leaves the scene. True: sun and sky
+                                                          do not count */
+    void (*sky)(PathCollector *c, PathState *path, Spectrum *radiance);    /* may change it */
+    void (*count)(PathCollector *c, PathState *path, PathFound *light);    /* may change it */
+} PathSteering;
+
+/* What a collector is, and its calls; NULL: not called. Those of `steer` change the path; the
+ * others take results, and at most weigh the throughput. */
+typedef struct CollectorKind {
+    size_t size; /* of the whole structure */
+    bool   of_first; /* light samples of the eye's own surface alone are of use to it */
+    PathSteering steer;
+    void (*start)(PathCollector *c, PathState *path); /* its first ray is known */
+    void (*meet)(PathCollector *c, PathState *path);  /* the ray meets a surface */
+    /* The surface that the eye itself sees, before it is shaded. */
+    void (*see)(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
+                uint32_t triangle);
+    /* It leaves by `next`, straight on included; the throughput has its weight. */
+    void (*leave)(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
+                  const BsdfSample *next);
     void (*turn)(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
                  const BsdfSample *next); /* it is turned; the segment before is still there */
     void (*pass)(PathCollector *c, PathState *path, const Surface *pane, Vec3 wo); /* it is
                   followed straight through a window whose own light is followed besides */
     void (*behind)(PathCollector *c, PathState *path, const Surface *surface); /* it goes on
                   straight behind, through a hole or a window */
-    bool (*escape)(PathCollector *c, PathState *path); /* it leaves the scene. True: sun and sky
-                  are not asked for */
-    void (*sky)(PathCollector *c, PathState *path, Spectrum *radiance); /* may change it */
-    void (*count)(PathCollector *c, PathState *path, PathFound *light); /* may change it */
     void (*on_light)(PathCollector *c, PathState *path, const PathFound *light); /* it counts */
     void (*finish)(PathCollector *c, PathState *path); /* all is found */
     const RayFootprint *(*footprint)(const PathCollector *c); /* of the ray; NULL: not known */
@@ -105,8 +112,8 @@ struct PathCollector {
 #define COLLECTORS_MAX_BYTES 4096
 #define COLLECTOR_ROOM(Type) ((sizeof(Type) + 63) / 64 * 64)
 
-/* A `vertex` after which the lights are not asked. */
-static inline bool collector_asks_nobody(PathCollector *c, PathState *path,
+/* A `vertex` at which no light samples are taken. */
+static inline bool collector_no_lights(PathCollector *c, PathState *path,
                                          const Surface *surface, Vec3 wo,
                                          const Guiding *guiding)
 {
@@ -114,123 +121,105 @@ static inline bool collector_asks_nobody(PathCollector *c, PathState *path,
     return true;
 }
 
-static inline void collect_start(PathState *path)
-{
-    for (PathCollector *c = path->collector; c; c = c->next)
-        if (c->kind->start) c->kind->start(c, path);
-}
+/* Each collector's call, if it has one; args begin with (c, path. */
+#define COLLECT(call, args)                                                                    \
+    for (PathCollector *c = path->collector; c; c = c->next)                                   \
+        if (c->kind->call) c->kind->call args
 
-static inline void collect_meet(PathState *path)
-{
-    for (PathCollector *c = path->collector; c; c = c->next)
-        if (c->kind->meet) c->kind->meet(c, path);
-}
-
-static inline void collect_see(PathState *path, const Surface *surface, Vec3 wo,
-                               uint32_t triangle)
-{
-    for (PathCollector *c = path->collector; c; c = c->next)
-        if (c->kind->see) c->kind->see(c, path, surface, wo, triangle);
-}
+/* The same until one answers true. */
+#define STEER(call, args)                                                                      \
+    for (PathCollector *c = path->collector; c; c = c->next)                                   \
+        if (c->kind->steer.call && c->kind->steer.call args) return true;                      \
+    return false
 
 static inline bool collect_vertex(PathState *path, const Surface *surface, Vec3 wo,
                                   const Guiding *guiding)
 {
-    for (PathCollector *c = path->collector; c; c = c->next)
-        if (c->kind->vertex && c->kind->vertex(c, path, surface, wo, guiding)) return true;
-    return false;
+    STEER(vertex, (c, path, surface, wo, guiding));
 }
 
 static inline bool collect_choose(PathState *path, const Surface *surface, BsdfSample *next)
 {
-    for (PathCollector *c = path->collector; c; c = c->next)
-        if (c->kind->choose && c->kind->choose(c, path, surface, next)) return true;
-    return false;
-}
-
-static inline void collect_leave(PathState *path, const Surface *surface, Vec3 wo,
-                                 const BsdfSample *next)
-{
-    for (PathCollector *c = path->collector; c; c = c->next)
-        if (c->kind->leave) c->kind->leave(c, path, surface, wo, next);
+    STEER(choose, (c, path, surface, next));
 }
 
 static inline bool collect_refuse(PathState *path, const Surface *surface,
                                   const BsdfSample *next)
 {
-    for (PathCollector *c = path->collector; c; c = c->next)
-        if (c->kind->refuse && c->kind->refuse(c, path, surface, next)) return true;
-    return false;
+    STEER(refuse, (c, path, surface, next));
+}
+
+static inline bool collect_escape(PathState *path)
+{
+    STEER(escape, (c, path));
+}
+
+static inline void collect_sky(PathState *path, Spectrum *radiance)
+{
+    COLLECT(steer.sky, (c, path, radiance));
+}
+
+static inline void collect_start(PathState *path)
+{
+    COLLECT(start, (c, path));
+}
+
+static inline void collect_meet(PathState *path)
+{
+    COLLECT(meet, (c, path));
+}
+
+static inline void collect_see(PathState *path, const Surface *surface, Vec3 wo,
+                               uint32_t triangle)
+{
+    COLLECT(see, (c, path, surface, wo, triangle));
+}
+
+static inline void collect_leave(PathState *path, const Surface *surface, Vec3 wo,
+                                 const BsdfSample *next)
+{
+    COLLECT(leave, (c, path, surface, wo, next));
 }
 
 static inline void collect_turn(PathState *path, const Surface *surface, Vec3 wo,
                                 const BsdfSample *next)
 {
-    for (PathCollector *c = path->collector; c; c = c->next)
-        if (c->kind->turn) c->kind->turn(c, path, surface, wo, next);
+    COLLECT(turn, (c, path, surface, wo, next));
 }
 
 static inline void collect_pass(PathState *path, const Surface *pane, Vec3 wo)
 {
-    for (PathCollector *c = path->collector; c; c = c->next)
-        if (c->kind->pass) c->kind->pass(c, path, pane, wo);
+    COLLECT(pass, (c, path, pane, wo));
 }
 
 static inline void collect_behind(PathState *path, const Surface *surface)
 {
-    for (PathCollector *c = path->collector; c; c = c->next)
-        if (c->kind->behind) c->kind->behind(c, path, surface);
+    COLLECT(behind, (c, path, surface));
 }
 
-static inline bool collect_escape(PathState *path)
-{
-    for (PathCollector *c = path->collector; c; c = c->next)
-        if (c->kind->escape && c->kind->escape(c, path)) return true;
-    return false;
-}
-
-static inline void collect_sky(PathState *path, Spectrum *radiance)
-{
-    for (PathCollector *c = path->collector; c; c = c->next)
-        if (c->kind->sky) c->kind->sky(c, path, radiance);
-}
-
-static inline void collect_count(PathState *path, PathFound *light)
-{
-    for (PathCollector *c = path->collector; c; c = c->next)
-        if (c->kind->count) c->kind->count(c, path, light);
-}
-
-static inline void collect_light(PathState *path, const PathFound *light)
-{
-    for (PathCollector *c = path->collector; c; c = c->next)
-        if (c->kind->on_light) c->kind->on_light(c, path, light);
-}
-
-/* Is a light sample worth telling? */
+/* Has any collector a use for a light sample? */
 static inline bool collect_wants_sample(const PathState *path)
 {
     for (const PathCollector *c = path->collector; c; c = c->next)
-        if ((c->kind->count || c->kind->on_light) &&
+        if ((c->kind->steer.count || c->kind->on_light) &&
             (!c->kind->of_first || path->first.is_awaited))
             return true;
     return false;
 }
 
 /* The path has found light: it counts as collectors leave it. */
-static inline void collect_found(PathState *path, PathFound *light)
+static inline void path_gather(PathState *path, PathFound *light)
 {
-    collect_count(path, light);
+    COLLECT(steer.count, (c, path, light));
     path->gathered.radiance += light->radiance;
     for (int i = 0; i < 3 && light->xyz; i++)
         path->gathered.xyz[i] += light->share * light->xyz[i];
-    collect_light(path, light);
+    COLLECT(on_light, (c, path, light));
 }
 
 static inline void collect_finish(PathState *path)
 {
-    for (PathCollector *c = path->collector; c; c = c->next)
-        if (c->kind->finish) c->kind->finish(c, path);
+    COLLECT(finish, (c, path));
 }
 
 static inline const RayFootprint *collect_footprint(const PathState *path)
@@ -239,3 +228,6 @@ static inline const RayFootprint *collect_footprint(const PathState *path)
         if (c->kind->footprint) return c->kind->footprint(c);
     return NULL;
 }
+
+#undef COLLECT
+#undef STEER

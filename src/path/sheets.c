@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "path/sheets.h"
 
-#include "light/ray_ends.h"
+#include "scene/point/ray_ends.h"
 
 /* Counts the corners of a that b has too, by position, since texture seams split vertices;
  * *apart: a's last corner that b has not. */

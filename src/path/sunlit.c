@@ -3,7 +3,7 @@
 #include "path/sunlit.h"
 
 #include "base/units.h"
-#include "light/ray_ends.h"
+#include "scene/point/ray_ends.h"
 #include "path/direct.h"
 #include "path/emitted.h"
 #include "path/windows.h"

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "light/ray_ends.h"
+#include "scene/point/ray_ends.h"
 
 #define SHEET_SHARE 0.5f /* of an eye's samples that follow what a thin sheet itself shows */
 #define OFF_PANE 0.05f /* of an image's shift: by which its ray starts off along its way */

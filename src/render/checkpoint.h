@@ -1,19 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* checkpoint.h -- keeps what a render has done in a file, from which it goes on bit for bit.
  *
- * File     all numbers little endian:
- *            a head of fixed size   magic, version, sizes; which pixels and samples of which
- *                                   film; what they cost; which samples were dropped
- *            the identity           what decides a sample (cli/render/render_identity.h)
- *            one block a row        its size, 4 bytes, and the packed sums (film_state.h)
- *            a checksum             XXH3, 64 bits, of everything before
+ * File     one that is kept (keep/kept.h). Its facts: which pixels and samples of which film,
+ *          what they cost, which samples were dropped. Its identity: what decides a sample
+ *          (cli/render/render_identity.h). Its body: one block a row, its size, 4 bytes, and
+ *          the packed sums (film_state.h).
  *          Only the program version that wrote it, on a machine of the same byte order, reads
  *          it: it is for going on, not for keeping.
  * Memory   the arena's; a row of the film at a time.
  * Threads  one at a time.
- * Writing  a checkpoint replaces the one before when it is whole and on the disk: a process
- *          that is killed, or a full disk, leaves the old one as it was.
- * Fails    every fault of a file is reported in one line that names it.
+ * Fails    as keep/kept.h.
  */
 #pragma once
 #include "film/film_part.h"
@@ -27,7 +23,6 @@ typedef struct Checkpoint {
     FilmPart    done;         /* samples [first_sample, end_sample) of the crop's pixels */
     double      seconds;      /* of rendering, over all sessions */
     bool        has_features; /* the samples' first surfaces were looked at */
-    uint64_t    body;         /* offset of the first row in the file */
 } Checkpoint;
 
 /* True when a file stands there that begins as a checkpoint does. */

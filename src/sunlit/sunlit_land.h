@@ -3,7 +3,7 @@
 #pragma once
 #include "bvh/bvh.h"
 #include "light/light.h"
-#include "light/ray_ends.h"
+#include "scene/point/ray_ends.h"
 
 typedef struct SunlitTools {
     const Scene  *scene;

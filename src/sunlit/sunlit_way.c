@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "base/mathf.h"
-#include "light/ray_ends.h"
+#include "scene/point/ray_ends.h"
 
 bool sunlit_way_choose(const SunlitTools *tools, const SunlitMap *map, const LitPoint *from,
                        const float u[6], SunlitWay *way)

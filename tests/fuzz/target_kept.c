@@ -13,9 +13,10 @@
 #include "guide/guide_file.h"
 #include "harness.h"
 #include "job/job_manifest.h"
+#include "keep/journal.h"
+#include "review/eye/eye_reading.h"
 #include "review/eye/false_suns.h"
 #include "review/eye/gaze_reading.h"
-#include "review/keep/journal.h"
 #include "review/light/response_file.h"
 #include "review/symbol/text_find.h"
 
@@ -36,9 +37,28 @@ static size_t change(uint8_t *data, size_t size, size_t max_size, uint64_t *stat
     return size;
 }
 
+/* What all have in common (keep/kept.c): a head, and a checksum at the end or, of a journal, of
+ * each entry. */
+enum { KEPT_HEAD = 32, AT_ORDER = 8, AT_BYTES = 16, AT_IDENTITY = 24 };
+
+static void mend_head(uint8_t *data, const char *magic, uint32_t version)
+{
+    const uint32_t order[2] = {0x01020304u, version};
+    memcpy(data, magic, 8);
+    memcpy(data + AT_ORDER, order, sizeof order);
+}
+
+static void mend_file(uint8_t *data, size_t size)
+{
+    uint64_t bytes = size, checksum;
+    memcpy(data + AT_BYTES, &bytes, sizeof bytes);
+    checksum = XXH3_64bits(data, size - sizeof checksum);
+    memcpy(data + size - sizeof checksum, &checksum, sizeof checksum);
+}
+
 /* ---- fields (guide_file.c) --------------------------------------------------------------- */
 
-enum { FIELD_HEAD = 32, FIELD_NODE = 16, FIELD_CELL = 1120 };
+enum { FIELD_HEAD = KEPT_HEAD + 16, FIELD_NODE = 16, FIELD_CELL = 1120 };
 
 static LightGuide *make_guide(uint32_t cells, Arena *arena)
 {
@@ -74,22 +94,20 @@ size_t fuzz_make_field(uint8_t *data, size_t max_size, unsigned number, Arena *a
 
 size_t fuzz_mutate_field(uint8_t *data, size_t size, size_t max_size, unsigned seed)
 {
-    uint64_t state = seed, hash;
+    const uint64_t no_identity = 0;
+    uint64_t       state = seed;
     size = change(data, size, max_size, &state);
-    if (size < FIELD_HEAD + FIELD_NODE + FIELD_CELL || !(fuzz_random(&state) % 16)) return size;
+    if (size < FIELD_HEAD + FIELD_NODE + FIELD_CELL + 8 || !(fuzz_random(&state) % 16))
+        return size;
     size_t   each = 2 * FIELD_NODE + FIELD_CELL; /* a cell more is two nodes more */
-    uint32_t cells = (uint32_t)((size - FIELD_HEAD + FIELD_NODE) / each);
-    uint32_t head[4] = {GUIDE_VERSION, 2 * cells - 1, cells, GUIDE_BINS};
-    size_t   nodes = head[1] * (size_t)FIELD_NODE;
-    memcpy(data, "PRHLFELD", 8);
-    memcpy(data + 8, head, sizeof head);
-    hash = XXH3_64bits(data + FIELD_HEAD, nodes);
-    for (uint32_t i = 0; i < cells; i++)
-        hash = XXH3_64bits_withSeed(data + FIELD_HEAD + nodes + i * (size_t)FIELD_CELL,
-                                    FIELD_CELL, hash);
-    hash = hash ? hash : 1;
-    memcpy(data + 24, &hash, sizeof hash);
-    return FIELD_HEAD + nodes + cells * (size_t)FIELD_CELL;
+    uint32_t cells = (uint32_t)((size - FIELD_HEAD - 8 + FIELD_NODE) / each);
+    uint32_t facts[3] = {2 * cells - 1, cells, GUIDE_BINS};
+    mend_head(data, "PRHLFELD", GUIDE_VERSION);
+    memcpy(data + AT_IDENTITY, &no_identity, sizeof no_identity);
+    memcpy(data + KEPT_HEAD, facts, sizeof facts);
+    size = FIELD_HEAD + cells * each - FIELD_NODE + 8;
+    mend_file(data, size);
+    return size;
 }
 
 static void claim_view(const LightGuide *guide, Vec3 at)
@@ -129,8 +147,7 @@ void fuzz_field(const uint8_t *data, size_t size, Arena *arena)
 
 static const char identity[] = "version\t1\nseed\t9\n";
 
-/* Of the head: magic, byte order and version, then how long the file is. */
-enum { AT_FILE_BYTES = 16, RESPONSE_HEAD = 72 };
+enum { RESPONSE_HEAD = KEPT_HEAD + 40 };
 
 size_t fuzz_make_response(uint8_t *data, size_t max_size, unsigned number, Arena *arena)
 {
@@ -151,16 +168,11 @@ size_t fuzz_make_response(uint8_t *data, size_t max_size, unsigned number, Arena
 
 size_t fuzz_mutate_response(uint8_t *data, size_t size, size_t max_size, unsigned seed)
 {
-    const uint32_t order[2] = {0x01020304u, RESPONSE_VERSION};
-    uint64_t       state = seed, bytes, checksum;
+    uint64_t state = seed;
     size = change(data, size, max_size, &state);
-    if (size < RESPONSE_HEAD + sizeof checksum || fuzz_random(&state) % 16 == 0) return size;
-    memcpy(data, "PRHLRESP", 8);
-    memcpy(data + 8, order, sizeof order);
-    bytes = size;
-    memcpy(data + AT_FILE_BYTES, &bytes, sizeof bytes);
-    checksum = XXH3_64bits(data, size - sizeof checksum);
-    memcpy(data + size - sizeof checksum, &checksum, sizeof checksum);
+    if (size < RESPONSE_HEAD + 8 || fuzz_random(&state) % 16 == 0) return size;
+    mend_head(data, "PRHLRESP", RESPONSE_VERSION);
+    mend_file(data, size);
     return size;
 }
 
@@ -186,7 +198,7 @@ void fuzz_response(const uint8_t *data, size_t size, Arena *arena)
 
 /* ---- journals ---------------------------------------------------------------------------- */
 
-enum { JOURNAL_HEAD = 16, JOURNAL_ENTRY = 32, ENTRY_SUMMED = 24 };
+enum { JOURNAL_ENTRY = 32, ENTRY_SUMMED = 24 };
 
 static JournalKey key_of(unsigned number)
 {
@@ -215,14 +227,14 @@ size_t fuzz_make_journal(uint8_t *data, size_t max_size, unsigned number, Arena 
 
 size_t fuzz_mutate_journal(uint8_t *data, size_t size, size_t max_size, unsigned seed)
 {
-    const uint32_t order[2] = {0x01020304u, 1};
+    const uint64_t no_sizes[2] = {0};
     uint64_t       state = seed, answer, checksum;
     XXH3_state_t   sum;
     size = change(data, size, max_size, &state);
-    if (size < JOURNAL_HEAD || fuzz_random(&state) % 16 == 0) return size;
-    memcpy(data, "PRHLJRNL", 8);
-    memcpy(data + 8, order, sizeof order);
-    for (size_t at = JOURNAL_HEAD; size - at >= JOURNAL_ENTRY; at += JOURNAL_ENTRY + answer) {
+    if (size < KEPT_HEAD || fuzz_random(&state) % 16 == 0) return size;
+    mend_head(data, "PRHLJRNL", 2);
+    memcpy(data + AT_BYTES, no_sizes, sizeof no_sizes);
+    for (size_t at = KEPT_HEAD; size - at >= JOURNAL_ENTRY; at += JOURNAL_ENTRY + answer) {
         memcpy(&answer, data + at + 16, sizeof answer);
         if (answer > size - at - JOURNAL_ENTRY) break;
         XXH3_64bits_reset(&sum);
@@ -240,10 +252,10 @@ void fuzz_journal(const uint8_t *data, size_t size, Arena *arena)
     Journal      *journal, *other;
     const char   *path = fuzz_file("a.answers", data, size, arena);
     const char   *own = fuzz_file("own.answers", "", 0, arena);
-    int           count = journal_file_count(path, *arena);
+    int           count = journal_file_count(path);
     fuzz_claim(count >= 0 && (size_t)count <= size / JOURNAL_ENTRY, "entries take room");
     open_journal(own, arena, &other);
-    bool is_taken = journal_take_over(other, path, *arena);
+    bool is_taken = journal_take_over(other, path);
     fuzz_claim(journal_count(other) == count && (is_taken || !count),
                "what is whole is taken over");
     journal_close(other);
@@ -254,12 +266,13 @@ void fuzz_journal(const uint8_t *data, size_t size, Arena *arena)
             journal_find(journal, key_of(i), answer, bytes);
     journal_add(journal, key_of(77), answer, 5);
     journal_close(journal);
-    fuzz_claim(journal_file_has(path, key_of(77), *arena), "an answer that is added is kept");
+    fuzz_claim(journal_file_has(path, key_of(77)), "an answer that is added is kept");
 }
 
 /* ---- answers: what a journal's entries may hold ------------------------------------------ */
 
-/* Rays with places in the table of cells, a gaze, a text: as bytes, so that any are tried. */
+/* Rays with places in the table of cells, a gaze, an eye, a text: as bytes, so that any are
+ * tried. */
 typedef struct AnswerBytes {
     uint8_t parts, texts, rays, cells;
 } AnswerBytes;
@@ -307,6 +320,7 @@ void fuzz_answers(const uint8_t *data, size_t size, Arena *arena)
 {
     AnswerBytes  head;
     GazeReading  gaze;
+    EyeReading   eye;
     TextProposal text;
     int          parts;
     if (!take(&data, &size, &head, sizeof head)) return;
@@ -315,6 +329,10 @@ void fuzz_answers(const uint8_t *data, size_t size, Arena *arena)
         fuzz_claim(gaze.most.pane_id < parts && gaze.most.part_id < parts &&
                        gaze.most.source >= 0 && gaze.most.source < LIGHT_SETS,
                    "what a gaze meets is of the scene");
+    if (take(&data, &size, &eye, sizeof eye) && eye_reading_is_sound(&eye))
+        fuzz_claim(eye.glare.figures.none == GLARE_HAS_UGR ||
+                       discomfort_none_words(eye.glare.figures.none),
+                   "a figure that is missing is so for a reason");
     for (int i = 0; i < head.texts % 6; i++)
         if (take(&data, &size, &text, sizeof text) && text_proposal_is_sound(&text))
             for (int k = 0; k < 4; k++)
@@ -329,17 +347,17 @@ size_t fuzz_make_answers(uint8_t *data, size_t max_size, unsigned number, Arena 
     const GazeReading  gaze = {.most = {.pane_id = 1, .part_id = NO_ID}};
     const TextProposal text = {.uv = {0.1, 0.2, 0.3, 0.4}, .height_px = 9, .characters = 4};
     const int          cells[2][2] = {{9, 0}, {500, head.rays}};
-    size_t size = sizeof head + sizeof gaze + sizeof text + head.rays * sizeof(FalseSunRay);
+    size_t read = sizeof head + sizeof gaze + sizeof(EyeReading);
+    size_t size = read + sizeof text + head.rays * sizeof(FalseSunRay);
     if (number > 2 || size + sizeof cells > max_size) return 0;
     memset(data, 0, size);
     memcpy(data, &head, sizeof head);
     memcpy(data + sizeof head, &gaze, sizeof gaze);
-    memcpy(data + sizeof head + sizeof gaze, &text, sizeof text);
+    memcpy(data + read, &text, sizeof text);
     for (int i = 0; i < head.rays; i++) {
         const FalseSunRay ray = {.sun = {0, 1, 0}, .seen = {0, 0, -1}, .sr = 1e-5f,
                                  .part_id = i % 3};
-        memcpy(data + sizeof head + sizeof gaze + sizeof text + (size_t)i * sizeof ray, &ray,
-               sizeof ray);
+        memcpy(data + read + sizeof text + (size_t)i * sizeof ray, &ray, sizeof ray);
     }
     memcpy(data + size, cells, sizeof cells);
     return size + sizeof cells;

@@ -22,10 +22,24 @@ def named(kind, name, text):
     return re.findall(words, text)
 
 
-def listed_files():
-    """Of CONTRIBUTING.md's list for a surface model."""
-    text = read("CONTRIBUTING.md").partition("**A surface model**")[2].partition("\n\n")[0]
+def listed_files(title="A surface model"):
+    """Of a recipe's list in CONTRIBUTING.md."""
+    text = read("CONTRIBUTING.md").partition(f"**{title}**")[2].partition("\n\n")[0]
     return re.findall(r"^\d+\. `([\w./]+)`", text, re.MULTILINE)
+
+
+# Struct, file, its calls at most: a table that everybody fills grows by one row a case.
+TABLES = [
+    ("BsdfScatter", "shaders/bsdf_model.h", 5), ("BsdfBoundary", "shaders/bsdf_model.h", 3),
+    ("BsdfModel", "shaders/bsdf_model.h", 4), ("PathSteering", "src/path/path_collector.h", 6),
+    ("CollectorKind", "src/path/path_collector.h", 10),
+]
+
+
+def calls(struct, text):
+    """How many functions a struct points to."""
+    body = re.search(rf"typedef struct {struct} {{(.*?)\n}} {struct};", text, re.S)
+    return len(re.findall(r"\(\*\w+\)\(", body.group(1))) if body else 0
 
 
 def main():
@@ -40,6 +54,12 @@ def main():
     listed = listed_files()
     report.claim(len(listed) <= 6 and MAKER in listed and LIST in listed,
                  f"CONTRIBUTING.md lists {listed} for a surface model")
+    for struct, path, most in TABLES:
+        found = calls(struct, read(path))
+        report.claim(0 < found <= most, f"{path}: {struct} has {found} calls, required: 1 to "
+                                        f"{most}")
+    report.claim(calls("T", "typedef struct T {\n int (*a)(int);\n int b;\n} T;") == 1,
+                 "calls are not counted")
     report.claim(named("A", "a", "bsdf.a x; BSDF_A; b_model") == ["bsdf.a", "BSDF_A"],
                  "what names a model is not seen")
     report.finish()

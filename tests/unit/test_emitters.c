@@ -2,7 +2,7 @@
 /* Emitters that are near, many, or hidden below the horizon. */
 #include "light_fixture.h"
 
-#include "light/coverage.h"
+#include "scene/point/coverage.h"
 #include "light/solid_angle.h"
 
 /* ---- triangles as a point sees them ------------------------------------------------------ */

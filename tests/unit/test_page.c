@@ -1,67 +1,193 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The shared page of all reports: whole, escaped, without a network, one file of its parts. */
+/* Pages are templates over values: what each tag does, what is wrong with a template, and that
+ * a page is whole, escaped, without a network, one file of its parts. */
 #include "fixture.h"
 
+#include "base/count.h"
 #include "page/page.h"
 
 static const char WILD[] = "a<b>&\"c'\xff";
 static const char TAME[] = "a&lt;b&gt;&amp;&quot;c&#39;\\xFF";
 
-static Text small_page(bool is_dark)
+static const char *doubled(double value, Arena *arena)
 {
-    static const PageColumn COLUMNS[] = {{"name", false, NULL}, {"value", true, WILD}};
-    Text page = {.arena = test_memory()};
-    page_begin(&page, &(PageHead){WILD, ".own{}\n", is_dark, 0});
-    page_element(&page, "h1 class=\"x\"", WILD);
-    page_list(&page, "notes", (const char *const[]){WILD, "b"}, 2);
-    page_keys_begin(&page);
-    page_key(&page, WILD, WILD, true);
-    page_keys_end(&page);
-    page_table_begin(&page, WILD, "", COLUMNS, 2);
-    page_row_begin(&page, "same");
-    page_cell(&page, "", WILD);
-    page_cell_format(&page, "n", "%d %s", 7, WILD);
-    page_cell_long(&page, WILD);
-    page_row_end(&page);
-    page_table_end(&page);
-    page_more_begin(&page, WILD);
-    page_more_end(&page);
-    page_end(&page, WILD, (const char *const[]){"var own=1;\n", NULL});
-    return page;
+    return isnan(value) ? "none" : arena_format(arena, "%g", 2 * value);
 }
 
-TEST(every_text_is_escaped)
+static const PageFormat FORMATS[] = {{"doubled", doubled}, {NULL, NULL}};
+
+static const char VALUES[] =
+    "{'text': 'a<b', 'empty': '', 'null': null, 'yes': true, 'no': false, 'one': 1, 'zero': 0,"
+    " 'real': 0.0, 'pi': 3.14159, 'list': [{'name': 'x'}, {'name': 'y'}], 'none': [],"
+    " 'words': ['p', 'q'], 'object': {'inner': {'name': 'deep'}}, 'name': 'outer',"
+    " 'raw': '<b>&</b>'}";
+
+static json_t *values_of(const char *text)
 {
-    Text page = small_page(false);
-    assert_int_equal(count_of(page.data, "<b>&\""), 0);
-    assert_int_equal(count_of(page.data, TAME), 12);
-    assert_non_null(strstr(page.data, "<h1 class=\"x\">a&lt;"));
-    assert_non_null(strstr(page.data, "<td class=\"n\">7 a&lt;"));
-    assert_non_null(strstr(page.data, "<th class=\"n\" title=\"a&lt;"));
+    json_error_t error;
+    char        *json = arena_string(test_memory(), text, strlen(text));
+    for (char *c = json; *c; c++)
+        if (*c == '\'') *c = '"';
+    json_t *values = json_loads(json, 0, &error);
+    assert_non_null(values);
+    return values;
+}
+
+/* A template of a test is one that no page has: it is rendered as a text. */
+static bool rendered(const char *template, Text *page, Error *error)
+{
+    json_t *values = values_of(VALUES);
+    *page = (Text){.arena = test_memory()};
+    bool ok = page_render_text(page, (PageFile){"test.html", template}, values, FORMATS,
+                               arena_reserve(1 << 20), error);
+    json_decref(values);
+    return ok;
+}
+
+TEST(a_template_shows_its_values)
+{
+    static const struct { const char *template, *page; } ROWS[] = {
+        {"<p>{{text}}|{{empty}}|{{null}}|{{one}}|{{pi}}</p>", "<p>a&lt;b|||1|3.14159</p>"},
+        {"{{{raw}}}{{raw}}", "<b>&</b>&lt;b&gt;&amp;&lt;/b&gt;"},
+        {"{{pi|f2}} {{pi|g2}} {{one|doubled}} {{null|doubled}} {{text|doubled}}",
+         "3.14 3.1 2 none a&lt;b"},
+        {"{{zero}} day{{zero|s}}, {{one}} day{{one|s}}", "0 days, 1 day"},
+        {"{{#list}}{{name}};{{/list}}", "x;y;"},
+        {"{{#words}}[{{.}}]{{/words}}", "[p][q]"},
+        {"{{#object}}{{inner.name}} {{name}}{{/object}}", "deep outer"},
+        {"{{object.inner.name}}{{#object.inner}}-{{name}}{{/object.inner}}", "deep-deep"},
+        {"{{#yes}}1{{/yes}}{{#text}}2{{/text}}{{#one}}3{{/one}}{{#real}}4{{/real}}", "1234"},
+        {"{{#no}}1{{/no}}{{#empty}}2{{/empty}}{{#null}}3{{/null}}{{#zero}}4{{/zero}}"
+         "{{#none}}5{{/none}}{{#absent}}6{{/absent}}", ""},
+        {"{{^no}}1{{/no}}{{^none}}2{{/none}}{{^absent}}3{{/absent}}{{^yes}}4{{/yes}}", "123"},
+        {"{{#list}}{{#list}}{{name}}{{/list}}{{/list}}", "xyxy"},
+        {"<ul>\n  {{#words}}\n  <li>{{.}}</li>\n  {{/words}}\n</ul>\n",
+         "<ul>\n<li>p</li>\n<li>q</li>\n</ul>\n"},
+        {"a<!-- not\nshown -->b <link rel=\"stylesheet\" href=\"{{one}}\">", "ab "
+         "<link rel=\"stylesheet\" href=\"1\">"},
+        {"{{list.1.name}}{{list.7.name}}{{null.any}}{{words| > }}", "yp &gt; q"},
+        {"{ {a} {{text}} }}", "{ {a} a&lt;b }}"}};
+    for (int i = 0; i < COUNT_OF(ROWS); i++) {
+        Text page;
+        if (!rendered(ROWS[i].template, &page, why())) fail_msg("%s: %s", ROWS[i].template,
+                                                                why()->text);
+        assert_string_equal(page.data ? page.data : "", ROWS[i].page);
+    }
+}
+
+/* Lines and cells as RFC 4180 has them. */
+TEST(a_template_of_csv_quotes_its_cells)
+{
+    Text    page = {.arena = test_memory()};
+    json_t *values = values_of("{'rows': [{'a': 'x, y', 'b': 1.23456789},"
+                               " {'a': 'z', 'b': null}]}");
+    assert_done(page_render_text(&page, (PageFile){"t.csv", "a,b\n{{#rows}}\n{{a}},{{b}}\n"
+                                                            "{{/rows}}\n"},
+                                 values, NULL, arena_reserve(1 << 20), &err));
+    assert_string_equal(page.data, "a,b\r\n\"x, y\",1.23457\r\nz,\r\n");
+    json_decref(values);
+}
+
+TEST(a_fault_of_a_template_is_named)
+{
+    static const struct { const char *template, *text; } ROWS[] = {
+        {"{{absent}}", "has no value for 'absent'"},
+        {"{{{absent}}}", "has no value for 'absent'"},
+        {"{{object.absent}}", "has no value for 'object.absent'"},
+        {"{{#words}}{{name.x}}{{/words}}", "has no value for 'name.x'"},
+        {"{{pi|odd}}", "has no such format: 'pi'"}, {"{{pi|f10}}", "has no such format: 'pi'"},
+        {"{{#yes}}", "has no end of 'yes'"}, {"{{#yes}}{{/no}}", "has no end of 'yes'"},
+        {"{{/yes}}", "has no beginning of 'yes'"}, {"{{>absent}}", "has no part 'absent'"},
+        {"<link rel=\"stylesheet\" href=\"a.css\">", "has no file 'a.css'"}};
+    for (int i = 0; i < COUNT_OF(ROWS); i++) {
+        Text page;
+        assert_false(rendered(arena_format(test_memory(), "first\n%s", ROWS[i].template), &page,
+                              why()));
+        assert_string_equal(why()->text, ROWS[i].text);
+        assert_string_equal(why()->file, "test.html");
+        assert_string_equal(why()->path, "line 2");
+    }
+}
+
+/* head.html, page.css and page.js, as every page has them. */
+static const char FRAME[] = "<!DOCTYPE html>\n<html{{#is_dark}} class=\"dark\"{{/is_dark}}>"
+                            "<head>\n{{>head}}\n<link rel=\"stylesheet\" href=\"page.css\">\n"
+                            "</head><body>\n<footer>{{command}}</footer>\n"
+                            "<script src=\"page.js\"></script>\n</body></html>\n";
+
+static const char *small_page(bool is_dark)
+{
+    Text    page = {.arena = test_memory()};
+    json_t *values = json_object();
+    assert_done(page_set_head(values, &(PageHead){WILD, WILD, is_dark, 15}, &err));
+    assert_done(page_render_text(&page, (PageFile){"frame.html", FRAME}, values, NULL,
+                                 arena_reserve(1 << 20), &err));
+    json_decref(values);
+    return page.data;
 }
 
 TEST(a_page_is_whole_and_asks_nobody)
 {
-    const char *page = small_page(false).data;
+    const char *page = small_page(false);
     static const char *const ONCE[] = {"<!DOCTYPE html>", "<style>", "</style>", "<script>",
-                                       "</script>", "</html>", ".own{}", "var own=1;",
-                                       "prefers-color-scheme:dark", "@media print"};
+                                       "</script>", "</html>", "prefers-color-scheme:dark",
+                                       "@media print", "http-equiv=\"refresh\" content=\"15\""};
     for (size_t i = 0; i < sizeof ONCE / sizeof *ONCE; i++)
         if (count_of(page, ONCE[i]) != 1) fail_msg("not once: %s", ONCE[i]);
-    static const char *const NEVER[] = {"http:", "https:", "src=", "@import", "<link"};
+    static const char *const NEVER[] = {"http:", "https:", "src=", "@import", "<link", "<!-- "};
     for (size_t i = 0; i < sizeof NEVER / sizeof *NEVER; i++)
         if (strstr(page, NEVER[i])) fail_msg("there is %s", NEVER[i]);
-    assert_null(strstr(page, "<html lang=\"en\" class=\"dark\">"));
-    assert_non_null(strstr(small_page(true).data, "<html lang=\"en\" class=\"dark\">"));
+    assert_int_equal(count_of(page, TAME), 2);
+    assert_null(strstr(page, "class=\"dark\""));
+    assert_non_null(strstr(small_page(true), "<html class=\"dark\">"));
+}
+
+/* Behind the style of every page; CSS alone. */
+TEST(a_firm_has_a_style_of_its_own)
+{
+    const char *path = in_folder("firm.css");
+    json_t     *values = json_object();
+    setenv(PAGE_STYLE_VARIABLE, path, 1);
+    write_text(path, "h1{color:teal}");
+    assert_done(page_set_head(values, &(PageHead){"t", "c", false, 0}, &err));
+    assert_string_equal(json_string_value(json_object_get(values, "style")), "h1{color:teal}");
+    write_text(path, "</style><script>");
+    assert_false(page_set_head(values, &(PageHead){"t", "c", false, 0}, why()));
+    assert_string_equal(why()->file, path);
+    assert_string_equal(why()->text, "$PARHELION_STYLE: has \"</\" in it, required: CSS alone");
+    remove(path);
+    assert_false(page_set_head(values, &(PageHead){"t", "c", false, 0}, why()));
+    unsetenv(PAGE_STYLE_VARIABLE);
+    json_decref(values);
+}
+
+/* Every page and part: its files and parts are there, and sections nest. */
+TEST(all_templates_are_whole)
+{
+    for (int i = 0; i < page_file_count; i++) {
+        const char *name = page_file_table[i].name, *at = page_file_table[i].text, *open[32];
+        int         depth = 0;
+        if (!strstr(name, ".html")) continue;
+        if (strstr(at, "<!DOCTYPE html>") == at)
+            assert_true(strstr(at, "{{>head}}") < strstr(at, "<style>{{{style}}}</style>"));
+        for (; (at = strstr(at, "{{")); at += 2) {
+            if (at[2] == '#' || at[2] == '^') open[depth++] = at + 3;
+            if (at[2] != '/') continue;
+            size_t length = strcspn(at + 3, "}");
+            if (!depth || strncmp(open[--depth], at + 3, length + 1) != 0)
+                fail_msg("%s: %.30s", name, at);
+        }
+        if (depth) fail_msg("%s: no end of %.20s", name, open[depth - 1]);
+    }
 }
 
 TEST(pictures_lie_in_the_page)
 {
-    Text    page = {.arena = test_memory()};
     Picture picture = picture_create(2, 2, test_memory());
-    assert_done(page_picture(&page, WILD, &picture, false, arena_reserve(1 << 24), &err));
-    assert_ptr_equal(strstr(page.data, "<img alt=\"a&lt;"), page.data);
-    assert_non_null(strstr(page.data, " src=\"data:image/png;base64,iVBORw0KGgo"));
+    json_t *png = page_picture(&picture, false, arena_reserve(1 << 24), why());
+    assert_non_null(png);
+    assert_non_null(strstr(json_string_value(png), "data:image/png;base64,iVBORw0KGgo"));
+    json_decref(png);
 }
 
 TEST(parts_become_one_file)

@@ -6,7 +6,7 @@
 #include "base/sampler.h"
 #include "base/units.h"
 #include "bvh/bvh.h"
-#include "light/ray_ends.h"
+#include "scene/point/ray_ends.h"
 #include "scene_builder.h"
 
 static uint32_t random_state = 1;

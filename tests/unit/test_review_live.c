@@ -8,13 +8,13 @@
 
 #include "page/page.h"
 #include "review/output/review_live.h"
-#include "review/run/live.h"
+#include "review/folder/live.h"
 #include "text/base64.h"
 #include "verdict_fixture.h"
 
 /* ---- packed numbers ---------------------------------------------------------------------- */
 
-/* As page_data.h says it, back again. */
+/* As page.h says it, back again. */
 static uint32_t *unpacked(const char *text, size_t count, int bytes, Arena *arena)
 {
     size_t size;
@@ -39,10 +39,10 @@ ARENA_TEST(numbers_come_back)
 {
     uint32_t values[1000];
     for (int bytes = 1; bytes <= 4; bytes++) {
-        Text  text = {.arena = &arena};
         for (uint32_t i = 0; i < 1000; i++) values[i] = i * i * 2654435761u;
-        assert_done(page_data_add(&text, values, 1000, bytes, arena_reserve(1 << 20), &err));
-        uint32_t *back = unpacked(text.data, 1000, bytes, &arena);
+        const char *packed = page_packed(values, 1000, bytes, &arena, why());
+        assert_non_null(packed);
+        uint32_t *back = unpacked(packed, 1000, bytes, &arena);
         uint32_t  mask = (uint32_t)(((uint64_t)1 << 8 * bytes) - 1);
         for (int i = 0; i < 1000; i++) assert_int_equal(back[i], values[i] & mask);
     }
@@ -65,8 +65,7 @@ static float *some_numbers(double low, double high, double turn, Arena *arena)
 static json_t *live_block(const Review *review, const ReviewLive *live, Arena *arena)
 {
     Text  html = {.arena = arena};
-    ENDS_BY(arena_release) Arena scratch = arena_reserve((size_t)1 << 30);
-    assert_done(review_live_add(&html, review, live, &scratch, &err));
+    assert_done(review_live_add(&html, review, live, &err));
     const char *start = strchr(html.data, '{'), *end = strstr(html.data, "</script>");
     assert_true(start && end);
     json_error_t error;
@@ -141,7 +140,7 @@ ARENA_TEST(nothing_to_move_is_nothing_in_the_page)
     Review     review = fixture_review(&arena);
     ReviewLive live = {.colours = ""};
     Text       html = {.arena = &arena};
-    assert_true(review_live_add(&html, &review, &live, &arena, why()) && html.size == 0);
+    assert_true(review_live_add(&html, &review, &live, why()) && html.size == 0);
 }
 
 /* ---- light ------------------------------------------------------------------------------- */

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The page of a review: well formed whatever the names are, nothing loaded from anywhere, and
- * drawings that say what the figures say. */
+/* The page of a review: well formed whatever the names are, nothing loaded from anywhere;
+ * test_review_drawn.c has its drawings. */
 #include <ctype.h>
 #include <string.h>
 
-#include "image/plain/plain_png.h"
-#include "review/output/review_bar.h"
+#include "review/output/review_json.h"
+#include "review/output/review_link.h"
 #include "review/output/review_words.h"
-#include "text/base64.h"
 #include "review_page_fixture.h"
 
 /* ---- well formed ------------------------------------------------------------------------ */
@@ -130,6 +129,113 @@ TEST(a_page_is_well_formed_whatever_the_names_are)
         assert_null(strstr(page, "<a b="));
         for (int k = 0; k < 4; k++) assert_null(strstr(page, NOT_NUMBERS[k]));
     }
+}
+
+/* ---- names ------------------------------------------------------------------------------ */
+
+/* Counts every key of a document. */
+static void add_keys(json_t *keys, const json_t *value)
+{
+    size_t      i;
+    const char *key;
+    json_t     *member;
+    json_object_foreach((json_t *)value, key, member) {
+        json_object_set_new(keys, key, json_true());
+        add_keys(keys, member);
+    }
+    json_array_foreach(value, i, member) add_keys(keys, member);
+}
+
+/* Every name in a template and its parts: of "a.b" both. */
+static void add_names(json_t *names, const char *template)
+{
+    int i = 0;
+    while (i < page_file_count && strcmp(page_file_table[i].name, template)) i++;
+    assert_true(i < page_file_count);
+    for (const char *at = page_file_table[i].text; (at = strstr(at, "{{"));) {
+        at += strspn(at, "{");
+        bool        is_part = *at == '>';
+        const char *name = at + strspn(at, "#^/>");
+        size_t      length = strcspn(name, "|}");
+        if (is_part)
+            add_names(names, arena_format(&arena, "%.*s.html", (int)length, name));
+        for (const char *end = name + length; !is_part && name < end; name++) {
+            size_t one = strcspn(name, ".|}");
+            if (one) json_object_set_new(names, arena_string(&arena, name, one), json_true());
+            name += one;
+        }
+    }
+}
+
+/* Of a review that has all there is, at least once. own: the keys of its review.json. */
+static json_t *all_values(json_t *own)
+{
+    static const Vec3 RIM[] = {{-0.1f, 0, -1}, {0.1f, 0, -1}, {0.1f, 0.1f, -1}};
+    static const CaseView VIEW = {.right = {1, 0, 0}, .up = {0, 1, 0}, .forward = {0, 0, -1},
+                                  .is_perspective = true, .half_width = 1, .half_height = 0.5,
+                                  .width = 200, .height = 100};
+    Review before = fixture_review(&arena), *review = ARENA_NEW(&arena, Review, 1);
+    *review = fixture_review(&arena);
+    ReviewDiff        diff = review_diff(&before, review, "a", "b", &arena);
+    ReviewMap         map = fixture_map(&arena, &review->sweeps[0]);
+    ReviewCalendar    calendar = fixture_calendar(&arena, &review->sweeps[0]);
+    ReviewCase       *worst = (ReviewCase *)(size_t)review_worst(review, arena);
+    const char       *file = fresh_name(".png"), *change = "x";
+    Picture           picture = picture_create(3, 2, &arena);
+    ReviewDifference  d = {.before = worst, .after = worst, .margin = 0.5,
+                           .margin_range = {0.4, 0.6}};
+    ReviewVariantFound variant = {.name = "v", .words = &change, .word_count = 1,
+                                  .review = &before, .differences = &d, .difference_count = 1,
+                                  .worst = d};
+    ReviewSlope       slopes[2] = {{worst, 0.1, {0.05, 0.2}}, {worst, NAN, {NAN, NAN}}};
+    ReviewSensitivity sensitivity = {.name = "s", .unit = "mm", .step = 1, .slopes = slopes,
+                                     .slope_count = 2};
+    ReviewTrial       trial = {.value = 1};
+    ReviewMend        mend = {.name = "m", .unit = "mm", .trials = &trial, .trial_count = 1};
+    ReviewPicture     shown = {.of = worst, .title = "t", .caption = "c", .file = file,
+                               .beside = "b.png", .view = &VIEW, .is_frame = true};
+    ReviewPicture     pair[2] = {shown, {.title = "t", .file = file}};
+    ReviewFact        fact = {"a", "b"};
+    worst->view = &VIEW;
+    worst->rim = RIM;
+    worst->rim_count = 3;
+    review->variants = &variant;
+    review->sensitivities = &sensitivity;
+    review->mends = &mend;
+    review->variant_count = review->sensitivity_count = review->mend_count = 1;
+    review->to_come = "more";
+    assert_done(picture_write(file, &picture, (PictureFile){.bits = 8}, arena, &err));
+    json_t *values = review_page_values(
+        &(ReviewPage){.review = review, .pictures = &shown, .picture_count = 1, .pairs = pair,
+                      .maps = &map, .map_count = 1, .calendars = &calendar,
+                      .calendar_count = 1, .facts = &fact, .fact_count = 1, .commands = &change,
+                      .command_count = 1, .diff = &diff}, 0, &arena, why());
+    json_t *record = review_json(review);
+    remove(file);
+    add_keys(own, record);
+    json_decref(record);
+    assert_non_null(values);
+    return values;
+}
+
+/* Every name of a template has a value, and every value beyond review.json's a name. */
+TEST(templates_and_values_know_the_same_names)
+{
+    static const char *const PAGES[] = {"review.html", "summary.html", "cases.html"};
+    json_t     *keys = json_object(), *names = json_object(), *own = json_object(), *unused;
+    json_t     *values = all_values(own);
+    const char *name;
+    for (int i = 0; i < 3; i++) add_names(names, PAGES[i]);
+    add_keys(keys, values);
+    json_object_foreach(names, name, unused)
+        if (!json_object_get(keys, name)) fail_msg("no value is called %s", name);
+    json_object_foreach(keys, name, unused)
+        if (!json_object_get(own, name) && !json_object_get(names, name))
+            fail_msg("no template names %s", name);
+    json_decref(keys);
+    json_decref(names);
+    json_decref(own);
+    json_decref(values);
 }
 
 TEST(a_page_of_nothing_says_so)
@@ -275,7 +381,9 @@ TEST(an_eye_box_names_whose_share_it_is)
         review.sweep_count = 1;
         const char *page = page_of(&(ReviewPage){.review = &review});
         const char *card = strstr(page, "<h2>Every sun, every hour");
-        assert_non_null(strstr(card, BOX[i].how_often));
+        Text shown = {.arena = &arena};
+        escape_markup(&shown, BOX[i].how_often);
+        assert_non_null(strstr(card, shown.data));
         assert_non_null(strstr(card, "of eyes fail at its worst"));
         assert_non_null(strstr(card, "the middle eye fails"));
         bool tells_worst = strstr(card, "of the middle eye at its own worst") != NULL;
@@ -344,242 +452,6 @@ TEST(a_page_that_cannot_be_written_is_an_error)
     Review none = {0};
     assert_false(review_page_write(&(ReviewPage){.review = &none}, "/nowhere/at/all", why()));
     assert_int_equal(why()->code, ERROR_OUTPUT);
-}
-
-/* ---- drawings --------------------------------------------------------------------------- */
-
-/* The number behind `name` in the first element of the class. */
-static double attribute_of(const char *svg, const char *class, const char *name)
-{
-    const char *at = strstr(svg, arena_format(&arena, "class=\"%s\"", class));
-    at = at ? strstr(at, arena_format(&arena, " %s=\"", name)) : NULL;
-    assert_non_null(at);
-    return strtod(strchr(at, '"') + 1, NULL);
-}
-
-/* The bright part's bar ends beyond the mark exactly where the contrast keeps the limit: the
- * end over the mark is the contrast over the limit. */
-TEST(the_bright_bar_reaches_the_mark_when_contrast_does)
-{
-    Review review = fixture_review(&arena);
-    for (int i = 0; i < 20; i++) {
-        Text              html = {.arena = &arena};
-        const ReviewCase *c = &review.cases[i];
-        review_bar_add_luminances(&html, c, &arena);
-        double end = attribute_of(html.data, "emit", "x") +
-                     attribute_of(html.data, "emit", "width");
-        double mark = attribute_of(html.data, "mark", "x");
-        assert_close(end / mark, c->contrast_ratio / c->limits[0].value, 2e-3);
-    }
-}
-
-TEST(the_mark_follows_the_kind_of_the_limit)
-{
-    static const struct { const char *kind, *words; double found, value, ratio; } FORMS[] = {
-        {"contrast_ratio", "2 : 1", 3, 2, 2},
-        {"luminance_contrast", "luminance contrast 1.5", 2, 1.5, 2.5},
-        {"modulation", "modulation 0.6", 0.5, 0.6, 4},
-        {"contrast_ratio", "2 : 1", 2.5, 2, 2}}; /* the last with the veil */
-    for (int i = 0; i < 4; i++) {
-        LimitVerdict limit = {.kind = FORMS[i].kind, .value = FORMS[i].value,
-                              .found = FORMS[i].found};
-        ReviewCase   c = {.luminance_cd_m2 = {300, 0, 100, 60, 40, 100.0 / 3},
-                          .contrast_ratio = i < 3 ? 3 : 4, .contrast_with_veil = 2.5,
-                          .limits = &limit, .limit_count = 1, .limit_id = 0};
-        Text         html = {.arena = &arena};
-        c.luminance_cd_m2.foreground = i < 3 ? 200 : 300;
-        review_bar_add_luminances(&html, &c, &arena);
-        assert_non_null(strstr(html.data, arena_format(&arena, ">%s needs", FORMS[i].words)));
-        double dark = 100 + (i == 3 ? 100.0 / 3 : 0);
-        double most = dark + c.luminance_cd_m2.foreground;
-        most = fmax(most, 1.02 * FORMS[i].ratio * dark);
-        double mark = attribute_of(html.data, "mark", "x") / 100;
-        assert_near(mark, FORMS[i].ratio * dark / most, 2e-3);
-    }
-}
-
-/* Where the upper bar ends, of the scale's 100. */
-static double bright_end(const char *svg)
-{
-    double end = 0;
-    for (const char *at = svg; (at = strstr(at, " y=\"18\" width=\"")); at++)
-        end += strtod(at + 15, NULL);
-    return end;
-}
-
-/* Whatever veil lies over it, and however its two reflections were estimated: the bright bar is
- * as far beyond the mark as the judged contrast is beyond its limit. */
-TEST(no_bar_passes_its_mark_under_a_fail)
-{
-    static const double VEILS[] = {0, 5, 80, 1000}, LIMITS[] = {1.5, 2, 3, 10};
-    for (int i = 0; i < 32; i++) {
-        double veil = VEILS[i % 4], value = LIMITS[i / 4 % 4], added = 100 + veil * (i / 16);
-        ReviewCase   c = {.luminance_cd_m2 = {91, 2, 100, 55, 35, veil},
-                          .contrast_ratio = 191 / 102.0,
-                          .contrast_with_veil = (191 + veil) / (102 + veil),
-                          .limit_count = 1};
-        LimitVerdict limit = {.kind = "contrast_ratio", .unit = "1", .value = value,
-                              .found = (91 + added) / (2 + added)};
-        Text         html = {.arena = &arena};
-        c.limits = &limit;
-        review_bar_add_luminances(&html, &c, &arena);
-        assert_close(bright_end(html.data) / attribute_of(html.data, "mark", "x"),
-                     limit.found / value, 1e-4);
-        bool is_told = strstr(html.data, "in the eye, not in this contrast") != NULL;
-        assert_int_equal(is_told, i < 16 || veil == 0);
-    }
-}
-
-/* From full wash-out at the left end, by the logarithm of the contrast. */
-TEST(margins_have_one_scale)
-{
-    static const double MARGINS[] = {1.5, 1, 0.5, 0, -0.5, -1};
-    static const double PLACES[] = {88, 88, 66, 44, 22, 0};
-    for (int i = 0; i < 6; i++) {
-        double       found = pow(2, 1 + MARGINS[i]);
-        LimitVerdict limit = {.kind = "contrast_ratio", .value = 2, .found = found,
-                              .low = found, .high = found,
-                              .margin = MARGINS[i],
-                              .verdict = MARGINS[i] < 0 ? VERDICT_FAIL : VERDICT_PASS};
-        const char  *class = MARGINS[i] < 0 ? "bad" : "good";
-        Text         html = {.arena = &arena};
-        review_bar_add_margin(&html, &limit);
-        double x = attribute_of(html.data, class, "x"), width = attribute_of(html.data, class,
-                                                                             "width");
-        assert_near(MARGINS[i] < 0 ? x : x + width, PLACES[i], 0.06);
-    }
-}
-
-/* One failing cell of three by three has a border of four edges; a failing corner too, for
- * nothing fails outside. */
-TEST(the_border_encloses_what_fails)
-{
-    static const struct { int cell; const char *path; } CASES[] = {
-        {4, "d=\"M1 2H2M1 1H2M1 2V1M2 2V1\""}, {0, "d=\"M0 3H1M0 2H1M0 3V2M1 3V2\""}};
-    static const float contrast[9] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
-    for (int i = 0; i < 2; i++) {
-        unsigned char verdict[9] = {0};
-        Text          html = {.arena = &arena};
-        verdict[CASES[i].cell] = VERDICT_FAIL;
-        ReviewMap map = {.azimuth_deg = {0, 10, 3}, .elevation_deg = {0, 10, 3},
-                         .contrast = contrast, .margin = contrast, .verdict = verdict};
-        ENDS_BY(arena_release) Arena more = arena_reserve((size_t)1 << 24);
-        assert_done(review_map_add(&html, &map, &more, &err));
-        if (!strstr(html.data, CASES[i].path)) fail_msg("%s", strstr(html.data, "border"));
-    }
-}
-
-typedef struct Cells {
-    PlainPng             png;
-    const unsigned char *rows;
-} Cells;
-
-static Cells cells_of(const char *html)
-{
-    Cells          out;
-    size_t         size = 0;
-    const char    *text = value_at(strstr(html, "base64,") + 7);
-    unsigned char *bytes = ARENA_NEW(&arena, unsigned char, strlen(text)), *rows;
-    assert_done(base64_decode(text, strlen(text), bytes, &size, &err));
-    assert_true(plain_png_open(bytes, size, &out.png));
-    rows = ARENA_NEW(&arena, unsigned char, 4 * (size_t)out.png.width * (size_t)out.png.height);
-    assert_true(plain_png_read(&out.png, rows));
-    out.rows = rows;
-    return out;
-}
-
-/* What fails is red, all else is not. */
-static void assert_red_at(const Cells *cells, int column, int row)
-{
-    for (int y = 0; y < cells->png.height; y++)
-        for (int x = 0; x < cells->png.width; x++) {
-            const unsigned char *c = cells->rows + 4 * (y * cells->png.width + x);
-            assert_int_equal(c[0] > c[2], x == column && y == row);
-        }
-}
-
-/* Azimuths run to the right and elevations upwards; days to the right and hours upwards. */
-TEST(cells_lie_where_their_axes_say)
-{
-    float         ratio[12], share[12];
-    unsigned char verdict[12] = {0};
-    Text          html = {.arena = &arena}, more = {.arena = &arena};
-    ENDS_BY(arena_release) Arena scratch = arena_reserve((size_t)1 << 24);
-    for (int i = 0; i < 12; i++) ratio[i] = 1, share[i] = 0;
-    verdict[11] = VERDICT_FAIL; /* azimuth 3, elevation 2 of 4 x 3 */
-    share[7] = 1;               /* day 1, step 3 of 3 x 4 */
-    assert_done(review_map_add(&html, &(ReviewMap){.azimuth_deg = {0, 1, 4}, .elevation_deg =
-                                                   {0, 1, 3}, .contrast = ratio, .margin =
-                                                   ratio, .verdict = verdict}, &scratch,
-                               &err));
-    assert_done(review_map_add_calendar(&more, &(ReviewCalendar){.year = 2026, .days = 3,
-                                                                 .steps_a_day = 4, .clock =
-                                                                 "UTC", .headings = 1,
-                                                                 .failed_share = share},
-                                        &scratch, &err));
-    Cells map = cells_of(html.data), calendar = cells_of(more.data);
-    assert_int_equal(map.png.width * 100 + map.png.height, 403);
-    assert_int_equal(calendar.png.width * 100 + calendar.png.height, 304);
-    assert_red_at(&map, 3, 0);
-    assert_red_at(&calendar, 1, 0);
-}
-
-/* The bytes of the first data-values behind `at`: 16 bits a cell, low byte first. */
-static const unsigned char *values_behind(const char *at, size_t cells)
-{
-    size_t         size = 0;
-    const char    *text = value_at(strstr(at, "data-values=\"") + 13);
-    unsigned char *bytes = ARENA_NEW(&arena, unsigned char, strlen(text));
-    assert_done(base64_decode(text, strlen(text), bytes, &size, &err));
-    assert_int_equal(size, 2 * cells);
-    return bytes;
-}
-
-/* A year's map says whose answer stands between its steps, and an eye box's whose eye it is;
- * a map of directions says neither. */
-TEST(a_map_says_what_its_cells_are)
-{
-    Review review = fixture_review(&arena);
-    for (int i = 0; i < 4; i++) {
-        Text      html = {.arena = &arena};
-        ReviewMap map = fixture_map(&arena, &review.sweeps[0]);
-        ENDS_BY(arena_release) Arena scratch = arena_reserve((size_t)1 << 26);
-        map.is_between_steps = i & 1;
-        review.sweeps[0].worst.eye_failed_share = i & 2 ? 0.25 : (double)NAN;
-        assert_done(review_map_add(&html, &map, &scratch, &err));
-        assert_int_equal(strstr(html.data, "the nearer one&#39;s answer is shown") != NULL,
-                         i & 1);
-        assert_int_equal(strstr(html.data, "As the middle eye of the box sees it") != NULL,
-                         i / 2);
-    }
-}
-
-/* What script tells at the pointer is the map's contrast within 0.06 %, and its verdict. */
-TEST(the_pointer_reads_what_the_map_shows)
-{
-    ReviewMap      map = fixture_map(&arena, NULL);
-    ReviewCalendar calendar = fixture_calendar(&arena, NULL);
-    Text           html = {.arena = &arena}, more = {.arena = &arena};
-    int            cells = map.azimuth_deg.count * map.elevation_deg.count;
-    ENDS_BY(arena_release) Arena scratch = arena_reserve((size_t)1 << 26);
-    assert_done(review_map_add(&html, &map, &scratch, &err));
-    assert_done(review_map_add_calendar(&more, &calendar, &scratch, &err));
-    const unsigned char *v = values_behind(html.data, (size_t)cells);
-    for (int i = 0; i < cells; i++) {
-        unsigned code = v[2 * i] + 256u * v[2 * i + 1];
-        if (isnan(map.contrast[i])) assert_int_equal(code, 0);
-        else assert_int_equal(code >> 14, map.verdict[i]);
-        if (!isnan(map.contrast[i]))
-            assert_close(pow(1e4, ((code & 16383) - 1) / 16382.0), map.contrast[i], 6e-4);
-    }
-    v = values_behind(more.data, 365 * 24);
-    for (int day = 0; day < 365; day++)
-        for (int step = 0; step < 24; step++) {
-            unsigned code = v[2 * (step * 365 + day)] + 256u * v[2 * (step * 365 + day) + 1];
-            float    share = calendar.failed_share[day * 24 + step];
-            if (isnan(share)) assert_int_equal(code, 0);
-            else assert_near((code - 1) / 1e4, share, 1e-4);
-        }
 }
 
 TEST_PROGRAM(page_begin, clear_folder)

@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "base/arena.h"
-#include "review/output/review_decide.h"
 #include "review/output/review_page.h"
+#include "review/review_decide.h"
 
 static const char WILD_NAME[] = "<a b=\"c\">&amp; 'q', \xc3\xa4 \xe9\x80\x9f\xe5\xba\xa6;\n=1";
 

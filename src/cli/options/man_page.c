@@ -252,6 +252,8 @@ static void print_environment(void)
 {
     printf(".SH ENVIRONMENT\n");
     print_row("OCIO", "an OpenColorIO configuration for pictures, where --config names none");
+    print_row("PARHELION_STYLE", "a file of CSS that comes behind the style of every page that "
+                                 "is written: a firm's own look");
     print_row("NO_COLOR", "if it is set, the progress has no colours");
     print_row("SOURCE_DATE_EPOCH", "the time that frames are marked with");
 }

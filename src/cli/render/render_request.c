@@ -29,26 +29,15 @@ typedef struct RenderWords {
 
 /* ---- layers ------------------------------------------------------------------------------ */
 
+#define LAYER_NAME(NAME, bit, of, option, letters, reader, sums) {option, LAYER_##NAME},
+
 static const struct {
     const char *name;
     unsigned    bits;
-} layer_names[] = {
-    {"all", LAYER_ALL}, {"xyz", LAYER_XYZ}, {"depth", LAYER_DEPTH},
-    {"position", LAYER_POSITION}, {"normal", LAYER_NORMAL}, {"albedo", LAYER_ALBEDO},
-    {"id", LAYER_ID}, {"uv", LAYER_UV}, {"variance", LAYER_VARIANCE},
-    {"halves", LAYER_HALVES}, {"samples", LAYER_SAMPLES}, {"display", LAYER_DISPLAYS},
-    {"display.emitted", LAYER_DISPLAY_EMITTED}, {"display.reflected", LAYER_DISPLAY_REFLECTED},
-    {"display.white", LAYER_DISPLAY_WHITE}, {"display.black", LAYER_DISPLAY_BLACK},
-    {"display.theta", LAYER_DISPLAY_ANGLES}, {"display.phi", LAYER_DISPLAY_ANGLES},
-    {"display.contrast", LAYER_DISPLAY_CONTRAST}, {"display.fine", LAYER_DISPLAY_FINE},
-    {"display.coverage", LAYER_DISPLAY_FINE}, {"display.mirror", LAYER_DISPLAY_MIRROR},
-    {"display.scattered", LAYER_DISPLAY_SCATTERED}, {"display.haze", LAYER_DISPLAY_HAZE},
-    {"display.lambertian", LAYER_DISPLAY_LAMBERTIAN},
-    {"display.variance", LAYER_DISPLAY_VARIANCE}, {"display.second", LAYER_DISPLAY_SECOND},
-    {"display.extrapolated", LAYER_DISPLAY_EXTRAPOLATED},
-    {"display.halves", LAYER_DISPLAY_HALVES}, {"light", LAYER_LIGHT}, {"stokes", LAYER_STOKES},
-    {"compare", LAYER_COMPARED}, {"rounded", LAYER_ROUNDED},
-};
+} layer_names[] = {{"all", LAYER_ALL}, {"display", LAYER_DISPLAYS}, {"compare", LAYER_COMPARED},
+                   FILM_LAYERS(LAYER_NAME)
+                   {"display.phi", LAYER_DISPLAY_ANGLES},
+                   {"display.coverage", LAYER_DISPLAY_FINE}};
 
 #define LAYER_NAME_COUNT COUNT_OF(layer_names)
 

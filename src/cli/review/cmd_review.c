@@ -13,20 +13,18 @@
 #include "cli/options/cli.h"
 #include "cli/options/outputs.h"
 #include "cli/options/scene_options.h"
-#include "cli/review/review_files.h"
-#include "cli/review/review_folder.h"
 #include "cli/review/review_job.h"
 #include "cli/review/review_print.h"
 #include "cli/review/review_watch.h"
 #include "render/signals.h"
+#include "review/engine/engine.h"
+#include "review/folder/review_files.h"
+#include "review/folder/review_folder.h"
 #include "review/pace/work.h"
-#include "review/output/review_decide.h"
 #include "review/request/request_start.h"
 #include "review/request/request_read.h"
+#include "review/review_decide.h"
 #include "review/run/run.h"
-#include "review/run/worst_frames.h"
-#include "review/vary/mend.h"
-#include "review/vary/sensitivity.h"
 #include "review/vary/variants.h"
 #include "scene/load/scene_load.h"
 #include "text/nearest_word.h"
@@ -211,9 +209,11 @@ static void tell_kept(const ReviewFolder *folder, Error *err)
 
 typedef struct SoFar {
     const ReviewFolder *folder;
-    const Arena        *arena; /* what is behind its end is scratch */
+    Arena              *arena; /* what is behind its end is scratch */
     ReviewWatch        *watch; /* NULL: nobody watches */
+    const Problems     *problems;
     double              shown_s;
+    bool                has_tables; /* every condition is reviewed, and its tables written */
 } SoFar;
 
 static bool note_files(void *user, const Scene *scene, Error *err)
@@ -241,101 +241,32 @@ static bool write_so_far(void *user, const ReviewOutcome *outcome, int done, Err
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-/* A step after all conditions are reviewed; they run in turn. */
-typedef struct Later {
-    bool (*make)(const ReviewRun *run, const ReviewFolder *folder, ReviewOutcome *outcome,
-                 Arena *arena, Error *err);
-    const char *what;
-    bool        is_wanted;
-} Later;
-
-static bool make_variants(const ReviewRun *run, const ReviewFolder *folder,
-                          ReviewOutcome *outcome, Arena *arena, Error *err)
+/* Each step is written as soon as it is known: where frames take long all else is safe. */
+static bool write_step(void *user, ReviewOutcome *outcome, Error *err)
 {
-    (void)folder;
-    return review_variants(run, outcome, arena, err);
-}
-
-static bool make_sensitivities(const ReviewRun *run, const ReviewFolder *folder,
-                               ReviewOutcome *outcome, Arena *arena, Error *err)
-{
-    (void)folder;
-    return review_sensitivities(run, outcome, arena, err);
-}
-
-static bool make_mend(const ReviewRun *run, const ReviewFolder *folder, ReviewOutcome *outcome,
-                      Arena *arena, Error *err)
-{
-    return review_mend(run, folder->mend, outcome, arena, err);
-}
-
-static bool make_frames(const ReviewRun *run, const ReviewFolder *folder,
-                        ReviewOutcome *outcome, Arena *arena, Error *err)
-{
-    (void)folder;
-    return review_frames(run, outcome, arena, err);
-}
-
-/* NULL: nothing. */
-static const char *still_to_come(const Later *later, int first, int count, Arena *arena)
-{
-    Text words = {.arena = arena};
-    bool any = false;
-    text_add(&words, "every verdict is there; to come: ");
-    for (int i = first; i < count; i++) {
-        if (!later[i].is_wanted) continue;
-        text_format(&words, "%s%s", any ? ", " : "", later[i].what);
-        any = true;
+    SoFar              *so_far = user;
+    const ReviewFolder *folder = so_far->folder;
+    if (!so_far->has_tables) {
+        progress_clear(&folder->work->progress);
+        cli_print_warnings(so_far->problems);
+        if (!review_folder_write_tables(folder, outcome, so_far->arena, err)) return false;
+        so_far->has_tables = true;
     }
-    return any ? words.data : NULL;
+    return review_folder_write(folder, outcome, so_far->arena, err);
 }
 
-/* Each is written as soon as it is known. Frames take long: all else is safe before, and names
- * them after. */
-static bool make_later(const ReviewRun *run, ReviewFolder *folder, ReviewOutcome *outcome,
-                       Arena *arena, Error *err)
-{
-    const ReviewRequest *request = run->request;
-    const Later later[] = {
-        {make_variants, "variants", request->variant_count > 0},
-        {make_sensitivities, "sensitivity", request->parameter_count > 0 && !folder->is_alone},
-        {make_mend, "remedy", folder->mend != NULL},
-        {make_frames, "pictures", request->frames.worst > 0}};
-    if (!review_folder_write_tables(folder, outcome, arena, err)) return false;
-    for (int i = -1; i < COUNT_OF(later); i++) {
-        if (i >= 0 && !later[i].is_wanted) continue;
-        if (i >= 0 && !later[i].make(run, folder, outcome, arena, err)) return false;
-        if (!review_goes_on(run->means.journal, err)) return false;
-        outcome->review.to_come = still_to_come(later, i + 1, COUNT_OF(later), arena);
-        if (!review_folder_write(folder, outcome, arena, err)) return false;
-    }
-    return true;
-}
-
-static bool make_watched(ReviewRun *run, ReviewFolder *folder, ReviewWatch *watch,
-                         ReviewOutcome *outcome, Arena *arena, Error *err)
-{
-    SoFar so_far = {folder, arena, watch, monotonic_seconds()};
-    run->news = (ReviewNews){write_so_far, note_files, &so_far};
-    bool is_run = review_run(run, arena, outcome, err);
-    progress_clear(&run->work->progress);
-    cli_print_warnings(run->problems);
-    if (!is_run) return false;
-    outcome->review.is_strict = folder->is_strict;
-    review_decide(&outcome->review);
-    return make_later(run, folder, outcome, arena, err);
-}
-
-static bool make_all(ReviewRun *run, ReviewFolder *folder, ReviewWatch *watch,
+static bool make_all(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
                      ReviewOutcome *outcome, Arena *arena, Error *err)
 {
-    Inherited *inherited = run->request->is_compared ? inherited_start(run->request) : NULL;
-    run->means.inherited = inherited;
-    review_riders_start(run, !folder->is_alone, arena);
-    bool ok = make_watched(run, folder, watch, outcome, arena, err);
-    review_riders_end(run);
-    run->means.inherited = NULL;
-    inherited_end(inherited);
+    SoFar so_far = {.folder = folder, .arena = arena, .watch = words->watch,
+                    .problems = run->problems, .shown_s = monotonic_seconds()};
+    const ReviewSteps steps = {.is_strict = words->is_strict,
+                               .with_sensitivities = !words->is_alone, .mend = folder->mend,
+                               .on_step = write_step, .user = &so_far};
+    run->news = (ReviewNews){write_so_far, note_files, &so_far};
+    bool ok = review_run(run, &steps, arena, outcome, err);
+    progress_clear(&run->work->progress);
+    if (!so_far.has_tables) cli_print_warnings(run->problems);
     return ok;
 }
 
@@ -344,7 +275,7 @@ static bool take_found(const ReviewFolder *folder, const ReviewTask *task, Arena
                        Error *err)
 {
     if (!task) return true;
-    review_take_answers(folder->draft.journal, task, scratch);
+    review_take_answers(folder->draft.journal, task);
     return !folder->has_own_responses ||
            review_take_responses(folder->responses, task, scratch, err);
 }
@@ -365,8 +296,7 @@ static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
     run->means.journal = folder->draft.journal;
     if (!run->means.lessons) run->means.lessons = folder->draft.unfinished;
     if (!take_found(folder, words->task, *arena, err) ||
-        !make_all(run, folder, words->watch, &outcome, arena, err)) {
-        progress_clear(&run->work->progress);
+        !make_all(words, folder, run, &outcome, arena, err)) {
         if (err->code > 128) report_stopped(folder, err, arena);
         else tell_kept(folder, err);
         review_folder_close(folder);
@@ -426,7 +356,8 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
     const Profile *profile;
     ReviewFolder   folder = {.target = words->folder, .request = &request, .diff = words->diff,
                              .profile = words->profile, .root = words->root,
-                             .state = words->state, .responses = words->responses,
+                             .state_text = state_options_text(&words->state, arena),
+                             .responses = words->responses,
                              .threads = words->cli.threads,
                              .is_strict = words->is_strict,
                              .summary = words->summary, .is_alone = words->is_alone,

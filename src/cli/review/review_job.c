@@ -17,10 +17,10 @@
 #include "review/pace/work.h"
 #include "review/run/run.h"
 
-void review_take_answers(Journal *journal, const ReviewTask *task, Arena scratch)
+void review_take_answers(Journal *journal, const ReviewTask *task)
 {
     for (int i = 0; i < task->found_count; i++)
-        journal_take_over(journal, task->found[i], scratch);
+        journal_take_over(journal, task->found[i]);
 }
 
 static bool copy(const char *from, const char *to, Arena scratch, Error *err)
@@ -51,8 +51,8 @@ static bool answer(ReviewRun *run, const ReviewTask *task, Arena *arena, Error *
 {
     ReviewOutcome ignored;
     const char    done = 1;
-    review_take_answers(run->means.journal, task, *arena);
-    bool is_run = review_run(run, arena, &ignored, err);
+    review_take_answers(run->means.journal, task);
+    bool is_run = review_run_conditions(run, arena, &ignored, err);
     cli_print_warnings(run->problems);
     if (!is_run) return false;
     journal_add(run->means.journal, task->mark, &done, sizeof done);

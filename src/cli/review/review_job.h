@@ -8,8 +8,8 @@
  */
 #pragma once
 #include "cli/options/cli.h"
-#include "cli/review/review_folder.h"
 #include "job/job_share.h"
+#include "review/folder/review_folder.h"
 #include "review/run/job.h"
 #include "review/run/run.h"
 
@@ -34,7 +34,7 @@ bool review_part(ReviewRun *run, const ReviewTask *task, const char *responses, 
                  Error *err);
 
 /* Takes the answers found before, as far as they are whole. */
-void review_take_answers(Journal *journal, const ReviewTask *task, Arena scratch);
+void review_take_answers(Journal *journal, const ReviewTask *task);
 
 /* The parts' responses, into a folder of the review's own. */
 bool review_take_responses(const char *folder, const ReviewTask *task, Arena scratch,

@@ -6,13 +6,13 @@
 
 #include "print/print.h"
 #include "cli/options/answer.h"
-#include "review/output/review_decide.h"
 #include "review/output/review_facts.h"
 #include "review/output/review_gaze.h"
 #include "review/output/review_json.h"
 #include "review/output/review_rests.h"
 #include "review/output/review_variants.h"
 #include "review/output/review_words.h"
+#include "review/review_decide.h"
 #include "text/interval_text.h"
 
 /* A row has one quantity: that of the limit which decides it. */

@@ -61,10 +61,8 @@ void shot_ramp_gradient(Text *html, bool is_signed)
     enum { STOPS = 16 };
     Ramp ramp;
     make_ramp(is_signed, &ramp);
-    text_add(html, "style=\"background:linear-gradient(to right");
     for (int i = 0; i <= STOPS; i++)
         add_colour(html, ",#", ramp.colour[i * (RAMP_COLOURS - 1) / STOPS]);
-    text_add(html, ")\"");
 }
 
 /* ---- smaller ----------------------------------------------------------------------------- */

@@ -44,5 +44,5 @@ Picture shot_thumbnail(const Comparison *c, ShotKind kind, int side, Arena *aren
 /* The colours of a ramp from left to right, as "rrggbb" 256 times. */
 void shot_ramp_digits(Text *text, bool is_signed);
 
-/* style="background:linear-gradient(...)" of a ramp. */
+/* The stops of a ramp as a gradient of CSS: ",#rrggbb,...". */
 void shot_ramp_gradient(Text *html, bool is_signed);

@@ -9,8 +9,10 @@
 #include "base/count.h"
 #include "base/file.h"
 #include "compare/comparison.h"
+#include "compare/report/comparison_json.h"
 #include "compare/report/html_pictures.h"
 #include "page/page.h"
+#include "text/json_text.h"
 #include "text/text.h"
 
 #define PAIR_PIXELS 4000000L   /* of a picture in a report of two files */
@@ -18,9 +20,6 @@
 #define THUMBNAIL 240
 #define MOST_BYTES ((size_t)16 << 30) /* of address space for each text */
 #define FRAME_BYTES ((size_t)1 << 28) /* for what stands around the pairs */
-
-/* report.css and report.js beside this file; the build embeds them. */
-extern const char COMPARE_STYLE[], COMPARE_SCRIPT[];
 
 /* The index and the pairs grow side by side, each in an arena of its own. */
 void html_report_start(HtmlReport *report, bool is_folder)
@@ -45,7 +44,7 @@ bool html_report_check_name(const char *path, Error *err)
                                        ".html", path);
 }
 
-/* ---- tables of metrics, regions, displays and metadata ----------------------------------- */
+/* ---- metrics ----------------------------------------------------------------------------- */
 
 #define KEYS_OF_DISPLAYS 6
 
@@ -74,21 +73,33 @@ static const Threshold *limit_of(const CompareOptions *options, Metric metric)
     return NULL;
 }
 
-/* ---- what is looked at first ------------------------------------------------------------- */
-
-static void add_key(Text *html, const Comparison *c, const CompareOptions *options,
-                    Metric metric)
+/* Nothing of one that was not computed, unless it has a limit. */
+static void add_metric(json_t *list, const Comparison *c, const CompareOptions *options,
+                       Metric metric)
 {
-    char              text[64], wanted[64], name[192];
+    char              text[64];
     const Threshold  *limit = limit_of(options, metric);
     const MetricInfo *info = metric_info(metric);
     double            value = c->value[metric];
     if (isnan(value) && !limit) return;
-    snprintf(name, sizeof name, "%s%s%s", info->label,
-             !limit ? "" : info->is_min ? ", at least " : ", at most ",
-             limit ? value_text(c, metric, limit->limit, wanted) : "");
-    page_key(html, value_text(c, metric, value, text), name,
-             limit && !threshold_holds(*limit, value));
+    json_t *to = page_add(list);
+    page_set(to, "label", info->label);
+    page_set(to, "value", value_text(c, metric, value, text));
+    page_set(to, "limit", limit ? value_text(c, metric, limit->limit, text) : NULL);
+    page_set_flag(to, "is_min", info->is_min);
+    page_set_flag(to, "is_over", limit && !threshold_holds(*limit, value));
+}
+
+/* All of them, and the few that are looked at first. */
+static void set_metrics(json_t *to, const Comparison *c, const CompareOptions *options)
+{
+    static const Metric KEYS[] = {METRIC_MEAN_SHIFT,  METRIC_P_VALUE, METRIC_FLIP,
+                                  METRIC_DELTAE_MEAN, METRIC_PSNR,    METRIC_SSIM};
+    json_t *keys = json_array(), *rows = json_array();
+    for (int i = 0; i < COUNT_OF(KEYS); i++) add_metric(keys, c, options, KEYS[i]);
+    for (int i = 0; i < METRIC_COUNT; i++) add_metric(rows, c, options, (Metric)i);
+    json_object_set_new(to, "keys", keys);
+    json_object_set_new(to, "metric_rows", rows);
 }
 
 static void change_text(Measured ratio, char text[64])
@@ -98,289 +109,128 @@ static void change_text(Measured ratio, char text[64])
     else snprintf(text, 64, "%+.3g ± %.2g %%", change, 100 * measured_half_width(ratio));
 }
 
-static void add_contrast_key(Text *html, const ContrastChange *d, const Threshold *limit)
+static void set_contrasts(json_t *to, const Comparison *c, const CompareOptions *options)
 {
-    char value[64], change[64], name[256];
-    change_text(d->ratio, change);
-    snprintf(value, sizeof value, "%.3g → %.3g", d->reference.contrast.value,
-             d->test.contrast.value);
-    snprintf(name, sizeof name, "contrast of %.120s, %s", d->display, change);
-    page_key(html, value, name, limit && !threshold_holds(*limit, d->ratio.value - 1));
-}
-
-/* The few metrics that are looked at first. */
-static void html_add_keys(Text *html, const Comparison *c, const CompareOptions *options)
-{
-    static const Metric KEYS[] = {METRIC_MEAN_SHIFT,  METRIC_P_VALUE, METRIC_FLIP,
-                                  METRIC_DELTAE_MEAN, METRIC_PSNR,    METRIC_SSIM};
-    if (!c->has_pixels) return;
-    page_keys_begin(html);
-    for (int i = 0; i < c->contrast_count && i < KEYS_OF_DISPLAYS; i++)
-        add_contrast_key(html, &c->contrasts[i], limit_of(options, METRIC_CONTRAST_CHANGE));
-    for (int i = 0; i < COUNT_OF(KEYS); i++) add_key(html, c, options, KEYS[i]);
-    page_keys_end(html);
-}
-
-/* ---- tables ------------------------------------------------------------------------------ */
-
-static void add_metrics(Text *html, const Comparison *c, const CompareOptions *options)
-{
-    static const PageColumn COLUMNS[] = {
-        {"metric", false, NULL}, {"value", true, NULL}, {"limit", true, NULL},
-        {"", false, NULL}};
-    page_table_begin(html, "Metrics", "", COLUMNS, COUNT_OF(COLUMNS));
-    for (int i = 0; i < METRIC_COUNT; i++) {
-        char             text[64];
-        const Threshold *limit = limit_of(options, (Metric)i);
-        const MetricInfo *info = metric_info((Metric)i);
-        if (isnan(c->value[i]) && !limit) continue;
-        bool holds = !limit || threshold_holds(*limit, c->value[i]);
-        page_row_begin(html, "");
-        page_cell(html, "", info->label);
-        page_cell(html, holds ? "n" : "n bad", value_text(c, (Metric)i, c->value[i], text));
-        if (limit)
-            page_cell_format(html, "n", "%s %s", info->is_min ? "≥" : "≤",
-                             value_text(c, (Metric)i, limit->limit, text));
-        else
-            page_cell(html, "", "");
-        page_cell(html, holds ? "good" : "bad", !limit ? "" : holds ? "within" : "beyond");
-        page_row_end(html);
-    }
-    page_table_end(html);
-}
-
-static void add_regions(Text *html, const StatisticResult *s)
-{
-    static const PageColumn COLUMNS[] = {
-        {"region", false, NULL}, {"reference", true, NULL}, {"test", true, NULL},
-        {"change", true, NULL},
-        {"in proportion", true, "one factor for all pixels: the surer count more"},
-        {"p", true, NULL}, {"", false, NULL}};
-    page_table_begin(html, "Means in cd/m², tested one by one", "", COLUMNS, COUNT_OF(COLUMNS));
-    for (int i = 0; i < s->region_count; i++) {
-        const StatisticRegion *r = &s->regions[i];
-        page_row_begin(html, "");
-        page_cell(html, "", r->name);
-        page_cell_format(html, "n", "%.4g", r->reference);
-        page_cell_format(html, "n", "%.4g", r->test);
-        page_cell_format(html, "n", "%+.2g ± %.2g %%", 100 * r->shift, 196 * r->shift_sigma);
-        page_cell_format(html, "n", "%+.2g ± %.2g %%", 100 * r->change, 196 * r->change_sigma);
-        page_cell_format(html, "n", "%.2g", r->p_value);
-        page_cell(html, r->moved ? "bad" : "good", r->moved ? "moved" : "noise");
-        page_row_end(html);
-    }
-    page_table_end(html);
-}
-
-static void add_displays(Text *html, const Comparison *c)
-{
-    static const PageColumn COLUMNS[] = {
-        {"display", false, NULL}, {"reference", true, NULL}, {"test", true, NULL},
-        {"change", true, NULL}, {"reflected, cd/m²", true, NULL}};
-    page_table_begin(html, "Contrast of the displays", "", COLUMNS, COUNT_OF(COLUMNS));
+    const Threshold *limit = limit_of(options, METRIC_CONTRAST_CHANGE);
+    json_t          *list = json_array();
     for (int i = 0; i < c->contrast_count; i++) {
         char                  change[64];
         const ContrastChange *d = &c->contrasts[i];
+        bool    is_over = limit && !threshold_holds(*limit, d->ratio.value - 1);
+        json_t *item = page_add(list);
         change_text(d->ratio, change);
-        page_row_begin(html, "");
-        page_cell(html, "", d->display);
-        page_cell_format(html, "n", "%.4g : 1", d->reference.contrast.value);
-        page_cell_format(html, "n", "%.4g : 1", d->test.contrast.value);
-        page_cell(html, "n", change);
-        page_cell_format(html, "n", "%.4g → %.4g", d->reference.reflected, d->test.reflected);
-        page_row_end(html);
+        page_set(item, "display", d->display);
+        page_set(item, "change", change);
+        page_set_flag(item, "is_key", i < KEYS_OF_DISPLAYS);
+        page_set_flag(item, "is_over", is_over);
+        json_object_set_new(item, "before", json_figure(d->reference.contrast.value));
+        json_object_set_new(item, "after", json_figure(d->test.contrast.value));
+        json_object_set_new(item, "reflected_before", json_figure(d->reference.reflected));
+        json_object_set_new(item, "reflected_after", json_figure(d->test.reflected));
     }
-    page_table_end(html);
+    json_object_set_new(to, "contrasts", list);
+    page_set_flag(to, "has_contrasts", c->contrast_count > 0);
 }
 
-static void add_channels(Text *html, const ChannelDifferences *channels)
+/* Half a 95 % interval is 1.96 standard errors. */
+static void set_change(json_t *to, const char *name, double change, double sigma)
 {
-    static const PageColumn COLUMNS[] = {
-        {"channel", false, NULL}, {"pixels", true, NULL}, {"mean", true, NULL},
-        {"greatest", true, NULL}, {"not finite", true, NULL}};
-    page_table_begin(html, "", "", COLUMNS, COUNT_OF(COLUMNS));
+    char text[64];
+    snprintf(text, sizeof text, "%+.2g ± %.2g %%", 100 * change, 196 * sigma);
+    page_set(to, name, text);
+}
+
+static void set_regions(json_t *to, const StatisticResult *s)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < s->region_count; i++) {
+        const StatisticRegion *r = &s->regions[i];
+        json_t                *item = page_add(list);
+        page_set(item, "name", r->name);
+        json_object_set_new(item, "reference", json_figure(r->reference));
+        json_object_set_new(item, "test", json_figure(r->test));
+        json_object_set_new(item, "p", json_figure(r->p_value));
+        page_set_flag(item, "moved", r->moved);
+        set_change(item, "shift", r->shift, r->shift_sigma);
+        set_change(item, "change", r->change, r->change_sigma);
+    }
+    json_object_set_new(to, "regions", list);
+    page_set_flag(to, "has_regions", s->region_count > 0);
+}
+
+static void set_channels(json_t *to, const ChannelDifferences *channels)
+{
+    json_t *list = json_object_get(to, "channels");
     for (int i = 0; i < channels->count; i++) {
         const ChannelDifference *c = &channels->list[i];
-        long wrong = c->nonfinite[0] + c->nonfinite[1] + c->gaps;
-        if (c->differing == 0) continue;
-        page_row_begin(html, "");
-        page_cell(html, "", c->name);
-        page_cell_format(html, "n", "%ld", c->differing);
-        page_cell_format(html, "n", "%.4g", c->mean);
-        page_cell_format(html, "n", "%.4g", c->max);
-        page_cell_format(html, wrong ? "n bad" : "n", "%ld", wrong);
-        page_row_end(html);
+        page_set_count(json_array_get(list, (size_t)i), "wrong",
+                       c->nonfinite[0] + c->nonfinite[1] + c->gaps);
     }
-    page_table_end(html);
-}
-
-/* All metrics with their limits; regions; displays; channels. */
-static void html_add_tables(Text *html, const Comparison *c, const CompareOptions *options)
-{
-    if (!c->has_pixels) return;
-    if (c->has_stat && c->stat.region_count > 0) add_regions(html, &c->stat);
-    text_add(html, "<div class=\"tables\"><div>\n");
-    if (c->contrast_count > 0) {
-        add_displays(html, c);
-        text_add(html, "</div><div>\n");
-    }
-    add_metrics(html, c, options);
-    text_add(html, "</div></div>\n");
-    if (c->channels.differing == 0) return;
-    page_more_begin(html, "channels that differ");
-    add_channels(html, &c->channels);
-    page_more_end(html);
 }
 
 /* ---- notes and metadata ------------------------------------------------------------------ */
 
-static void add_metadata_row(Text *html, const MetadataRow *row)
+/* What differs is in the answer already; what does not is folded. */
+static void set_notes(json_t *to, const Comparison *c)
 {
-    page_row_begin(html, row->differs ? "" : "same");
-    page_cell(html, "", strncmp(row->name, "parhelion:", 10) ? row->name : row->name + 10);
-    page_cell_long(html, row->reference ? row->reference : "–");
-    page_cell_long(html, row->test ? row->test : "–");
-    page_cell(html, "", !row->differs    ? ""
-                        : row->is_ignored ? "ignored"
-                        : row->decides    ? "decides"
-                                          : "explains");
-    page_row_end(html);
-}
-
-/* Either the rows that differ or those that do not. */
-static void add_metadata_table(Text *html, const Structure *structure, bool differing)
-{
-    static const PageColumn COLUMNS[] = {
-        {"metadata", false, NULL}, {"reference", false, NULL}, {"test", false, NULL},
-        {"", false, NULL}};
-    page_table_begin(html, "", "meta", COLUMNS, COUNT_OF(COLUMNS));
-    for (int i = 0; i < structure->metadata_count; i++)
-        if (structure->metadata[i].differs == differing)
-            add_metadata_row(html, &structure->metadata[i]);
-    page_table_end(html);
-}
-
-static void add_metadata(Text *html, const Structure *structure)
-{
-    int differing = 0;
-    for (int i = 0; i < structure->metadata_count; i++)
-        differing += structure->metadata[i].differs;
-    if (differing > 0) add_metadata_table(html, structure, true);
-    if (differing == structure->metadata_count) return;
-    page_more_begin(html, "metadata that is the same");
-    add_metadata_table(html, structure, false);
-    page_more_end(html);
-}
-
-/* Notes, and the metadata of both sides: what differs first. */
-static void html_add_notes(Text *html, const Comparison *c)
-{
-    if (c->notes.count > 0) {
-        page_element(html, "h3", "Notes");
-        page_list(html, "notes", c->notes.list, c->notes.count);
+    const Structure *structure = &c->structure;
+    json_t          *alike = json_array(), *row;
+    size_t           i;
+    json_array_foreach(json_object_get(to, "metadata"), i, row) {
+        const char *name = json_string_value(json_object_get(row, "name"));
+        if (!strncmp(name, "parhelion:", 10)) page_set(row, "name", name + 10);
     }
-    if (c->structure.metadata_count > 0) add_metadata(html, &c->structure);
-}
-
-/* ---- one pair ---------------------------------------------------------------------------- */
-
-static void add_scale(Text *html, const ShotScale *scale)
-{
-    bool names_unit = scale->is_signed && scale->unit[0];
-    text_add(html, "<div class=\"scale\"><i ");
-    shot_ramp_gradient(html, scale->is_signed);
-    text_add(html, "></i><div>");
-    for (int i = 0; i < 5; i++) {
-        text_add(html, "<span>");
-        escape_markup(html, scale->ticks[i]);
-        text_add(html, i == 4 && names_unit ? " " : "");
-        escape_markup(html, i == 4 && names_unit ? scale->unit : "");
-        text_add(html, "</span>");
+    for (int k = 0; k < structure->metadata_count; k++) {
+        const MetadataRow *m = &structure->metadata[k];
+        if (m->differs) continue;
+        row = page_add(alike);
+        page_set(row, "name", strncmp(m->name, "parhelion:", 10) ? m->name : m->name + 10);
+        page_set(row, "reference", m->reference ? m->reference : "–");
+        page_set(row, "test", m->test ? m->test : "–");
     }
-    text_add(html, "</div>");
-    if (scale->also) page_element(html, "div", scale->also);
-    text_add(html, "</div>");
+    page_set_flag(to, "has_notes", c->notes.count > 0);
+    page_set_flag(to, "has_differing", json_array_size(json_object_get(to, "metadata")) > 0);
+    page_set_flag(to, "has_alike", json_array_size(alike) > 0);
+    json_object_set_new(to, "alike", alike);
+    /* The verdict states the first reason. */
+    page_set_flag(to, "has_more_reasons", c->reasons.count > 1);
+    json_array_remove(json_object_get(to, "reasons"), 0);
 }
 
-static bool add_shot(Text *html, const Shot *shot, Arena scratch, Error *err)
+/* ---- pictures ---------------------------------------------------------------------------- */
+
+static json_t *scale_values(const ShotScale *scale, Arena scratch)
+{
+    Text        gradient = {.arena = &scratch};
+    const char *ticks[5];
+    bool        names_unit = scale->is_signed && scale->unit[0];
+    shot_ramp_gradient(&gradient, scale->is_signed);
+    for (int i = 0; i < 5; i++)
+        ticks[i] = i == 4 && names_unit
+                       ? arena_format(&scratch, "%s %s", scale->ticks[i], scale->unit)
+                       : scale->ticks[i];
+    json_t *to = json_pack("{s:b, s:f, s:f, s:o}", "is_signed", scale->is_signed, "low",
+                           scale->low, "high", scale->high, "ticks", json_texts(ticks, 5));
+    page_set(to, "unit", scale->unit);
+    page_set(to, "also", scale->also);
+    page_set(to, "gradient", gradient.data);
+    return to;
+}
+
+static bool add_shot(json_t *list, const Shot *shot, Arena scratch, Error *err)
 {
     static const char *const KINDS[SHOT_COUNT] = {
         [SHOT_REFERENCE] = "reference", [SHOT_TEST] = "test", [SHOT_DIFFERENCE] = "difference",
         [SHOT_BLOCKS] = "blocks",       [SHOT_P_VALUE] = "p", [SHOT_FLIP] = "flip",
         [SHOT_DELTAE] = "deltae"};
-    text_format(html, "<figure class=\"shot\" data-kind=\"%s\"", KINDS[shot->kind]);
-    if (shot->has_scale)
-        text_format(html, " data-ramp=\"%s\" data-low=\"%.9g\" data-high=\"%.9g\" "
-                    "data-unit=\"%s\"", shot->scale.is_signed ? "signed" : "plain",
-                    shot->scale.low, shot->scale.high, shot->scale.unit);
-    text_add(html, ">");
-    page_element(html, "h3", shot->title);
-    if (!page_picture(html, shot->title, &shot->picture, false, scratch, err)) return false;
-    if (shot->has_scale) add_scale(html, &shot->scale);
-    page_element(html, "figcaption", shot->caption);
-    text_add(html, "</figure>\n");
-    return true;
-}
-
-static bool add_shots(Text *html, const Comparison *c, long most_pixels, Arena scratch,
-                      Error *err)
-{
-    int factor = shot_factor(&c->light[0], most_pixels);
-    text_format(html, "<div class=\"shots\" data-factor=\"%d\">\n", factor);
-    for (int kind = 0; kind < SHOT_COUNT; kind++) {
-        Shot  shot;
-        Arena arena = scratch;
-        if (!shot_make(c, (ShotKind)kind, factor, &arena, &shot)) continue;
-        if (!add_shot(html, &shot, arena, err)) return false;
-    }
-    text_add(html, "</div>\n");
-    if (factor > 1)
-        text_format(html, "<p class=\"sub\">The pictures are reduced to 1 : %d; the metrics "
-                    "are of all pixels.</p>\n", factor);
-    return true;
-}
-
-/* Sides that have no pixels in common, for those who wonder why. */
-static bool add_both_sides(Text *html, const Comparison *c, long most_pixels, Arena scratch,
-                           Error *err)
-{
-    text_add(html, "<div class=\"shots\">\n");
-    for (int kind = SHOT_REFERENCE; kind <= SHOT_TEST; kind++) {
-        Shot          shot;
-        Arena         arena = scratch;
-        const Planes *codes = kind == SHOT_TEST ? &c->test.codes : &c->reference.codes;
-        shot_make(c, (ShotKind)kind, shot_factor(codes, most_pixels), &arena, &shot);
-        if (!add_shot(html, &shot, arena, err)) return false;
-    }
-    text_add(html, "</div>\n");
-    return true;
-}
-
-/* <h1> begins: what follows is the verdict's sentence. */
-static void begin_verdict(Text *html, bool is_same)
-{
-    text_format(html, "<div class=\"verdict %s\"><h1><b>%s</b>: ",
-                is_same ? "same" : "different", is_same ? "Same" : "Different");
-}
-
-static void add_verdict(Text *html, const Comparison *c)
-{
-    begin_verdict(html, c->same);
-    escape_markup(html, c->verdict);
-    text_add(html, "</h1>\n");
-    if (c->mean[0]) page_element(html, "p class=\"mean\"", c->mean);
-    if (c->reasons.count > 1) /* the verdict states the first */
-        page_list(html, "reasons", c->reasons.list + 1, c->reasons.count - 1);
-    text_add(html, "</div>\n");
-}
-
-static void add_sides(Text *html, const char *reference, const char *test)
-{
-    text_add(html, "<p class=\"sub\">reference ");
-    escape_markup(html, reference);
-    text_add(html, " · test ");
-    escape_markup(html, test);
-    text_add(html, "</p>\n");
+    json_t *to = page_add(list);
+    page_set(to, "kind", KINDS[shot->kind]);
+    page_set(to, "title", shot->title);
+    page_set(to, "caption", shot->caption);
+    json_object_set_new(to, "scale",
+                        shot->has_scale ? scale_values(&shot->scale, scratch) : json_null());
+    json_t *picture = page_picture(&shot->picture, false, scratch, err);
+    return picture && !json_object_set_new(to, "picture", picture);
 }
 
 static bool has_planes(const Comparison *c)
@@ -388,77 +238,81 @@ static bool has_planes(const Comparison *c)
     return !input_is_packed(&c->reference) && !input_is_packed(&c->test);
 }
 
-static bool add_pair(Text *html, const Comparison *c, const CompareOptions *options,
-                     long most_pixels, Arena scratch, Error *err)
+/* Sides that have no pixels in common are shown all the same, for those who wonder why. */
+static bool set_shots(json_t *to, const Comparison *c, long most_pixels, Arena scratch,
+                      Error *err)
 {
-    add_verdict(html, c);
-    add_sides(html, c->reference.name, c->test.name);
-    html_add_keys(html, c, options);
-    if (!has_planes(c))
-        text_add(html, "<p class=\"sub\">Too large to be shown.</p>\n");
-    else if (c->has_pixels ? !add_shots(html, c, most_pixels, scratch, err)
-                      : !add_both_sides(html, c, most_pixels, scratch, err))
-        return false;
-    html_add_tables(html, c, options);
-    html_add_notes(html, c);
-    return true;
+    json_t *list = json_array();
+    bool    is_common = c->has_pixels && has_planes(c);
+    int     common = is_common ? shot_factor(&c->light[0], most_pixels) : 0;
+    int     kinds = !has_planes(c) ? 0 : c->has_pixels ? SHOT_COUNT : SHOT_TEST + 1;
+    bool    ok = true;
+    json_object_set_new(to, "shots", list);
+    page_set_flag(to, "is_packed", !has_planes(c));
+    page_set_count(to, "factor", common);
+    page_set_flag(to, "is_reduced", common > 1);
+    for (int kind = 0; kind < kinds && ok; kind++) {
+        Shot          shot;
+        Arena         arena = scratch;
+        const Planes *codes = kind == SHOT_TEST ? &c->test.codes : &c->reference.codes;
+        int           factor = common ? common : shot_factor(codes, most_pixels);
+        if (shot_make(c, (ShotKind)kind, factor, &arena, &shot))
+            ok = add_shot(list, &shot, arena, err);
+    }
+    return ok;
 }
 
-/* ---- folders ----------------------------------------------------------------------------- */
+/* ---- a pair ------------------------------------------------------------------------------ */
 
-/* The text below a card's picture; `more` is markup. */
-static void add_card_text(Text *html, const char *name, const char *answer, const char *why,
-                          const char *more)
+static json_t *pair_values(const HtmlReport *report, const char *name, const Comparison *c,
+                           const CompareOptions *options)
 {
-    text_add(html, "<div><strong>");
-    escape_markup(html, name);
-    text_format(html, "</strong><em>%s</em>: ", answer);
-    escape_markup(html, why);
-    text_format(html, "%s</div>", more);
+    char    id[32];
+    json_t *to = comparison_json(c, options);
+    snprintf(id, sizeof id, "pair-%d", report->count);
+    page_set(to, "id", id);
+    page_set(to, "name", name);
+    page_set_flag(to, "failed", false);
+    page_set_flag(to, "is_folder", report->is_folder);
+    page_set_flag(to, "is_open", report->shown == 0);
+    page_set_flag(to, "has_pixels", c->has_pixels);
+    set_notes(to, c);
+    if (!c->has_pixels) return to;
+    set_metrics(to, c, options);
+    set_contrasts(to, c, options);
+    set_channels(to, &c->channels);
+    page_set_flag(to, "has_regions", false);
+    if (c->has_stat) set_regions(to, &c->stat);
+    return to;
 }
 
-static bool add_card(HtmlReport *report, const char *name, const Comparison *c, Arena scratch,
+/* In the index of a folder. */
+static bool add_card(HtmlReport *report, json_t *values, const Comparison *c, Arena scratch,
                      Error *err)
 {
-    char     flip[64] = "";
-    Text    *html = &report->index;
     ShotKind kind = c->same ? SHOT_REFERENCE : SHOT_TEST;
-    text_format(html, c->same ? "<div class=\"card same\">"
-                              : "<a class=\"card\" href=\"#pair-%d\">", report->count);
+    json_object_set_new(values, "flip", json_figure(c->value[METRIC_FLIP]));
     if (has_planes(c)) {
         Picture small = shot_thumbnail(c, kind, THUMBNAIL, &scratch);
-        if (!page_picture(html, "", &small, true, scratch, err)) return false;
+        json_t *picture = page_picture(&small, true, scratch, err);
+        if (!picture) return false;
+        json_object_set_new(values, "picture", picture);
     }
-    if (!isnan(c->value[METRIC_FLIP]))
-        snprintf(flip, sizeof flip, "<br>FLIP %.3g", c->value[METRIC_FLIP]);
-    add_card_text(html, name, c->same ? "same" : "different", c->verdict, flip);
-    text_add(html, c->same ? "</div>\n" : "</a>\n");
-    return true;
-}
-
-static void begin_pair(HtmlReport *report, const char *name)
-{
-    text_format(&report->pairs, "<details class=\"pair\" id=\"pair-%d\"%s>", report->count,
-                report->shown++ == 0 ? " open" : "");
-    page_element(&report->pairs, "summary", name);
+    return page_render(&report->index, "compare_card.html", values, NULL, scratch, err);
 }
 
 bool html_report_add(HtmlReport *report, const char *name, const Comparison *c,
                      const CompareOptions *options, Arena scratch, Error *err)
 {
-    bool ok = true;
-    if (!report->is_folder) {
-        text_add(&report->pairs, "<section class=\"pair\">\n");
-        ok = add_pair(&report->pairs, c, options, PAIR_PIXELS, scratch, err);
-        text_add(&report->pairs, "</section>\n");
-    } else {
-        ok = add_card(report, name, c, scratch, err);
-        if (ok && !c->same) {
-            begin_pair(report, name);
-            ok = add_pair(&report->pairs, c, options, FOLDER_PIXELS, scratch, err);
-            text_add(&report->pairs, "</details>\n");
-        }
-    }
+    json_t *values = pair_values(report, name, c, options);
+    bool    is_shown = !report->is_folder || !c->same;
+    long    most = report->is_folder ? FOLDER_PIXELS : PAIR_PIXELS;
+    bool    ok = (!report->is_folder || add_card(report, values, c, scratch, err)) &&
+              (!is_shown ||
+               (set_shots(values, c, most, scratch, err) &&
+                page_render(&report->pairs, "pair.html", values, NULL, scratch, err)));
+    json_decref(values);
+    report->shown += is_shown;
     report->count++;
     report->different += !c->same;
     return ok;
@@ -466,62 +320,71 @@ bool html_report_add(HtmlReport *report, const char *name, const Comparison *c,
 
 void html_report_add_failure(HtmlReport *report, const char *name, const char *why)
 {
-    text_format(&report->index, "<div class=\"card\" id=\"pair-%d\">", report->count);
-    add_card_text(&report->index, name, "failed", why, "");
-    text_add(&report->index, "</div>\n");
-    report->count++;
+    char    id[32];
+    Error   none; /* its template has no format that could fail */
+    json_t *values = json_object();
+    snprintf(id, sizeof id, "pair-%d", report->count++);
     report->different++;
+    page_set(values, "id", id);
+    page_set(values, "name", name);
+    page_set(values, "why", why);
+    page_set_flag(values, "failed", true);
+    page_render(&report->index, "compare_card.html", values, NULL, (Arena){0}, &none);
+    json_decref(values);
 }
 
 /* ---- the page ---------------------------------------------------------------------------- */
 
-static void begin_page(Text *html, const char *reference, const char *test)
+/* Where cards and pairs come in: they may be large, and are not copied. */
+#define CARDS "<!-- cards -->"
+#define PAIRS "<!-- pairs -->"
+
+static bool set_page(json_t *to, const HtmlReport *report, const char *reference,
+                     const char *test, Arena *arena, Error *err)
 {
-    page_begin(html, &(PageHead){.title = arena_format(html->arena, "%s against %s",
-                                                       path_name(test), path_name(reference)),
-                                 .style = COMPARE_STYLE});
+    Text    ramps[2] = {{.arena = arena}, {.arena = arena}};
+    const char *title = arena_format(arena, "%s against %s", path_name(test),
+                                     path_name(reference));
+    for (int i = 0; i < 2; i++) shot_ramp_digits(&ramps[i], i == 1);
+    page_set(to, "reference", reference);
+    page_set(to, "test", test);
+    page_set(to, "cards", CARDS);
+    page_set(to, "pairs", PAIRS);
+    page_set(to, "plain_ramp", ramps[0].data);
+    page_set(to, "signed_ramp", ramps[1].data);
+    page_set_flag(to, "is_folder", report->is_folder);
+    page_set_flag(to, "is_one", report->count == 1);
+    page_set_count(to, "count", report->count);
+    page_set_count(to, "different", report->different);
+    return page_set_head(to, &(PageHead){.title = title, .command = "compare --report"}, err);
 }
 
-static void begin_index(Text *html, const HtmlReport *report, const char *reference,
-                        const char *test)
+/* Cuts off what stands before the mark. */
+static Text cut_at(const char **rest, const char *mark)
 {
-    begin_verdict(html, report->different == 0);
-    if (report->different)
-        text_format(html, "%d of %d pairs differ", report->different, report->count);
-    else
-        text_format(html, "%s %d pair%s", report->count == 1 ? "the" : "all", report->count,
-                    report->count == 1 ? "" : "s");
-    text_add(html, "</h1></div>\n");
-    add_sides(html, reference, test);
-    text_add(html, "<p class=\"sub only-differing\" hidden><label>"
-             "<input type=\"checkbox\" id=\"only\"> only what differs</label></p>\n"
-             "<div class=\"cards\">\n");
-}
-
-static void end_page(Text *html)
-{
-    Text ramps = {.arena = html->arena};
-    text_add(&ramps, "var ramps={\"signed\":\"");
-    shot_ramp_digits(&ramps, true);
-    text_add(&ramps, "\",\"plain\":\"");
-    shot_ramp_digits(&ramps, false);
-    text_add(&ramps, "\"};\n");
-    page_end(html, "compare --report", (const char *const[]){ramps.data, COMPARE_SCRIPT, NULL});
+    const char *at = *rest, *end = strstr(at, mark);
+    if (!end) return (Text){0};
+    *rest = end + strlen(mark);
+    return (Text){.data = (char *)(size_t)at, .size = (size_t)(end - at)};
 }
 
 bool html_report_write(const HtmlReport *report, const char *reference, const char *test,
                        const char *path, Error *err)
 {
-    Arena arena = arena_reserve(FRAME_BYTES);
-    Text  begin = {.arena = &arena}, between = {.arena = &arena}, end = {.arena = &arena};
-    begin_page(&begin, reference, test);
-    if (report->is_folder) {
-        begin_index(&begin, report, reference, test);
-        text_add(&between, "</div>\n");
+    Arena   arena = arena_reserve(FRAME_BYTES), scratch = arena_reserve(FRAME_BYTES);
+    Text    page = {.arena = &arena};
+    json_t *values = json_object();
+    bool    ok = set_page(values, report, reference, test, &scratch, err) &&
+              page_render(&page, "compare.html", values, NULL, scratch, err);
+    if (ok) {
+        const char *rest = page.data;
+        Text        begin = cut_at(&rest, CARDS), between = cut_at(&rest, PAIRS);
+        Text        end = {.data = (char *)(size_t)rest, .size = strlen(rest)};
+        ok = page_write((const Text *const[]){&begin, &report->index, &between, &report->pairs,
+                                              &end}, 5, path, err);
     }
-    end_page(&end);
-    const Text *const parts[] = {&begin, &report->index, &between, &report->pairs, &end};
-    bool ok = page_write(parts, 5, path, err);
+    json_decref(values);
+    arena_release(&scratch);
     arena_release(&arena);
     return ok;
 }

@@ -4,97 +4,66 @@
 #include <math.h>
 
 #include "page/page.h"
-#include "text/text.h"
-
-#define MOST_BYTES ((size_t)16 << 30)  /* of address space, for the cases */
-#define FRAME_BYTES ((size_t)1 << 20) /* and for what stands around them */
+#include "text/json_text.h"
 
 void junit_start(Junit *junit)
 {
-    *junit = (Junit){.own = arena_reserve(MOST_BYTES)};
-    junit->cases.arena = &junit->own;
+    *junit = (Junit){.cases = json_array()};
 }
 
 void junit_release(Junit *junit)
 {
-    arena_release(&junit->own);
+    json_decref(junit->cases);
     *junit = (Junit){0};
 }
 
-static void begin_case(Junit *junit, const char *name, double seconds)
+static json_t *add_case(Junit *junit, const char *name, double seconds)
 {
-    text_add(&junit->cases, "  <testcase classname=\"parhelion.compare\" name=\"");
-    escape_markup(&junit->cases, name);
-    text_format(&junit->cases, "\" time=\"%.3f\">\n", seconds);
-    junit->count++;
+    json_t *to = page_add(junit->cases);
+    page_set(to, "name", name);
+    json_object_set_new(to, "time", json_real(seconds));
     junit->seconds += seconds;
+    return to;
 }
 
-static void add_lines(Text *xml, const Lines *lines, const char *before)
+static json_t *metrics_values(const Comparison *c)
 {
-    for (int i = 0; i < lines->count; i++) {
-        text_add(xml, before);
-        escape_markup(xml, lines->list[i]);
-        text_add(xml, "\n");
-    }
-}
-
-static void add_properties(Text *xml, const Comparison *c)
-{
-    text_add(xml, "    <properties>\n");
+    json_t *list = json_array();
     for (int i = 0; i < METRIC_COUNT; i++)
         if (isfinite(c->value[i]))
-            text_format(xml, "      <property name=\"%s\" value=\"%.9g\"/>\n",
-                          metric_info((Metric)i)->name, c->value[i]);
-    text_add(xml, "    </properties>\n");
+            json_array_append_new(list, json_pack("{s:s, s:f}", "metric",
+                                                  metric_info((Metric)i)->name, "value",
+                                                  c->value[i]));
+    return list;
 }
 
 void junit_add(Junit *junit, const char *name, const Comparison *c)
 {
-    Text *xml = &junit->cases;
-    begin_case(junit, name, c->seconds);
-    if (c->has_pixels) add_properties(xml, c);
-    if (!c->same) {
-        junit->failures++;
-        text_add(xml, "    <failure type=\"different\" message=\"");
-        escape_markup(xml, c->verdict);
-        text_add(xml, "\">");
-        add_lines(xml, &c->reasons, "");
-        text_add(xml, "</failure>\n");
-    }
-    text_add(xml, "    <system-out>");
-    escape_markup(xml, c->mean);
-    text_add(xml, "\n");
-    add_lines(xml, &c->notes, "note: ");
-    text_add(xml, "</system-out>\n  </testcase>\n");
+    json_t *to = add_case(junit, name, c->seconds);
+    junit->failures += !c->same;
+    page_set(to, "verdict", c->verdict);
+    page_set(to, "mean", c->mean);
+    page_set_flag(to, "is_compared", true);
+    page_set_flag(to, "has_pixels", c->has_pixels);
+    page_set_flag(to, "same", c->same);
+    json_object_set_new(to, "metrics", metrics_values(c));
+    json_object_set_new(to, "reasons", json_texts(c->reasons.list, c->reasons.count));
+    json_object_set_new(to, "notes", json_texts(c->notes.list, c->notes.count));
 }
 
 void junit_add_failure(Junit *junit, const char *name, const char *why, bool is_error)
 {
-    Text *xml = &junit->cases;
-    begin_case(junit, name, 0);
+    page_set(add_case(junit, name, 0), is_error ? "unreadable" : "missing", why);
     junit->errors += is_error;
     junit->failures += !is_error;
-    text_format(xml, "    <%s type=\"%s\" message=\"", is_error ? "error" : "failure",
-                  is_error ? "unreadable" : "missing");
-    escape_markup(xml, why);
-    text_add(xml, "\"/>\n  </testcase>\n");
 }
 
 bool junit_write(const Junit *junit, const char *suite, const char *path, Error *err)
 {
-    Arena arena = arena_reserve(FRAME_BYTES);
-    Text  begin = {.arena = &arena}, end = {.arena = &arena};
-    text_format(&begin, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"%d\" "
-                "failures=\"%d\" errors=\"%d\" time=\"%.3f\">\n<testsuite name=\"",
-                junit->count, junit->failures, junit->errors, junit->seconds);
-    escape_markup(&begin, suite);
-    text_format(&begin, "\" tests=\"%d\" failures=\"%d\" errors=\"%d\" skipped=\"0\" "
-                "time=\"%.3f\">\n  <properties>\n    <property name=\"software\" "
-                "value=\"parhelion %s\"/>\n  </properties>\n", junit->count, junit->failures,
-                junit->errors, junit->seconds, PARHELION_VERSION);
-    text_add(&end, "</testsuite>\n</testsuites>\n");
-    bool ok = page_write((const Text *const[]){&begin, &junit->cases, &end}, 3, path, err);
-    arena_release(&arena);
-    return ok;
+    json_t *values = json_pack("{s:i, s:i, s:f, s:O?}", "failures", junit->failures, "errors",
+                               junit->errors, "seconds", junit->seconds, "cases", junit->cases);
+    page_set(values, "version", PARHELION_VERSION);
+    page_set(values, "suite", suite);
+    page_set_count(values, "count", (long)json_array_size(junit->cases));
+    return page_write_values("compare_junit.xml", values, NULL, path, err);
 }

@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* junit.h -- the answer of a comparison as JUnit XML, which every CI service shows.
  *
- * Well-formed for any names. Memory: owns the address space of its text until
- * junit_release. Threads: one thread at a time.
+ * Well-formed for any names: assets/pages/compare_junit.xml.
+ *
+ * Memory   its cases are jansson's, until junit_release. Threads: one thread at a time.
  * Fails    when the file cannot be written.
  */
 #pragma once
+#include <jansson.h>
+
 #include "compare/comparison.h"
-#include "text/text.h"
 
 typedef struct Junit {
-    Arena  own; /* of the text */
-    Text   cases;
-    int    count, failures, errors;
-    double seconds;
+    json_t *cases;
+    int     failures, errors;
+    double  seconds;
 } Junit;
 
-/* It must stay where it is until it is released. */
 void junit_start(Junit *junit);
 void junit_release(Junit *junit);
 

@@ -43,9 +43,9 @@ static bool leave_by_way(PathCollector *c, PathState *path)
     return true;
 }
 
-static const CollectorKind way_kind = {.size = sizeof(DistantWay),
-                                       .vertex = collector_asks_nobody,
-                                       .refuse = refuse, .escape = leave_by_way};
+static const CollectorKind way_kind = {
+    .size = sizeof(DistantWay),
+    .steer = {.vertex = collector_no_lights, .refuse = refuse, .escape = leave_by_way}};
 
 /* Sends a way into a direction that the surface scatters to; its mirror direction is followed
  * by the path itself. */
@@ -153,8 +153,9 @@ static bool leave(PathCollector *c, PathState *path)
 
 DistantCollector distant_collector(const PathDistant *distant)
 {
-    static const CollectorKind kind = {.size = sizeof(DistantCollector), .vertex = ask,
-                                       .choose = choose_mirror, .turn = turn_from,
-                                       .escape = leave};
+    static const CollectorKind kind = {
+        .size = sizeof(DistantCollector),
+        .steer = {.vertex = ask, .choose = choose_mirror, .escape = leave},
+        .turn = turn_from};
     return (DistantCollector){{&kind, NULL}, distant, false};
 }

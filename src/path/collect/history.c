@@ -164,9 +164,9 @@ static void on_light(PathCollector *c, PathState *path, const PathFound *found)
 HistoryCollector history_collector(const PathListener *listener, PathCollector *next)
 {
     static const CollectorKind kind = {
-        .size = sizeof(HistoryCollector), .start = start, .meet = meet, .behind = behind,
-        .turn = turn, .vertex = ask_less, .choose = choose_mirror, .refuse = refuse_beyond,
-        .on_light = on_light};
+        .size = sizeof(HistoryCollector),
+        .steer = {.vertex = ask_less, .choose = choose_mirror, .refuse = refuse_beyond},
+        .start = start, .meet = meet, .behind = behind, .turn = turn, .on_light = on_light};
     return (HistoryCollector){{&kind, next}, history_start(), listener, NULL};
 }
 
@@ -191,8 +191,9 @@ static bool add_image(PathCollector *c, PathState *path)
 HistoryCollector image_collector(const PathImages *images)
 {
     static const CollectorKind kind = {
-        .size = sizeof(HistoryCollector), .start = start, .meet = meet, .behind = behind,
-        .turn = turn, .vertex = collector_asks_nobody, .refuse = refuse_scattered,
-        .escape = add_image};
+        .size = sizeof(HistoryCollector),
+        .steer = {.vertex = collector_no_lights, .refuse = refuse_scattered,
+                  .escape = add_image},
+        .start = start, .meet = meet, .behind = behind, .turn = turn};
     return (HistoryCollector){{&kind, NULL}, history_start(), NULL, images};
 }

@@ -2,7 +2,7 @@
 /* HOT: no allocation, no lock, no libm. */
 #include "path/collect/lesson.h"
 
-#include "light/ray_ends.h"
+#include "scene/point/ray_ends.h"
 
 /* The place alone counts, not its light. */
 static bool note_place(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
@@ -24,8 +24,9 @@ static bool ask_for_no_light(PathCollector *c, PathState *path)
 
 LessonPlaces lesson_places(PathPlaces *out)
 {
-    static const CollectorKind kind = {.size = sizeof(LessonPlaces), .vertex = note_place,
-                                       .escape = ask_for_no_light};
+    static const CollectorKind kind = {
+        .size = sizeof(LessonPlaces),
+        .steer = {.vertex = note_place, .escape = ask_for_no_light}};
     out->count = 0;
     return (LessonPlaces){{&kind, NULL}, out};
 }
@@ -59,8 +60,9 @@ static bool has_ended(PathCollector *c, PathState *path, const Surface *surface,
 
 LessonSky lesson_sky(float *sky_cd_m2)
 {
-    static const CollectorKind kind = {.size = sizeof(LessonSky), .sky = take_sky,
-                                       .vertex = ends_at, .refuse = has_ended};
+    static const CollectorKind kind = {
+        .size = sizeof(LessonSky),
+        .steer = {.sky = take_sky, .vertex = ends_at, .refuse = has_ended}};
     *sky_cd_m2 = 0;
     return (LessonSky){.base = {&kind, NULL}, .sky_cd_m2 = sky_cd_m2};
 }

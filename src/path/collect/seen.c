@@ -158,9 +158,10 @@ static void count(PathCollector *c, PathState *path, PathFound *found)
 
 static PolarisedRows polarised_rows(const PolarisedEye *eye, float *stokes, PathCollector *next)
 {
-    static const CollectorKind kind = {.size = sizeof(PolarisedRows), .start = start_rows,
-                                       .see = see, .leave = leave, .pass = pass,
-                                       .count = count};
+    static const CollectorKind kind = {
+        .size = sizeof(PolarisedRows),
+        .steer = {.count = count},
+        .start = start_rows, .see = see, .leave = leave, .pass = pass};
     PolarisedRows rows = {.base = {&kind, next}, .eye = eye, .stokes = stokes};
     return rows;
 }
@@ -195,8 +196,9 @@ bool pixel_ray_is_wanted(const PathContext *context)
 
 PixelRay pixel_ray(PathCollector *next)
 {
-    static const CollectorKind kind = {.size = sizeof(PixelRay), .start = start_pixel,
-                                       .turn = turn_pixel, .footprint = footprint};
+    static const CollectorKind kind = {
+        .size = sizeof(PixelRay), .start = start_pixel, .turn = turn_pixel,
+        .footprint = footprint};
     return (PixelRay){.base = {&kind, next}};
 }
 
@@ -267,9 +269,9 @@ static void finish_part(PathCollector *c, PathState *path)
 
 static ReflectedPart display_part(PartShare *share_of, float xyz[3], PathCollector *next)
 {
-    static const CollectorKind kind = {.size = sizeof(ReflectedPart), .of_first = true,
-                                       .turn = turn_part,
-                                       .on_light = add_to_part, .finish = finish_part};
+    static const CollectorKind kind = {
+        .size = sizeof(ReflectedPart), .of_first = true, .turn = turn_part,
+        .on_light = add_to_part, .finish = finish_part};
     return (ReflectedPart){.base = {&kind, next}, .share_of = share_of,
                          .share = spectrum_all(0), .xyz = xyz};
 }

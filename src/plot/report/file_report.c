@@ -7,6 +7,8 @@
 
 #include "page/page.h"
 #include "plot/draw/ticks.h"
+#include "plot/report/report_table.h"
+#include "text/json_text.h"
 
 /* ---- the panel's own report --------------------------------------------------------------
  *
@@ -115,42 +117,32 @@ static const char *value_text(const json_t *value, Style style, Arena *arena)
 
 /* ---- the table of tables ---------------------------------------------------------------- */
 
-static void add_row(Text *html, const json_t *keys, const json_t *row, const char *kind,
+static void add_row(json_t *rows, const json_t *keys, const json_t *row, bool is_total,
                     Arena scratch)
 {
     const char *key;
-    json_t     *unused;
-    page_row_begin(html, kind);
+    json_t     *unused, *cells = report_add_row(rows, is_total);
     json_object_foreach((json_t *)keys, key, unused) {
         const json_t *value = json_object_get(row, key);
-        page_cell(html, json_is_number(value) ? "n" : "",
-                  value_text(value, word_of(key).style, &scratch));
+        report_add_cell(cells, value_text(value, word_of(key).style, &scratch),
+                        json_is_number(value));
     }
-    page_row_end(html);
 }
 
-static void add_rows(Text *html, const json_t *rows, const json_t *total, Arena scratch)
+/* Of objects of the same keys, with their total. */
+static json_t *table_values(const json_t *list, const json_t *total, Arena scratch)
 {
     size_t      i;
-    json_t     *row, *value;
+    json_t     *row, *value, *to = json_object(), *columns = json_array(), *rows = json_array();
     const char *key;
-    json_t     *first = json_array_get(rows, 0);
-    PageColumn *columns = ARENA_NEW(&scratch, PageColumn, json_object_size(first));
-    int         count = 0;
-    json_object_foreach(first, key, value) columns[count++] =
-        (PageColumn){readable(word_of(key).name, &scratch), json_is_number(value), NULL};
-    page_table_begin(html, "", "", columns, count);
-    json_array_foreach(rows, i, row) add_row(html, first, row, "", scratch);
-    if (total) add_row(html, first, total, "total", scratch);
-    page_table_end(html);
-}
-
-/* With its totals. */
-static void add_tables(Text *html, const json_t *report, Arena scratch)
-{
-    const json_t *tables = json_object_get(report, "tables");
-    if (!json_is_object(json_array_get(tables, 0))) return;
-    add_rows(html, tables, json_object_get(report, "total"), scratch);
+    json_t     *first = json_array_get(list, 0);
+    json_object_foreach(first, key, value)
+        report_add_column(columns, readable(word_of(key).name, &scratch),
+                          json_is_number(value));
+    json_array_foreach(list, i, row) add_row(rows, first, row, false, scratch);
+    if (total) add_row(rows, first, total, true, scratch);
+    report_set_columns(to, "", columns, rows);
+    return to;
 }
 
 /* ---- everything else -------------------------------------------------------------------- */
@@ -171,75 +163,71 @@ static bool is_all_zero(const json_t *list)
     return true;
 }
 
-static void add_definitions(Text *html, const json_t *object, Arena scratch)
+static bool is_shown(const char *key, const json_t *value)
+{
+    bool is_empty = (json_is_string(value) && !*json_string_value(value)) ||
+                    json_is_null(value) || !strcmp(key, "notes") || !strcmp(key, "reasons") ||
+                    (json_is_array(value) && is_all_zero(value));
+    return is_plain(value) && !is_empty;
+}
+
+static json_t *add_list(json_t *lists, const char *title)
+{
+    json_t *to = page_add(lists);
+    page_set(to, "title", title);
+    page_set(to, "columns_of", NULL);
+    page_set_flag(to, "has_facts", false);
+    return to;
+}
+
+static void set_facts(json_t *to, const json_t *object, Arena scratch)
 {
     const char *key;
-    json_t     *value;
-    text_add(html, "<table class=\"list\"><tbody>\n");
+    json_t     *value, *facts = json_array();
     json_object_foreach((json_t *)object, key, value) {
-        bool is_empty = (json_is_string(value) && !*json_string_value(value)) ||
-                        json_is_null(value) || !strcmp(key, "notes") ||
-                        !strcmp(key, "reasons") ||
-                        (json_is_array(value) && is_all_zero(value));
-        if (!is_plain(value) || is_empty) continue;
-        ReportWord word = word_of(key);
-        page_row_begin(html, "");
-        page_element(html, "th", readable(word.name, &scratch));
-        page_cell(html, "", value_text(value, word.style, &scratch));
-        page_row_end(html);
+        if (!is_shown(key, value)) continue;
+        json_t *fact = page_add(facts);
+        page_set(fact, "name", readable(word_of(key).name, &scratch));
+        page_set(fact, "value", value_text(value, word_of(key).style, &scratch));
     }
-    text_add(html, "</tbody></table>\n");
+    json_object_set_new(to, "facts", facts);
+    page_set_flag(to, "has_facts", true);
 }
 
 /* Everything else but the notes: choices, sizes, provenance. */
-static void add_choices(Text *html, const json_t *report, Arena scratch)
+static json_t *lists_values(const json_t *report, Arena scratch)
 {
     const char *key;
-    json_t     *value;
-    text_add(html, "<div class=\"lists\"><div>\n");
-    page_element(html, "h3", "Panel and source");
-    add_definitions(html, report, scratch);
-    text_add(html, "</div>\n");
+    json_t     *value, *lists = json_array();
+    set_facts(add_list(lists, "Panel and source"), report, scratch);
     json_object_foreach((json_t *)report, key, value) {
-        bool is_table = !strcmp(key, "tables") || !strcmp(key, "total");
-        if (is_table || is_plain(value)) continue;
-        text_add(html, "<div>");
-        page_element(html, "h3", readable(word_of(key).name, &scratch));
-        if (json_is_object(value)) add_definitions(html, value, scratch);
-        else add_rows(html, value, NULL, scratch);
-        text_add(html, "</div>\n");
+        if (!strcmp(key, "tables") || !strcmp(key, "total") || is_plain(value)) continue;
+        json_t *to = add_list(lists, readable(word_of(key).name, &scratch));
+        if (json_is_object(value)) set_facts(to, value, scratch);
+        else json_object_set_new(to, "columns_of", table_values(value, NULL, scratch));
     }
-    text_add(html, "</div>\n");
+    return lists;
 }
 
-static void add_sentences(Text *html, const char *title, const json_t *notes, Arena scratch)
+static void set_sentences(json_t *to, const char *name, const char *flag, const json_t *list,
+                          Arena scratch)
 {
-    int          count = (int)json_array_size(notes);
-    const char **texts = ARENA_NEW(&scratch, const char *, count);
-    if (count == 0) return;
-    for (int i = 0; i < count; i++)
-        texts[i] = value_text(json_array_get(notes, (size_t)i), STYLE_PLAIN, &scratch);
-    page_element(html, "h2", title);
-    page_list(html, "notes", texts, count);
+    json_t *texts = json_array();
+    for (size_t i = 0; i < json_array_size(list); i++)
+        json_array_append_new(texts, json_text(value_text(json_array_get(list, i), STYLE_PLAIN,
+                                                          &scratch)));
+    page_set_flag(to, flag, json_array_size(texts) > 0);
+    json_object_set_new(to, name, texts);
 }
 
-/* The notes as lists; nothing where there are none. */
-static void add_notes(Text *html, const json_t *report, Arena scratch)
+void report_of_file(json_t *to, const json_t *report, Arena scratch)
 {
-    const char *verdict = json_string_value(json_object_get(report, "verdict"));
-    char        title[64];
-    snprintf(title, sizeof title, "Why it is %s", verdict ? verdict : "");
-    add_sentences(html, title, json_object_get(report, "reasons"), scratch);
-    add_sentences(html, "Notes of the fit", json_object_get(report, "notes"), scratch);
-}
-
-void report_of_file(Text *html, const json_t *report, Arena scratch)
-{
-    page_element(html, "h2", "Sizes and errors, table by table");
-    page_element(html, "p class=\"sub\"", "Errors as defined above; trees are shared by "
-                 "tables, whose part is an even share.");
-    add_tables(html, report, scratch);
-    page_element(html, "h2", "Choices and provenance");
-    add_choices(html, report, scratch);
-    add_notes(html, report, scratch);
+    const json_t *tables = json_object_get(report, "tables");
+    bool          has_sizes = json_is_object(json_array_get(tables, 0));
+    json_object_set_new(to, "sizes",
+                        has_sizes ? table_values(tables, json_object_get(report, "total"),
+                                                 scratch) : json_null());
+    json_object_set_new(to, "lists", lists_values(report, scratch));
+    set_sentences(to, "reasons", "has_reasons", json_object_get(report, "reasons"), scratch);
+    set_sentences(to, "notes", "has_notes", json_object_get(report, "notes"), scratch);
 }

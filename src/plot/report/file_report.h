@@ -2,11 +2,12 @@
 /* file_report.h -- what a panel file says of itself: sizes and errors of every table, choices,
  * provenance, reasons and notes of its fit.
  *
- * Threads  one at a time per text. Fails: never.
+ * Threads  no shared state. Fails: never.
  */
 #pragma once
 #include <jansson.h>
 
-#include "text/text.h"
+#include "base/arena.h"
 
-void report_of_file(Text *html, const json_t *report, Arena scratch);
+/* Sets "sizes", "lists", "reasons" and "notes" of the page's values. */
+void report_of_file(json_t *to, const json_t *report, Arena scratch);

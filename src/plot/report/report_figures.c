@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/count.h"
 #include "base/units.h"
 #include "page/page.h"
 #include "plot/panel/sheet.h"
@@ -23,7 +24,7 @@ static void add_polar_values(Text *html, const PanelChartMap *map)
                 "\"rows\":%d,\"columns\":%d,\"unit\":\"", map->disc.x, map->disc.y,
                 map->disc.radius, degrees_from_radians(field->theta_rim), READ_ROWS,
                 READ_COLUMNS);
-    escape_markup(html, map->unit);
+    text_add(html, map->unit);
     text_add(html, "\",\"v\":[");
     for (int i = 0; i < READ_ROWS; i++)
         for (int j = 0; j < READ_COLUMNS; j++) {
@@ -50,33 +51,31 @@ static void add_chart_values(Text *html, const PanelChartMap *map, Arena *arena)
                 "\"low\":[%.9g,%.9g],\"high\":[%.9g,%.9g],\"log\":[%d,%d],\"names\":[\"",
                 map->plot.x, map->plot.y, map->plot.w, map->plot.h, map->low[0], map->low[1],
                 map->high[0], map->high[1], map->is_log[0], map->is_log[1]);
-    escape_markup(html, short_name(arena, map->axis[0]));
+    text_add(html, short_name(arena, map->axis[0]));
     text_add(html, "\",\"");
-    escape_markup(html, short_name(arena, map->axis[1]));
+    text_add(html, short_name(arena, map->axis[1]));
     text_add(html, "\"]}");
 }
 
 /* chart: the index-th of its list; a caption that the one before has is not repeated. */
-static bool add_chart(Text *html, const PanelChart *chart, int index, bool is_dark,
-                      Arena *arena, Error *err)
+static bool add_chart(json_t *list, const PanelChart *chart, int index, bool is_dark,
+                      Arena scratch, Error *err)
 {
     PlotBytes   svg = {0};
     PanelChartMap   map = {0};
-    SheetChartFrame frame = {CHART_WIDTH, CHART_HEIGHT, arena_format(arena, "f%d-", index),
+    SheetChartFrame frame = {CHART_WIDTH, CHART_HEIGHT, arena_format(&scratch, "f%d-", index),
                          is_dark};
-    if (!sheet_chart_svg(chart, &frame, arena, &svg, &map, err)) return false;
-    text_format(html, "<figure class=\"ground%s\"", is_dark ? " night" : "");
-    if (map.kind != PANEL_CHART_PLAIN) text_add(html, " data-map='");
-    if (map.kind == PANEL_CHART_POLAR) add_polar_values(html, &map);
-    else if (map.kind == PANEL_CHART_AXES) add_chart_values(html, &map, arena);
-    text_add(html, map.kind != PANEL_CHART_PLAIN ? "'>\n" : ">\n");
-    page_element(html, "h3", chart->title);
-    page_element(html, "p", chart->subtitle);
-    text_add_bytes(html, svg.data, svg.size);
-    text_add(html, "<div class=\"read\"></div>\n");
-    if (index == 0 || strcmp(chart[-1].caption, chart->caption) != 0)
-        page_element(html, "figcaption", chart->caption);
-    text_add(html, "</figure>\n");
+    if (!sheet_chart_svg(chart, &frame, &scratch, &svg, &map, err)) return false;
+    Text    values = {.arena = &scratch};
+    json_t *to = page_add(list);
+    bool    is_told = index == 0 || strcmp(chart[-1].caption, chart->caption) != 0;
+    if (map.kind == PANEL_CHART_POLAR) add_polar_values(&values, &map);
+    else if (map.kind == PANEL_CHART_AXES) add_chart_values(&values, &map, &scratch);
+    page_set(to, "map", values.data);
+    page_set(to, "title", chart->title);
+    page_set(to, "subtitle", chart->subtitle);
+    page_set(to, "caption", is_told ? chart->caption : NULL);
+    json_object_set_new(to, "drawing", json_stringn((const char *)svg.data, svg.size));
     return true;
 }
 
@@ -98,21 +97,23 @@ static bool is_in_chapter(const PanelChart *chart, int chapter)
     return chart->kind >= CHAPTERS[chapter].first && chart->kind <= CHAPTERS[chapter].last;
 }
 
-bool report_figures(Text *html, const PanelChartList *list, bool is_dark, Arena *arena,
-                         Error *err)
+bool report_figures(json_t *values, const PanelChartList *list, bool is_dark, Arena *arena,
+                    Error *err)
 {
-    for (int chapter = 0; chapter < (int)(sizeof CHAPTERS / sizeof *CHAPTERS); chapter++) {
-        bool is_open = false;
-        for (int i = 0; i < list->count; i++) {
-            if (!is_in_chapter(&list->chart[i], chapter)) continue;
-            if (!is_open) {
-                page_element(html, "h2", CHAPTERS[chapter].title);
-                text_add(html, "<div class=\"figures\">\n");
-            }
-            is_open = true;
-            if (!add_chart(html, &list->chart[i], i, is_dark, arena, err)) return false;
-        }
-        if (is_open) text_add(html, "</div>\n");
+    json_t *chapters = json_array();
+    json_object_set_new(values, "chapters", chapters);
+    for (int chapter = 0; chapter < COUNT_OF(CHAPTERS); chapter++) {
+        json_t *figures = json_array();
+        bool    ok = true;
+        for (int i = 0; i < list->count && ok; i++)
+            if (is_in_chapter(&list->chart[i], chapter))
+                ok = add_chart(figures, &list->chart[i], i, is_dark, *arena, err);
+        if (json_array_size(figures) > 0)
+            json_array_append_new(chapters, json_pack("{s:s, s:O}", "title",
+                                                      CHAPTERS[chapter].title, "figures",
+                                                      figures));
+        json_decref(figures);
+        if (!ok) return false;
     }
     return true;
 }

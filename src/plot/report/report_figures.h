@@ -5,8 +5,10 @@
  * Memory   the arena's. Threads: one at a time per arena. Fails: with cairo's reason.
  */
 #pragma once
-#include "plot/panel/panel_chart.h"
-#include "text/text.h"
+#include <jansson.h>
 
-bool report_figures(Text *html, const PanelChartList *list, bool is_dark, Arena *arena,
+#include "plot/panel/panel_chart.h"
+
+/* Sets "chapters" of the page's values. */
+bool report_figures(json_t *values, const PanelChartList *list, bool is_dark, Arena *arena,
                     Error *err);

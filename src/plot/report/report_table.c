@@ -78,35 +78,65 @@ void report_beyond(Report *report, ReportTable *table, double last_deg)
 
 /* ---- on the page ------------------------------------------------------------------------- */
 
-static void show_table(const ReportTable *table, Text *html)
+static bool is_number_column(const ReportTable *table, int c)
 {
-    PageColumn column[REPORT_COLUMNS_MAX];
-    for (int c = 0; c < table->column_count; c++) {
-        bool is_number = table->row_count && table->row[0][c].is_number;
-        for (int r = 1; r < table->row_count; r++) is_number |= table->row[r][c].is_number;
-        column[c] = (PageColumn){table->column[c].title, is_number, NULL};
-    }
-    page_table_begin(html, "", table->key, column, table->column_count);
-    for (int r = 0; r < table->row_count; r++) {
-        page_row_begin(html, "");
-        for (int c = 0; c < table->column_count; c++)
-            page_cell(html, column[c].is_number ? "n" : "", table->row[r][c].text);
-        page_row_end(html);
-    }
-    page_table_end(html);
+    bool is_number = false;
+    for (int r = 0; r < table->row_count; r++) is_number |= table->row[r][c].is_number;
+    return is_number;
 }
 
-void report_show(const Report *report, Text *html)
+void report_set_columns(json_t *to, const char *kind, json_t *columns, json_t *rows)
 {
-    for (int i = 0; i < report->count; i++) {
-        const ReportTable *table = &report->table[i];
-        text_add(html, "<section>\n");
-        page_element(html, "h2", table->title);
-        if (table->missing) page_element(html, "p class=\"missing\"", table->missing);
-        else show_table(table, html);
-        if (*table->note) page_element(html, "p class=\"sub\"", table->note);
-        text_add(html, "</section>\n");
+    page_set(to, "kind", kind);
+    json_object_set_new(to, "columns", columns);
+    json_object_set_new(to, "rows", rows);
+}
+
+void report_add_cell(json_t *cells, const char *text, bool is_number)
+{
+    json_t *cell = page_add(cells);
+    page_set(cell, "text", text);
+    page_set_flag(cell, "n", is_number);
+}
+
+json_t *report_add_row(json_t *rows, bool is_total)
+{
+    json_t *row = page_add(rows), *cells = json_array();
+    page_set_flag(row, "is_total", is_total);
+    json_object_set_new(row, "cells", cells);
+    return cells;
+}
+
+void report_add_column(json_t *columns, const char *title, bool is_number)
+{
+    json_t *column = page_add(columns);
+    page_set(column, "title", title);
+    page_set_flag(column, "n", is_number);
+}
+
+static json_t *table_values(const ReportTable *table)
+{
+    json_t *to = json_object(), *columns = json_array(), *rows = json_array();
+    page_set(to, "title", table->title);
+    page_set(to, "missing", table->missing);
+    page_set(to, "note", table->note);
+    for (int c = 0; c < table->column_count; c++)
+        report_add_column(columns, table->column[c].title, is_number_column(table, c));
+    for (int r = 0; r < table->row_count; r++) {
+        json_t *cells = report_add_row(rows, false);
+        for (int c = 0; c < table->column_count; c++)
+            report_add_cell(cells, table->row[r][c].text, is_number_column(table, c));
     }
+    report_set_columns(to, table->key, columns, rows);
+    return to;
+}
+
+json_t *report_values(const Report *report)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < report->count; i++)
+        json_array_append_new(list, table_values(&report->table[i]));
+    return list;
 }
 
 /* ---- JSON and CSV ------------------------------------------------------------------------ */

@@ -58,7 +58,13 @@ void report_figure(Report *report, ReportTable *table, double value);
 /* "> 60": not within what was measured, up to so many degrees. */
 void report_beyond(Report *report, ReportTable *table, double last_deg);
 
-void    report_show(const Report *report, Text *html);
+/* What the template panel_table.html shows; of all tables of the report, and made by hand. */
+json_t *report_values(const Report *report);
+void    report_add_column(json_t *columns, const char *title, bool is_number);
+json_t *report_add_row(json_t *rows, bool is_total); /* its cells, borrowed */
+void    report_add_cell(json_t *cells, const char *text, bool is_number);
+void    report_set_columns(json_t *to, const char *kind, json_t *columns, json_t *rows);
+
 json_t *report_json(const Report *report);
 
 /* KEY.csv of every table that is there, and report.json with `answer`, into a folder: all or

@@ -461,6 +461,14 @@ static EyeReading read_eye(const Setup *setup, const EyeLook *look, Arena scratc
     return sum_up(&paths, pupils, scratch);
 }
 
+bool eye_reading_is_sound(const EyeReading *reading)
+{
+    unsigned none;
+    memcpy(&none, &reading->glare.figures.none, sizeof none);
+    return isfinite(reading->veil) && isfinite(reading->vertical_lx) &&
+           none <= GLARE_NO_LIGHT && reading->glare.source_count >= 0;
+}
+
 EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch)
 {
     const ReadingTools   *tools = &setup->tools;
@@ -478,7 +486,8 @@ EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch)
     Question   question = {.base = tools->base, .kind = "eye", .numbers = numbers,
                            .number_count = COUNT_OF(numbers)};
     JournalKey key = question_key(&question, &aim, scratch);
-    if (journal_find(tools->journal, key, &reading, sizeof reading) && isfinite(reading.veil))
+    if (journal_find(tools->journal, key, &reading, sizeof reading) &&
+        eye_reading_is_sound(&reading))
         return reading;
     reading = read_eye(setup, look, scratch);
     journal_add(tools->journal, key, &reading, sizeof reading);

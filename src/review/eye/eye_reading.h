@@ -53,5 +53,8 @@ typedef struct EyeReading {
     GlareReading glare;        /* discomfort */
 } EyeReading;
 
+/* As a file keeps it: whether any eye may have read it. */
+bool eye_reading_is_sound(const EyeReading *reading);
+
 /* The request's observer. */
 EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch);

@@ -7,8 +7,8 @@
  *          frame begins anew.
  */
 #pragma once
+#include "keep/journal.h"
 #include "render/render.h"
-#include "review/keep/journal.h"
 
 enum { FRAME_FILES_MOST = 4 };
 

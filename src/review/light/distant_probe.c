@@ -11,117 +11,6 @@
 #include "review/light/question.h"
 #include "review/light/response_suns.h"
 
-/* ---- skies ------------------------------------------------------------------------------- */
-
-/* Close where the air mass changes fast. */
-static const double elevations[] = {-12, -9, -6, -4, -2, -1, 0,  0.5, 1,  1.5, 2,
-                                    2.5, 3,  4,  5,  6,  8,  10, 13,  16, 20,  25,
-                                    30,  36, 42, 48, 54, 60, 66, 72,  78, 84,  90};
-
-/* Those from the last at or below `low` to the first at or above `high`. */
-static int elevations_within(double low, double high, int *first)
-{
-    int last = COUNT_OF(elevations) - 1;
-    *first = 0;
-    while (*first < last && elevations[*first + 1] <= low) (*first)++;
-    while (last > *first && elevations[last - 1] >= high) last--;
-    return last - *first + 1;
-}
-
-SkyTable sky_table_start(const DaylightInput *like, double low_deg, double high_deg,
-                         Arena *arena)
-{
-    int first, count = elevations_within(low_deg, high_deg, &first);
-    return (SkyTable){*like, elevations + first,
-                      arena_alloc(arena, sizeof(float[LIGHT_BANDS]), _Alignof(float),
-                                  (size_t)count), count, 0, SKY_AZIMUTHS, NULL};
-}
-
-void sky_table_between(SkyTable *table, double low_deg, double high_deg)
-{
-    int first = (int)floor(low_deg / 360 * SKY_AZIMUTHS);
-    int last = (int)floor(high_deg / 360 * SKY_AZIMUTHS) + 1; /* to interpolate */
-    if (last - first + 1 >= SKY_AZIMUTHS) return;
-    table->first_azimuth = (first % SKY_AZIMUTHS + SKY_AZIMUTHS) % SKY_AZIMUTHS;
-    table->azimuths = last - first + 1;
-}
-
-static const Daylight *build_sky(const DaylightInput *input, Arena *arena, Error *err)
-{
-    Daylight *sky = ARENA_NEW(arena, Daylight, 1);
-    return daylight_build(input, arena, sky, err) ? sky : NULL;
-}
-
-static DaylightInput row_input(const SkyTable *table, int row)
-{
-    DaylightInput input = table->like;
-    input.has_sun = true;
-    input.sun_azimuth = 0;
-    input.sun_elevation = radians_from_degrees(table->elevation_deg[row]);
-    input.sun_lux = -1;
-    input.no_moon = true;
-    return input;
-}
-
-/* The sky of a row; its sun is noted. NULL: it failed. */
-static const Daylight *make_sky(SkyTable *table, int row, Arena *arena, Error *err)
-{
-    DaylightInput   input = row_input(table, row);
-    const Daylight *sky = table->inherited ? inherited_sky(table->inherited, &input, err)
-                           : build_sky(&input, arena, err);
-    if (sky) light_bands_sun(sky, table->sun_bands[row]);
-    return sky;
-}
-
-static bool make_suns(SkyTable *table, const Arena *arena, Error *err)
-{
-    for (int row = 0; row < table->count; row++) {
-        Arena         room = *arena;
-        DaylightInput input = row_input(table, row);
-        input.sun_alone = true;
-        const Daylight *sky = build_sky(&input, &room, err);
-        if (!sky) return false;
-        light_bands_sun(sky, table->sun_bands[row]);
-    }
-    return true;
-}
-
-/* The table's row at or below an elevation, and its share 0..1 of the way to the next. */
-static int row_of(const SkyTable *table, double elevation_deg, double *share)
-{
-    int row = 0;
-    *share = 0;
-    if (table->count == 1) return 0;
-    while (row < table->count - 2 && table->elevation_deg[row + 1] <= elevation_deg) row++;
-    double low = table->elevation_deg[row], high = table->elevation_deg[row + 1];
-    *share = fmin(fmax((elevation_deg - low) / (high - low), 0), 1);
-    return row;
-}
-
-/* The share of the way to the next row in the air mass that the sun's light passes. */
-static double share_by_air(const SkyTable *table, int row, double elevation_deg)
-{
-    double low = daylight_air_mass(table->elevation_deg[row]);
-    double high = daylight_air_mass(table->elevation_deg[row + 1]);
-    return fmin(fmax((daylight_air_mass(elevation_deg) - low) / (high - low), 0), 1);
-}
-
-/* Light falls off by powers of the air mass: between two rows that both have some it is the
- * logarithm that is linear. */
-void sky_table_sun(const SkyTable *table, double elevation_deg, double light,
-                   float bands[LIGHT_BANDS])
-{
-    double share;
-    int    row = row_of(table, elevation_deg, &share), next = row + (share > 0);
-    if (share > 0 && table->elevation_deg[row] >= 0)
-        share = share_by_air(table, row, elevation_deg);
-    for (int b = 0; b < LIGHT_BANDS; b++) {
-        double low = (double)table->sun_bands[row][b], high = (double)table->sun_bands[next][b];
-        bands[b] = (float)(light * (low > 0 && high > 0 ? low * pow(high / low, share)
-                                                        : low + share * (high - low)));
-    }
-}
-
 /* ---- a sky over a response --------------------------------------------------------------- */
 
 /* A probe and what of it sends anything. */
@@ -271,7 +160,13 @@ static void place_answers(DistantProbe *probe, const SkyTable *table, Arena *are
     probe->sky = arena_alloc(arena, 1, _Alignof(double), answer_bytes(table));
     probe->sky_bright = (BrightSamples *)(probe->sky + places);
     probe->sky_without = (float *)(probe->sky_bright + places);
-    for (size_t i = 0; i < places; i++) probe->sky[i] = (double)NAN; /* until it is summed */
+}
+
+/* Until they are summed. */
+static void forget_answers(DistantProbe *probe, const SkyTable *table)
+{
+    memset(probe->sky, 0, answer_bytes(table));
+    for (int i = 0; i < table->count * SKY_AZIMUTHS; i++) probe->sky[i] = (double)NAN;
 }
 
 /* All that decides a table's skies and suns, and where the vehicle points. */
@@ -316,8 +211,8 @@ static bool find_suns(const DistantTools *tools, Arena scratch)
 {
     if (!journal_of(tools)) return false;
     JournalKey key = journal_key(table_words(tools, "suns of skies", &scratch));
-    return journal_find(journal_of(tools), key, tools->table->sun_bands,
-                        suns_bytes(tools->table));
+    return journal_find_floats(journal_of(tools), key, tools->table->sun_bands[0],
+                               (size_t)tools->table->count * LIGHT_BANDS);
 }
 
 static void keep_suns(const DistantTools *tools, Arena scratch)
@@ -327,18 +222,38 @@ static void keep_suns(const DistantTools *tools, Arena scratch)
     journal_add(journal_of(tools), key, tools->table->sun_bands, suns_bytes(tools->table));
 }
 
+static bool find_answers(const DistantProbe *probe, const DistantTools *tools, Arena scratch)
+{
+    const SkyTable *table = tools->table;
+    const Journal  *journal = journal_of(tools);
+    if (!journal || !journal_find(journal, answers_key(probe, tools, scratch), probe->sky,
+                                  answer_bytes(table)))
+        return false;
+    bool is_sound = true;
+    for (int i = 0; i < table->count * table->azimuths; i++) {
+        int azimuth = (table->first_azimuth + i % table->azimuths) % SKY_AZIMUTHS;
+        int place = i / table->azimuths * SKY_AZIMUTHS + azimuth;
+        const BrightSamples *bright = &probe->sky_bright[place];
+        is_sound = is_sound && isfinite(probe->sky[place]) && isfinite(bright->squares) &&
+                   isfinite(bright->fourths);
+        for (int k = 0; k < RESPONSE_GROUPS; k++)
+            is_sound =
+                is_sound && isfinite(probe->sky_without[place * RESPONSE_GROUPS + k]);
+    }
+    return is_sound;
+}
+
 /* Those that are not known; *count: how many. */
 static DistantProbe **probes_to_ask(DistantProbe *const *probes, int *count,
                                     const DistantTools *tools, Arena *arena)
 {
-    const Journal *journal = journal_of(tools);
     DistantProbe **list = ARENA_NEW(arena, DistantProbe *, *count);
     int            left = 0;
     for (int i = 0; i < *count; i++) {
         place_answers(probes[i], tools->table, arena);
-        if (!journal || !journal_find(journal, answers_key(probes[i], tools, *arena),
-                                      probes[i]->sky, answer_bytes(tools->table)))
-            list[left++] = probes[i];
+        if (find_answers(probes[i], tools, *arena)) continue;
+        forget_answers(probes[i], tools->table);
+        list[left++] = probes[i];
     }
     *count = left;
     return list;
@@ -374,7 +289,7 @@ static bool sum_skies(DistantProbe *const *probes, int count, const DistantTools
                                      (size_t)threads * (size_t)cells * LIGHT_BANDS)};
     for (; sum.row < rows; sum.row++) {
         Arena room = scratch;
-        sum.sky = make_sky(tools->table, sum.row, &room, err);
+        sum.sky = sky_table_make(tools->table, sum.row, &room, err);
         if (!sum.sky) return false;
         parallel_for(threads, tools->table->azimuths, sum_sky, &sum);
     }
@@ -387,7 +302,7 @@ static bool ask_table(DistantProbe *const *probes, int count, const DistantTools
     DistantProbe **list = probes_to_ask(probes, &count, tools, arena);
     if (!count && find_suns(tools, *arena)) return true;
     if (count ? !sum_skies(list, count, tools, *arena, err)
-              : !make_suns(tools->table, arena, err))
+              : !sky_table_make_suns(tools->table, arena, err))
         return false;
     keep_answers(list, count, tools, *arena);
     keep_suns(tools, *arena);
@@ -430,12 +345,12 @@ static const float *ask_suns(const DistantProbe *probe, const ReadingTools *with
                          .towards_count = suns->count};
     JournalKey key = question_key(&question, aim, *arena);
     Arena    before = *arena;
-    size_t   bytes = (size_t)suns->count * RESPONSE_BANDS * sizeof(float);
-    float   *kept = ARENA_NEW(arena, float, (size_t)suns->count * RESPONSE_BANDS);
-    if (journal_find(with->journal, key, kept, bytes)) return kept;
+    size_t   count = (size_t)suns->count * RESPONSE_BANDS;
+    float   *kept = ARENA_NEW(arena, float, count);
+    if (journal_find_floats(with->journal, key, kept, count)) return kept;
     *arena = before;
     const float *found = sun_parts_worst(aim, parts, options, suns, arena);
-    journal_add(with->journal, key, found, bytes);
+    journal_add(with->journal, key, found, count * sizeof *found);
     return found;
 }
 
@@ -518,7 +433,7 @@ typedef struct SkyPlaces {
 static SkyPlaces sky_places(const SkyTable *table, SunAngles sun)
 {
     double share, turns = sun.azimuth_deg / 360, places;
-    int    row = row_of(table, sun.elevation_deg, &share), next = row + (share > 0);
+    int    row = sky_table_row(table, sun.elevation_deg, &share), next = row + (share > 0);
     places = (turns - floor(turns)) * SKY_AZIMUTHS;
     int    a = (int)places % SKY_AZIMUTHS, b = (a + 1) % SKY_AZIMUTHS;
     double along = places - floor(places);

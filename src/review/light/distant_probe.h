@@ -15,39 +15,9 @@
  */
 #pragma once
 #include "review/light/hour_sky.h"
-#include "review/light/inherited.h"
 #include "review/light/light_parts.h"
 #include "review/light/setup.h"
-
-/* ---- skies ------------------------------------------------------------------------------- */
-
-#define SKY_AZIMUTHS 72 /* of the sun in a turn */
-
-/* Clear skies by the sun's elevation, the earth 1 au away: readings are scaled to each sun's
- * light, the night's own background with them (within 0.4 % at -12 degrees). */
-typedef struct SkyTable {
-    DaylightInput like;          /* air and ground; suns stand at azimuth 0 */
-    const double *elevation_deg; /* rising */
-    float       (*sun_bands)[LIGHT_BANDS]; /* lx; 0 before its skies were made */
-    int           count;
-    int           first_azimuth, azimuths; /* those of SKY_AZIMUTHS that are made, on from the
-                                              first; no other may be read */
-    Inherited    *inherited; /* where its skies are found and kept; NULL: they are not */
-} SkyTable;
-
-/* Elevations that reach from `low` to `high`; `like` gives air and ground. Its skies are made
- * when probes ask for them (distant_probes_ask_skies), one by one: each takes megabytes. */
-SkyTable sky_table_start(const DaylightInput *like, double low_deg, double high_deg,
-                         Arena *arena);
-
-/* Keeps only the sun's azimuths from low to high, relative to the vehicle; before its skies are
- * made. */
-void sky_table_between(SkyTable *table, double low_deg, double high_deg);
-
-/* A sun's bands at an elevation within the table's, lx: within 1 % from 2 degrees on, 3 % or
- * 1 lx below. light: a DistantSun's. */
-void sky_table_sun(const SkyTable *table, double elevation_deg, double light,
-                   float bands[LIGHT_BANDS]);
+#include "review/light/sky_table.h"
 
 /* ---- probes ------------------------------------------------------------------------------ */
 

@@ -5,9 +5,9 @@
 #include "base/units.h"
 #include "camera/camera.h"
 #include "guide/guide_file.h"
+#include "keep/journal.h"
 #include "render/identity.h"
 #include "render/train.h"
-#include "review/keep/journal.h"
 #include "text/text.h"
 
 /* The picture from which guides are trained: one about the symbols. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* question.h -- what a probe is asked, as the key of its answer (review/keep/journal.h).
+/* question.h -- what a probe is asked, as the key of its answer (keep/journal.h).
  *
  * Everything that decides the answer is in it: the program, the scene's files, its light as it
  * is now, where the probe is and looks, and what is asked.
@@ -7,8 +7,8 @@
  * Threads  pure functions.
  */
 #pragma once
+#include "keep/journal.h"
 #include "kernel/kernel.h"
-#include "review/keep/journal.h"
 
 /* All that decides the answer besides the aim and the light. */
 typedef struct Question {

@@ -13,33 +13,13 @@
 #include "estimate/estimate_plan.h"
 #include "render/signals.h"
 #include "review/light/question.h"
+#include "review/light/reading_batch.h"
 #include "review/light/response_suns.h"
 
 #define BATCHES READING_BATCHES
 #define PILOT_REACH 4 /* estimate_plan.h */
 #define PILOT_SEED 0x70696c6fu
 #define PIECE 64 /* paths that are looked at together */
-
-/* Moments of light x that no level changes and light y of displays: sums of x^i y^k over paths,
- * for the squares and fourths of x + y at any level. */
-#define MOMENTS 8
-static const int MOMENT[MOMENTS][2] = {{2, 0}, {1, 1}, {0, 2}, {4, 0},
-                                       {3, 1}, {2, 2}, {1, 3}, {0, 4}};
-
-/* The light of one display. */
-typedef struct Own {
-    double reflected, mirror; /* sums */
-} Own;
-
-typedef struct Batch {
-    double reflected, mirror; /* sums */
-    long   found;
-    long   sky_finds;       /* PathStatistics' */
-    double sent_on;
-    BrightSamples bright;
-    double moments[MOMENTS];          /* a shared reading's, */
-    Own    display[PROBE_DISPLAYS];   /* and its scene's displays' */
-} Batch;
 
 /* Paths that go on where they ended. */
 typedef struct Stream {
@@ -50,37 +30,6 @@ typedef struct Stream {
     Batch        *batches;
     TargetLight  *targets;    /* of each batch; NULL: they are not kept apart */
 } Stream;
-
-static double power(double x, int exponent)
-{
-    double out = 1;
-    while (exponent-- > 0) out *= x;
-    return out;
-}
-
-static void add_own(Batch *to, const ProbeLook *look)
-{
-    double y = 0;
-    for (int d = 0; d < PROBE_DISPLAYS; d++) {
-        to->display[d].reflected += (double)look->display[d].reflected;
-        to->display[d].mirror += (double)look->display[d].mirror;
-        y += (double)look->display[d].reflected;
-    }
-    double x = (double)look->reflected[1] - y;
-    for (int m = 0; m < MOMENTS; m++)
-        to->moments[m] += power(x, MOMENT[m][0]) * power(y, MOMENT[m][1]);
-}
-
-static void add_looks(Batch *to, const ProbeLook *looks, int count, bool with_own)
-{
-    for (int i = 0; i < count; i++) {
-        to->reflected += (double)looks[i].reflected[1];
-        to->mirror += (double)looks[i].mirror[1];
-        bright_add(&to->bright, (double)looks[i].reflected[1]);
-        to->found += looks[i].is_found;
-        if (with_own && looks[i].is_found) add_own(to, &looks[i]);
-    }
-}
 
 static void add_targets(TargetLight *to, const ProbeLook *looks, int count)
 {
@@ -106,7 +55,7 @@ static void read_batch(void *user, int item, int worker)
         if (signals_stop_requested()) return;
         int end = first + PIECE < stream->end ? first + PIECE : stream->end;
         stream->kernel->look(&aim, first, end, looks, &statistics);
-        add_looks(&stream->batches[item], looks, end - first, aim.by_display);
+        reading_batch_add(&stream->batches[item], looks, end - first, aim.by_display);
         if (stream->targets)
             add_targets(stream->targets + (size_t)item * (size_t)aim.target_count, looks,
                         end - first);
@@ -215,35 +164,6 @@ typedef struct ReadingParts {
     int    pilot_paths, paths; /* in every batch */
     double seconds;
 } ReadingParts;
-
-static double greatest(const double *scale, int displays)
-{
-    double most = displays ? scale[0] : 1;
-    for (int d = 1; d < displays; d++) most = fmax(most, scale[d]);
-    return most;
-}
-
-/* Displays that are scaled differently count as the brightest of them: it widens. */
-static BrightSamples scaled_bright(const double moments[MOMENTS], double scale)
-{
-    double s2 = scale * scale;
-    return (BrightSamples){
-        .squares = moments[0] + 2 * scale * moments[1] + s2 * moments[2],
-        .fourths = moments[3] + 4 * scale * moments[4] + 6 * s2 * moments[5] +
-                   4 * s2 * scale * moments[6] + s2 * s2 * moments[7]};
-}
-
-static void scale_batches(Batch *batches, const double *scale, int displays)
-{
-    for (int i = 0; i < BATCHES; i++) {
-        Batch *b = &batches[i];
-        for (int d = 0; d < displays; d++) {
-            b->reflected += (scale[d] - 1) * b->display[d].reflected;
-            b->mirror += (scale[d] - 1) * b->display[d].mirror;
-        }
-        b->bright = scaled_bright(b->moments, greatest(scale, displays));
-    }
-}
 
 /* ---- one stream -------------------------------------------------------------------------- */
 
@@ -377,29 +297,29 @@ static int displays_of(const ProbeAim *aim)
     return aim->context->scene->display_count;
 }
 
-/* Batches as they are kept: with as many displays as the scene has. */
-static size_t batch_bytes(int displays)
+/* No plan asks for more: whoever kept it took no more. */
+static long most_paths(const ReadingGoal *goal)
 {
-    return offsetof(Batch, display) + (size_t)displays * sizeof(Own);
+    long most = goal->most > READING_ASKED_LEAST ? goal->most : READING_ASKED_LEAST;
+    if (goal->times > 1) most *= goal->times;
+    return most > goal->least ? most : goal->least;
+}
+
+/* Whether it may have been taken for that goal: a checksum can be made to fit. */
+static bool is_sound(const Reading *reading, const ReadingGoal *goal)
+{
+    bool ok = reading->paths > 0 && reading->paths <= most_paths(goal) &&
+              isfinite(reading->reflected) && isfinite(reading->mirror) &&
+              reading->sigma >= 0 && reading->interval.low <= reading->interval.high &&
+              reading->found_share >= 0 && reading->found_share <= 1 &&
+              reading->bright.squares >= 0 && reading->bright.fourths >= 0;
+    for (int i = 0; i < BATCHES; i++) ok = ok && isfinite(reading->batches[i]);
+    return ok;
 }
 
 static size_t parts_bytes(int displays)
 {
-    return 2 * BATCHES * batch_bytes(displays) + 2 * sizeof(int) + sizeof(double);
-}
-
-static void pack_batches(const Batch *batches, int displays, unsigned char **to)
-{
-    for (int i = 0; i < BATCHES; i++, *to += batch_bytes(displays))
-        memcpy(*to, &batches[i], batch_bytes(displays));
-}
-
-static void unpack_batches(const unsigned char **from, int displays, Batch *batches)
-{
-    for (int i = 0; i < BATCHES; i++, *from += batch_bytes(displays)) {
-        batches[i] = (Batch){0};
-        memcpy(&batches[i], *from, batch_bytes(displays));
-    }
+    return 2 * BATCHES * reading_batch_bytes(displays) + 2 * sizeof(int) + sizeof(double);
 }
 
 static void keep_parts(Journal *journal, JournalKey key, const ReadingParts *parts,
@@ -408,33 +328,37 @@ static void keep_parts(Journal *journal, JournalKey key, const ReadingParts *par
     unsigned char *bytes = ARENA_NEW(&scratch, unsigned char, parts_bytes(displays));
     unsigned char *to = bytes;
     const int      paths[2] = {parts->pilot_paths, parts->paths};
-    pack_batches(parts->pilot, displays, &to);
-    pack_batches(parts->fresh, displays, &to);
+    reading_batches_pack(parts->pilot, displays, &to);
+    reading_batches_pack(parts->fresh, displays, &to);
     memcpy(to, paths, sizeof paths);
     memcpy(to + sizeof paths, &parts->seconds, sizeof parts->seconds);
     keep(journal, key, bytes, parts_bytes(displays));
 }
 
-static bool find_parts(const Journal *journal, JournalKey key, int displays,
+/* Who was given a number of paths had no pilot. */
+static bool find_parts(const Journal *journal, JournalKey key, int displays, long most,
                        ReadingParts *parts, Arena scratch)
 {
     unsigned char       *bytes = ARENA_NEW(&scratch, unsigned char, parts_bytes(displays));
     const unsigned char *from = bytes;
     int                  paths[2];
     if (!journal_find(journal, key, bytes, parts_bytes(displays))) return false;
-    unpack_batches(&from, displays, parts->pilot);
-    unpack_batches(&from, displays, parts->fresh);
+    reading_batches_unpack(&from, displays, parts->pilot);
+    reading_batches_unpack(&from, displays, parts->fresh);
     memcpy(paths, from, sizeof paths);
     memcpy(&parts->seconds, from + sizeof paths, sizeof parts->seconds);
     parts->pilot_paths = paths[0];
     parts->paths = paths[1];
-    return paths[0] > 0 && paths[1] > 0;
+    return paths[0] >= 0 && paths[0] <= most / BATCHES && paths[1] > 0 &&
+           paths[1] <= most / BATCHES &&
+           reading_batches_are_sound(parts->pilot, paths[0], displays) &&
+           reading_batches_are_sound(parts->fresh, paths[1], displays);
 }
 
-static bool find_reading(const Journal *journal, JournalKey key, Reading *out)
+static bool find_reading(const Journal *journal, JournalKey key, const ReadingGoal *goal,
+                         Reading *out)
 {
-    return journal_find(journal, key, out, sizeof *out) && isfinite(out->reflected) &&
-           out->paths > 0;
+    return journal_find(journal, key, out, sizeof *out) && is_sound(out, goal);
 }
 
 /* A reading that was kept before anybody shared it is taken again, with the same result. */
@@ -445,8 +369,8 @@ static Reading take_shared(const ProbeAim *aim, const ReadingGoal *goal,
     ReadingParts *parts = ARENA_NEW(&scratch, ReadingParts, 1);
     JournalKey key = key_of(aim, goal, tools, scratch);
     JournalKey shared = parts_key(aim, goal, tools, scratch);
-    if (find_reading(tools->journal, key, &reading) &&
-        find_parts(tools->journal, shared, displays_of(aim), parts, scratch))
+    if (find_reading(tools->journal, key, goal, &reading) &&
+        find_parts(tools->journal, shared, displays_of(aim), most_paths(goal), parts, scratch))
         return reading;
     reading = take(aim, goal, tools, parts, scratch);
     keep_parts(tools->journal, shared, parts, displays_of(aim), scratch);
@@ -462,7 +386,7 @@ Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const Reading
     if (goal->is_shared && displays_of(aim) <= PROBE_DISPLAYS)
         return take_shared(aim, goal, tools, scratch);
     JournalKey key = key_of(aim, goal, tools, scratch);
-    if (find_reading(tools->journal, key, &reading)) return reading;
+    if (find_reading(tools->journal, key, goal, &reading)) return reading;
     reading = take(aim, goal, tools, NULL, scratch);
     keep(tools->journal, key, &reading, sizeof reading);
     return reading;
@@ -485,11 +409,11 @@ bool reading_scaled(const ProbeAim *aim, const ReadingGoal *goal, const double *
     int           displays = displays_of(aim);
     ReadingParts *parts = ARENA_NEW(&scratch, ReadingParts, 1);
     if (!tools->journal || displays > PROBE_DISPLAYS ||
-        !find_parts(tools->journal, parts_key(aim, goal, tools, scratch), displays, parts,
-                    scratch))
+        !find_parts(tools->journal, parts_key(aim, goal, tools, scratch), displays,
+                    most_paths(goal), parts, scratch))
         return false;
-    scale_batches(parts->pilot, scale, displays);
-    scale_batches(parts->fresh, scale, displays);
+    reading_batches_scale(parts->pilot, scale, displays);
+    reading_batches_scale(parts->fresh, scale, displays);
     Reading reading = reading_of(aim, parts->fresh, parts->paths, goal->known);
     if (!is_enough(aim, parts, &reading, goal, scratch)) return false;
     reading.reached = uncertainty(&reading, goal);
@@ -532,24 +456,35 @@ static JournalKey field_key(const ProbeAim *aim, const FieldAsk *ask,
     return question_key(&question, aim, scratch);
 }
 
+static bool field_is_sound(const ProbeAim *aim, const FieldAsk *ask,
+                           const TargetLight *targets, const Batch *batches, int displays)
+{
+    bool ok = reading_batches_are_sound(batches, ask->paths / BATCHES, displays);
+    for (int i = 0; i < aim->target_count; i++)
+        ok = ok && targets[i].paths >= 0 && isfinite(targets[i].paths) &&
+             isfinite(targets[i].sum) && isfinite(targets[i].squares);
+    return ok;
+}
+
 /* Kept: the targets, then the batches. */
 static void find_field(const ProbeAim *aim, const FieldAsk *ask, const ReadingTools *tools,
                        Batch *batches, TargetLight *targets, Arena scratch)
 {
     int            displays = ask->is_shared ? displays_of(aim) : 0;
-    size_t         bytes = targets_bytes(aim) + BATCHES * batch_bytes(displays);
+    size_t         bytes = targets_bytes(aim) + BATCHES * reading_batch_bytes(displays);
     unsigned char *kept = ARENA_NEW(&scratch, unsigned char, bytes);
     unsigned char *to = kept + targets_bytes(aim);
     const unsigned char *from = to;
     JournalKey     key = field_key(aim, ask, tools, scratch);
     if (journal_find(tools->journal, key, kept, bytes)) {
         memcpy(targets, kept, targets_bytes(aim));
-        unpack_batches(&from, displays, batches);
-        return;
+        reading_batches_unpack(&from, displays, batches);
+        if (field_is_sound(aim, ask, targets, batches, displays)) return;
+        memset(targets, 0, targets_bytes(aim));
     }
     trace_field(aim, ask, tools, batches, targets, scratch);
     memcpy(kept, targets, targets_bytes(aim));
-    pack_batches(batches, displays, &to);
+    reading_batches_pack(batches, displays, &to);
     keep(tools->journal, key, kept, bytes);
 }
 
@@ -561,6 +496,6 @@ Reading reading_field(const ProbeAim *aim, const FieldAsk *asked, const ReadingT
     ask.is_shared = ask.is_shared && displays_of(aim) <= PROBE_DISPLAYS;
     if (tools->journal) find_field(aim, &ask, tools, batches, targets, scratch);
     else trace_field(aim, &ask, tools, batches, targets, scratch);
-    if (ask.scale) scale_batches(batches, ask.scale, displays_of(aim));
+    if (ask.scale) reading_batches_scale(batches, ask.scale, displays_of(aim));
     return reading_of(aim, batches, (int)(ask.paths / BATCHES), ask.known);
 }

@@ -15,8 +15,8 @@
 #pragma once
 #include "base/arena.h"
 #include "estimate/estimate.h"
+#include "keep/journal.h"
 #include "kernel/kernel.h"
-#include "review/keep/journal.h"
 #include "review/light/light_parts.h"
 
 /* A decision that depends on a reading, such as a verdict. */

@@ -3,38 +3,26 @@
 
 #include <math.h>
 #include <string.h>
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
-#include "base/file.h"
-#include "base/file_write.h"
+#include "keep/kept.h"
 #include "render/identity.h"
 
-#define MAGIC "PRHLRESP"
-#define BYTE_ORDER_MARK 0x01020304u
-#define FILE_BYTES_MOST ((size_t)1 << 28)
-#define LEVEL_MOST RESPONSE_LEVEL
 #define CELL_BYTES (RESPONSE_BANDS * sizeof(float))
 #define GROUP_BYTES (2 * RESPONSE_GROUPS * sizeof(float))
 
-_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "numbers go out as they lie");
+typedef struct ResponseFacts {
+    int32_t level, paths, cells, kept; /* kept: cells that hold anything */
+    double  relative_error, lamps, displays;
+} ResponseFacts;
 
-/* The file's first bytes; every member lies where its size puts it. */
-typedef struct ResponseHead {
-    char     magic[8];
-    uint32_t byte_order, version;
-    uint64_t file_bytes, identity_bytes;
-    int32_t  level, paths, cells, kept; /* kept: cells that hold anything */
-    double   relative_error, lamps, displays;
-} ResponseHead;
+_Static_assert(sizeof(ResponseFacts) == 16 + 24, "the facts have no gaps");
 
-_Static_assert(sizeof(ResponseHead) == 8 + 8 + 16 + 16 + 24, "the head has no gaps");
+static const KeptFormat format = {"PRHLRESP", "a response", RESPONSE_VERSION,
+                                  sizeof(ResponseFacts)};
 
-static size_t bytes_of(const ResponseHead *head)
+static size_t body_bytes(int32_t kept)
 {
-    return sizeof *head + head->identity_bytes +
-           (size_t)head->kept * (sizeof(int32_t) + PROBE_ORDERS * CELL_BYTES + GROUP_BYTES) +
-           sizeof(uint64_t);
+    return (size_t)kept * (sizeof(int32_t) + PROBE_ORDERS * CELL_BYTES + GROUP_BYTES);
 }
 
 /* ---- writing ----------------------------------------------------------------------------- */
@@ -66,146 +54,96 @@ static unsigned char *put(unsigned char *to, const void *bytes, size_t size)
 bool response_write(ResponseFile *file, const Response *response, const OwnLight *own,
                     Arena scratch, Error *err)
 {
-    ResponseHead head = {.byte_order = BYTE_ORDER_MARK, .version = RESPONSE_VERSION,
-                         .identity_bytes = strlen(file->identity),
-                         .level = response->cells.level, .paths = response->paths,
-                         .cells = response->cells.count,
-                         .relative_error = response->relative_error, .lamps = own->lamps,
-                         .displays = own->displays};
-    memcpy(head.magic, MAGIC, sizeof head.magic);
-    int32_t *kept = find_kept(response, &head.kept, &scratch);
-    head.file_bytes = bytes_of(&head);
-    unsigned char *bytes = ARENA_NEW(&scratch, unsigned char, head.file_bytes), *to = bytes;
-    to = put(to, &head, sizeof head);
-    to = put(to, file->identity, head.identity_bytes);
-    to = put(to, kept, (size_t)head.kept * sizeof *kept);
-    for (int i = 0; i < head.kept; i++)
+    ResponseFacts facts = {.level = response->cells.level, .paths = response->paths,
+                           .cells = response->cells.count,
+                           .relative_error = response->relative_error, .lamps = own->lamps,
+                           .displays = own->displays};
+    int32_t *kept = find_kept(response, &facts.kept, &scratch);
+    KeptFile to_keep = {&format, file->path, file->identity, &facts, body_bytes(facts.kept)};
+    unsigned char *body = ARENA_NEW(&scratch, unsigned char, to_keep.body_bytes);
+    unsigned char *to = put(body, kept, (size_t)facts.kept * sizeof *kept);
+    for (int i = 0; i < facts.kept; i++)
         to = put(to, response->first + (size_t)kept[i] * RESPONSE_BANDS, CELL_BYTES);
-    for (int i = 0; i < head.kept; i++)
+    for (int i = 0; i < facts.kept; i++)
         to = put(to, response->rest + (size_t)kept[i] * RESPONSE_BANDS, CELL_BYTES);
-    for (int i = 0; i < head.kept; i++)
+    for (int i = 0; i < facts.kept; i++)
         to = put(to, response->groups + (size_t)kept[i] * 2 * RESPONSE_GROUPS, GROUP_BYTES);
-    uint64_t checksum = XXH3_64bits(bytes, (size_t)(to - bytes));
-    put(to, &checksum, sizeof checksum);
-    file->bytes = head.file_bytes;
-    return file_write(file->path, bytes, head.file_bytes, err);
+    file->bytes = kept_bytes(&to_keep);
+    return kept_write(&to_keep, body, scratch, err);
 }
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
-static bool refuse(const ResponseFile *file, const char *what, Error *err)
+static bool check_facts(const KeptReader *reader, const ResponseFacts *facts, Error *err)
 {
-    return error_at(err, ERROR_INPUT, file->path, "", "%s", what);
+    bool is_sound = facts->level >= 0 && facts->level <= RESPONSE_LEVEL && facts->paths > 0 &&
+                    facts->cells == 2 * (int32_t)geodesic_count(facts->level) &&
+                    facts->kept >= 0 && facts->kept <= facts->cells &&
+                    isfinite(facts->lamps) && isfinite(facts->displays);
+    return (is_sound || kept_damaged(reader, err, "its head cannot be")) &&
+           kept_has_left(reader, body_bytes(facts->kept), err);
 }
 
-static bool check_kind(const ResponseFile *file, const FileBytes *bytes, ResponseHead *head,
-                       Error *err)
-{
-    size_t got = bytes->size < sizeof *head ? bytes->size : sizeof *head;
-    memcpy(head, bytes->data, got);
-    if (got < sizeof head->magic || memcmp(head->magic, MAGIC, sizeof head->magic) != 0)
-        return refuse(file, "is not a response", err);
-    if (got < sizeof *head) return refuse(file, "is cut off within its head", err);
-    if (head->byte_order != BYTE_ORDER_MARK)
-        return refuse(file, "is a response of a machine of another byte order", err);
-    return head->version == RESPONSE_VERSION ||
-           error_at(err, ERROR_INPUT, file->path, "",
-                    "is a response of format version %u, this program reads version %d",
-                    head->version, RESPONSE_VERSION);
-}
-
-static bool check_bytes(const ResponseFile *file, const FileBytes *bytes,
-                        const ResponseHead *head, Error *err)
-{
-    uint64_t wanted;
-    if (bytes->size != head->file_bytes || bytes->size < sizeof *head + sizeof wanted)
-        return error_at(err, ERROR_INPUT, file->path, "", "is %s: has %zu bytes of %llu",
-                        bytes->size < head->file_bytes ? "cut off" : "damaged", bytes->size,
-                        (unsigned long long)head->file_bytes);
-    memcpy(&wanted, bytes->data + bytes->size - sizeof wanted, sizeof wanted);
-    uint64_t found = XXH3_64bits(bytes->data, bytes->size - sizeof wanted);
-    return found == wanted ||
-           error_at(err, ERROR_INPUT, file->path, "",
-                    "is damaged: its bytes have the checksum %016llx, required: %016llx",
-                    (unsigned long long)found, (unsigned long long)wanted);
-}
-
-/* The checksum is right: only who makes one on purpose fails here. */
-static bool check_head(const ResponseFile *file, const ResponseHead *head, Error *err)
-{
-    bool is_sound = head->level >= 0 && head->level <= LEVEL_MOST && head->paths > 0 &&
-                    head->cells == 2 * (int32_t)geodesic_count(head->level) &&
-                    head->kept >= 0 && head->kept <= head->cells &&
-                    head->identity_bytes < head->file_bytes &&
-                    bytes_of(head) == head->file_bytes && isfinite(head->lamps) &&
-                    isfinite(head->displays);
-    return is_sound || refuse(file, "is damaged: its head cannot be", err);
-}
-
-static bool check_identity(const ResponseFile *file, const char *there, Arena scratch,
+static bool check_identity(const ResponseFile *file, const KeptReader *reader, Arena scratch,
                            Error *err)
 {
-    const char *difference = identity_difference(there, file->identity, &scratch);
+    const char *difference = identity_difference(reader->identity, file->identity, &scratch);
     return !difference || error_at(err, ERROR_INPUT, file->path, "",
                                    "is the response of something else: %s", difference);
 }
 
-/* One of the file's parts: so many bytes a kept triangle. */
-typedef struct FilePart {
-    const unsigned char *values;
-    size_t               bytes;
-    float               *to;
-} FilePart;
-
-static bool spread(const ResponseFile *file, const ResponseHead *head,
-                   const unsigned char *cells, FilePart part, Error *err)
+/* Which triangles the values belong to. */
+static bool take_cells(KeptReader *reader, const ResponseFacts *facts, int32_t *cells,
+                       Error *err)
 {
-    for (int i = 0; i < head->kept; i++, part.values += part.bytes) {
-        int32_t cell;
-        memcpy(&cell, cells + (size_t)i * sizeof cell, sizeof cell);
-        if (cell < 0 || cell >= head->cells)
-            return refuse(file, "is damaged: it has triangles that are not there", err);
-        float *to = part.to + (size_t)cell * (part.bytes / sizeof(float));
-        memcpy(to, part.values, part.bytes);
-        for (size_t k = 0; k < part.bytes / sizeof(float); k++)
+    if (!kept_take(reader, cells, (size_t)facts->kept * sizeof *cells, err)) return false;
+    for (int i = 0; i < facts->kept; i++)
+        if (cells[i] < 0 || cells[i] >= facts->cells)
+            return kept_damaged(reader, err, "it has triangles that are not there");
+    return true;
+}
+
+/* One of the body's parts: `each` values of every triangle. */
+static bool spread(KeptReader *reader, const ResponseFacts *facts, const int32_t *cells,
+                   size_t each, float *values, Error *err)
+{
+    for (int i = 0; i < facts->kept; i++) {
+        float *to = values + (size_t)cells[i] * each;
+        if (!kept_take(reader, to, each * sizeof *to, err)) return false;
+        for (size_t k = 0; k < each; k++)
             if (!isfinite(to[k]))
-                return refuse(file, "is damaged: it has light that is not finite", err);
+                return kept_damaged(reader, err, "it has light that is not finite");
     }
     return true;
 }
 
-static bool spread_all(const ResponseFile *file, const ResponseHead *head,
-                       const unsigned char *cells, float *shares, Error *err)
+static bool take_body(KeptReader *reader, const ResponseFacts *facts, float *shares,
+                      Arena scratch, Error *err)
 {
-    size_t kept = (size_t)head->kept, order = (size_t)head->cells * RESPONSE_BANDS;
-    const unsigned char *first = cells + kept * sizeof(int32_t);
-    const unsigned char *rest = first + kept * CELL_BYTES, *groups = rest + kept * CELL_BYTES;
-    return spread(file, head, cells, (FilePart){first, CELL_BYTES, shares}, err) &&
-           spread(file, head, cells, (FilePart){rest, CELL_BYTES, shares + order}, err) &&
-           spread(file, head, cells, (FilePart){groups, GROUP_BYTES, shares + 2 * order}, err);
+    int32_t *cells = ARENA_NEW(&scratch, int32_t, facts->kept);
+    size_t   order = (size_t)facts->cells * RESPONSE_BANDS;
+    return take_cells(reader, facts, cells, err) &&
+           spread(reader, facts, cells, RESPONSE_BANDS, shares, err) &&
+           spread(reader, facts, cells, RESPONSE_BANDS, shares + order, err) &&
+           spread(reader, facts, cells, 2 * RESPONSE_GROUPS, shares + 2 * order, err);
 }
 
 bool response_read(ResponseFile *file, Arena *arena, Response *out, OwnLight *own, Error *err)
 {
-    Arena        scratch = arena_reserve(2 * FILE_BYTES_MOST);
-    ResponseHead head;
-    FileBytes    bytes;
-    bool ok = file_read(file->path, FILE_BYTES_MOST, &scratch, &bytes, err) &&
-              check_kind(file, &bytes, &head, err) && check_bytes(file, &bytes, &head, err) &&
-              check_head(file, &head, err);
+    KeptReader    reader;
+    ResponseFacts facts;
+    if (!kept_open(&format, file->path, &facts, arena, &reader, err)) return false;
+    bool ok = check_facts(&reader, &facts, err) && check_identity(file, &reader, *arena, err);
     if (ok) {
-        const unsigned char *text = bytes.data + sizeof head;
-        const char *there = arena_string(&scratch, (const char *)text, head.identity_bytes);
         Response found;
-        float   *shares = response_empty(head.level, arena, &found);
-        ok = check_identity(file, there, scratch, err) &&
-             spread_all(file, &head, text + head.identity_bytes, shares, err);
-        found.paths = head.paths;
-        found.relative_error = head.relative_error;
-        if (ok) file->bytes = bytes.size;
+        float   *shares = response_empty(facts.level, arena, &found);
+        ok = take_body(&reader, &facts, shares, *arena, err);
+        found.paths = facts.paths;
+        found.relative_error = facts.relative_error;
+        if (ok) file->bytes = reader.bytes;
         if (ok) *out = found;
-        if (ok) *own = (OwnLight){head.lamps, head.displays};
+        if (ok) *own = (OwnLight){facts.lamps, facts.displays};
     }
-    arena_release(&scratch);
+    kept_close(&reader);
     return ok;
 }

@@ -5,13 +5,13 @@
 #include <strings.h>
 
 #include "page/page.h"
-#include "review/output/review_bar.h"
-#include "review/output/review_decide.h"
+#include "review/output/review_card.h"
 #include "review/output/review_facts.h"
+#include "review/output/review_link.h"
 #include "review/output/review_rays.h"
-#include "review/output/review_rests.h"
 #include "review/output/review_words.h"
-#include "review/quantity.h"
+#include "review/review_decide.h"
+#include "text/json_text.h"
 #include "text/text.h"
 
 #define GRID_ROWS 7
@@ -26,37 +26,7 @@
 #define PHONE_LETTER 7.4
 #define PHONE_SMALL 5.8
 
-const char *const *review_answer_directions(const ReviewAnswer *answer, const ReviewCase *c,
-                                            Arena *arena)
-{
-    if (review_card_id(answer->review, c, arena)[0] == 'c') return words_directions(false);
-    for (int i = 0; i < answer->map_count; i++)
-        if (c == &answer->maps[i].of->worst)
-            return words_directions(answer->maps[i].is_of_vehicle);
-    return NULL;
-}
-
-/* Symbols of other names whose files would have this one's, with large letters for small ones
- * too, are numbered in the review's order; the point stands in no name that has no number. */
-const char *review_summary_name(const Review *review, const char *symbol, Arena *arena)
-{
-    const char *name = words_file_name(symbol ? symbol : "", arena);
-    int         all = review->case_count + review->sweep_count;
-    WordList    alike = words_list(all, arena);
-    for (int i = 0; i < all; i++) {
-        const char *other = i < review->case_count
-                                ? review->cases[i].symbol
-                                : review->sweeps[i - review->case_count].symbol;
-        Arena scratch = *arena;
-        if (words_same(other, symbol)) break;
-        if (!strcasecmp(words_file_name(other ? other : "", &scratch), name))
-            words_list_add(&alike, other);
-    }
-    if (!alike.count) return arena_format(arena, "summary-%s.html", name);
-    return arena_format(arena, "summary-%s.%d.html", name, alike.count + 1);
-}
-
-/* ---- the line --------------------------------------------------------------------------- */
+/* ---- the verdict ------------------------------------------------------------------------ */
 
 /* Words before the worst case; "": none. */
 static const char *answer_words(const Review *review, const ReviewCase *worst)
@@ -67,32 +37,15 @@ static const char *answer_words(const Review *review, const ReviewCase *worst)
                                           : "nothing fails; the worst is ";
 }
 
-static void add_line(Text *html, const Review *review, const ReviewCase *worst, Arena *arena)
+static void set_verdict(json_t *to, const Review *review, const ReviewCase *worst)
 {
     static const char *const CLASSES[4] = {
         [VERDICT_PASS] = " same", [VERDICT_FAIL] = "", [VERDICT_TOO_CLOSE] = " open",
         [VERDICT_UNJUDGED] = " unknown"};
     Verdict verdict = review_verdict(review);
-    text_format(html, "<div class=\"verdict%s\"><h1><b>%s</b>: ", CLASSES[verdict],
-                words_verdict(verdict));
-    if (!worst) {
-        text_add(html, "nothing is required, so nothing can fail.</h1></div>\n");
-        return;
-    }
-    text_add(html, answer_words(review, worst));
-    escape_markup(html, words_case(worst, arena));
-    text_add(html, ": ");
-    escape_markup(html, words_headline(worst, arena));
-    text_add(html, ".</h1></div>\n");
-}
-
-static void add_rests(Text *html, const Review *review, Arena *arena)
-{
-    const char *words = review_rests_words(review, arena);
-    if (!words[0]) return;
-    text_add(html, "<p class=\"rests\"><b>Rests on</b> ");
-    escape_markup(html, words);
-    text_add(html, ".</p>\n");
+    page_set(to, "class", CLASSES[verdict]);
+    page_set(to, "outcome", words_verdict(verdict));
+    page_set(to, "lead", worst ? answer_words(review, worst) : "");
 }
 
 /* ---- every symbol and eye --------------------------------------------------------------- */
@@ -124,69 +77,17 @@ static const ReviewCase *worst_of(const Grid *grid, const char *symbol, const ch
     return NULL;
 }
 
-static const char *below_words(const ReviewCase *c, Arena *arena)
+static json_t *row_values(const PageValues *v, const Grid *grid, int row, int eyes)
 {
-    const LimitVerdict *limit = case_worst_limit(c);
-    const char *condition = c->condition ? c->condition : "?";
-    if (c->unjudged || !limit || isnan(limit->margin)) return condition;
-    return arena_format(arena, "%s · %s", words_margin(limit->margin, arena), condition);
-}
-
-/* Of a case that another limit decides: its contrast, too; "": it is decided by that. */
-static const char *contrast_words(const ReviewCase *c, Arena *arena)
-{
-    const LimitVerdict *limit = case_worst_limit(c);
-    LimitKind           kind = limit ? limit_kind_named(limit->kind) : LIMIT_KIND_COUNT;
-    bool is_contrast = !limit || (kind < LIMIT_KIND_COUNT && limit_kinds[kind].is_contrast);
-    if (c->unjudged || is_contrast || isnan(c->contrast_ratio)) return "";
-    bool has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
-    const LimitVerdict *of = has_limit ? &c->limits[c->limit_id] : NULL;
-    return of ? arena_format(arena, "%s %s", words_kind(of), words_found(of, arena))
-              : arena_format(arena, "contrast %s", words_contrast(c, arena));
-}
-
-static void add_cell(Text *html, const Review *review, const ReviewCase *c, Arena *arena)
-{
-    if (!c) {
-        page_cell(html, "none", "–");
-        return;
-    }
-    review_card_begin_cell(html, review, c, arena);
-    page_element(html, "i", c->eye); /* where a telephone has no heads of columns */
-    text_add(html, "<b>");
-    escape_markup(html, arena_format(arena, "%s %s", words_mark(c->verdict),
-                                     words_judged(c, arena)));
-    text_add(html, "</b>");
-    const char *contrast = contrast_words(c, arena);
-    if (contrast[0]) page_element(html, "em", contrast);
-    page_element(html, "small", below_words(c, arena));
-    text_add(html, "</a></td>");
-}
-
-/* Links to the symbol's summary, which fits on one page of paper. */
-static void add_symbol(Text *html, const Review *review, const char *symbol, Arena *arena)
-{
-    if (!review->has_summaries || review->whole) {
-        page_cell(html, "", symbol);
-        return;
-    }
-    text_format(html, "<td><a class=\"symbol\" href=\"%s\">",
-                review_summary_name(review, symbol, arena));
-    escape_markup(html, symbol);
-    text_add(html, "</a></td>");
-}
-
-static void add_rows(Text *html, const Review *review, const Grid *grid, int rows, int eyes,
-                     Arena *arena)
-{
-    for (int row = 0; row < rows; row++) {
-        page_row_begin(html, "");
-        add_symbol(html, review, grid->symbols.list[row], arena);
-        for (int i = 0; i < eyes; i++)
-            add_cell(html, review,
-                     worst_of(grid, grid->symbols.list[row], grid->eyes.list[i]), arena);
-        page_row_end(html);
-    }
+    json_t     *to = json_object(), *cells = values_list(to, "cells");
+    const char *symbol = grid->symbols.list[row];
+    bool        has_summary = v->review->has_summaries && !v->review->whole;
+    page_set(to, "name", symbol);
+    page_set(to, "summary", has_summary ? review_summary_name(v->review, symbol, v->arena)
+                                        : NULL);
+    for (int i = 0; i < eyes; i++)
+        values_add_case(v, cells, worst_of(grid, symbol, grid->eyes.list[i]));
+    return to;
 }
 
 /* Of those that do not count. */
@@ -265,112 +166,83 @@ static bool fits_phone(const Grid *grid, int eyes)
     return PHONE_LETTER * eye <= room && PHONE_SMALL * condition <= room;
 }
 
-static void add_grid(Text *html, const Review *review, Arena *arena)
+static void set_grid(const PageValues *v, json_t *to)
 {
-    Grid        grid = make_grid(review, arena);
-    PageColumn  columns[GRID_EYES + 1] = {{"at its worst", false, NULL}};
-    int         eyes = grid.eyes.count < GRID_EYES ? grid.eyes.count : GRID_EYES;
-    int         rows = grid.symbols.count < GRID_ROWS ? grid.symbols.count : GRID_ROWS;
+    Grid grid = make_grid(v->review, v->arena);
+    int  eyes = grid.eyes.count < GRID_EYES ? grid.eyes.count : GRID_EYES;
+    int  symbols = grid.symbols.count, rows = symbols < GRID_ROWS ? symbols : GRID_ROWS;
     while (eyes > 1 && grid_width(&grid, rows, eyes) > GRID_WIDTH) eyes--;
-    for (int i = 0; i < eyes; i++)
-        columns[i + 1] = (PageColumn){grid.eyes.list[i], false, NULL};
-    text_format(html, "<div class=\"grid%s%s\">",
-                grid_width(&grid, rows, eyes) > GRID_WIDTH ? " breaks" : "",
-                fits_phone(&grid, eyes) ? "" : " stacked");
-    page_table_begin(html, "", "matrix", columns, eyes + 1);
-    add_rows(html, review, &grid, rows, eyes, arena);
-    page_table_end(html);
-    if (eyes < grid.eyes.count)
-        page_element(html, "p class=\"sub\"",
-                     arena_format(arena, "The worst %d of %d symbols, as the worst %d of %d "
-                                  "eyes see them; all stand below.", rows, grid.symbols.count,
-                                  eyes, grid.eyes.count));
-    else if (rows < grid.symbols.count)
-        page_element(html, "p class=\"sub\"",
-                     arena_format(arena, "The worst %d of %d symbols; all stand below.", rows,
-                                  grid.symbols.count));
-    page_element(html, "p class=\"sub\"", count_words(review, arena));
-    text_add(html, "</div>\n");
+    bool    has_all_eyes = eyes == grid.eyes.count;
+    json_t *list = values_list(to, "rows");
+    json_object_set_new(to, "eyes", json_texts(grid.eyes.list, eyes));
+    for (int row = 0; row < rows; row++)
+        json_array_append_new(list, row_values(v, &grid, row, eyes));
+    page_set_flag(to, "breaks", grid_width(&grid, rows, eyes) > GRID_WIDTH);
+    page_set_flag(to, "stacked", !fits_phone(&grid, eyes));
+    page_set_count(to, "shown", rows);
+    page_set_count(to, "shown_eyes", eyes);
+    page_set_count(to, "symbols", symbols);
+    page_set_count(to, "of_eyes", has_all_eyes ? 0 : grid.eyes.count);
+    page_set_flag(to, "of_symbols", has_all_eyes && rows < symbols);
+    page_set(to, "counts", count_words(v->review, v->arena));
 }
 
 /* ---- the worst case --------------------------------------------------------------------- */
 
-static const ReviewPicture *frame_of(const ReviewAnswer *answer, const ReviewCase *c)
+static const ReviewPicture *frame_of(const ReviewPage *page, const ReviewCase *c)
 {
-    for (int i = 0; i < answer->picture_count; i++) {
-        const ReviewPicture *p = &answer->pictures[i];
+    for (int i = 0; i < page->picture_count; i++) {
+        const ReviewPicture *p = &page->pictures[i];
         if (p->of == c && p->is_frame) return p;
     }
     return NULL;
 }
 
 /* The part of the frame about the symbol, larger; of a frame that stands elsewhere. */
-static void add_close_up(Text *html, const ReviewPicture *frame)
+static void set_close_up(json_t *to, const ReviewPicture *frame, Arena scratch)
 {
     const CaseView *view = frame->of->view;
     double          box[4];
     if (!(frame->beside || frame->id) || !review_rays_close_up(frame->of, box)) return;
-    text_format(html, "<svg class=\"close-up\" viewBox=\"%.1f %.1f %.1f %.1f\" role=\"img\" "
-                "preserveAspectRatio=\"xMidYMid slice\" aria-label=\"close-up: ", box[0],
-                box[1], box[2], box[3]);
-    escape_markup(html, frame->of->symbol);
-    if (frame->beside) {
-        text_format(html, "\"><image width=\"%d\" height=\"%d\" href=\"", view->width,
-                    view->height);
-        escape_markup(html, frame->beside);
-        text_add(html, "\"/>");
-    } else {
-        text_format(html, "\"><use href=\"#%s\"/>", frame->id);
-    }
-    review_rays_add_line(html, frame->of);
-    text_add(html, "</svg>");
+    json_t *close_up = values_object(to, "close_up");
+    page_set(close_up, "box", arena_format(&scratch, "%.1f %.1f %.1f %.1f", box[0], box[1],
+                                           box[2], box[3]));
+    page_set_count(close_up, "view_width", view->width);
+    page_set_count(close_up, "view_height", view->height);
+    page_set(close_up, "line", review_rays_line(frame->of, &scratch));
 }
 
 /* The case's card has it, too: there it stands. */
-static bool add_frame(Text *html, const ReviewPicture *frame, Arena scratch, Error *err)
+static bool set_frame(const PageValues *v, const ReviewPicture *frame, Error *err)
 {
+    json_t       *to = values_object(v->doc, "first_frame");
     ReviewPicture shown = *frame;
+    Arena         scratch = *v->arena;
     shown.is_again = shown.id != NULL;
-    text_add(html, "<div class=\"views\"><div class=\"shown\">");
-    if (!review_card_add_picture(html, &shown, scratch, err)) return false;
-    review_rays_add_rim(html, shown.of);
-    text_add(html, "</div>");
-    add_close_up(html, &shown);
-    text_add(html, "</div>\n");
-    return true;
+    page_set(to, "rim", review_rays_rim(shown.of, &scratch));
+    set_close_up(to, &shown, scratch);
+    return values_add_picture(to, &shown, scratch, err);
 }
 
-static void add_facts(Text *html, const ReviewAnswer *answer, const ReviewCase *c, Arena *arena)
+static void set_facts(const PageValues *v, const ReviewCase *c)
 {
-    ReviewFacts facts = review_facts_of(
-        answer->review, c, review_answer_directions(answer, c, arena), arena);
-    text_add(html, "<dl class=\"facts\">\n");
-    for (int i = 0; i < facts.count; i++)
-        page_fact(html, facts.list[i].name, facts.list[i].value);
-    text_add(html, "</dl>\n");
+    json_t     *list = values_list(v->doc, "facts");
+    ReviewFacts facts = review_facts_of(v->review, c, values_directions(v, c), v->arena);
+    for (int i = 0; i < facts.count; i++) {
+        json_t *fact = page_add(list);
+        page_set(fact, "name", facts.list[i].name);
+        page_set(fact, "value", facts.list[i].value);
+    }
 }
 
-static bool add_worst(Text *html, const ReviewAnswer *answer, const ReviewCase *c, Arena *arena,
-                      Error *err)
+bool values_add_answer(const PageValues *v, Error *err)
 {
-    const ReviewPicture *frame = frame_of(answer, c);
-    text_add(html, "<section class=\"worst\" aria-label=\"The worst case\">\n");
-    if (frame && !add_frame(html, frame, *arena, err)) return false;
-    if (!frame && c->verdict != VERDICT_UNJUDGED) review_bar_add_luminances(html, c, arena);
-    add_facts(html, answer, c, arena);
-    text_add(html, "</section>\n");
-    return true;
-}
-
-bool review_answer_add(Text *html, const ReviewAnswer *answer, Arena *arena, Error *err)
-{
-    const ReviewCase *worst = review_worst(answer->review, *arena);
-    add_line(html, answer->review, worst, arena);
-    add_rests(html, answer->review, arena);
+    const ReviewCase    *worst = review_worst(v->review, *v->arena);
+    const ReviewPicture *frame = worst ? frame_of(v->page, worst) : NULL;
+    set_verdict(values_object(v->doc, "answer"), v->review, worst);
     if (!worst) return true;
-    text_add(html, "<div class=\"first\">\n");
-    add_grid(html, answer->review, arena);
-    if (!add_worst(html, answer, worst, arena, err)) return false;
-    text_add(html, "</div>\n");
-    return true;
+    json_object_set(v->doc, "worst", values_of_case(v, worst));
+    set_grid(v, values_object(v->doc, "grid"));
+    set_facts(v, worst);
+    return !frame || set_frame(v, frame, err);
 }

@@ -23,26 +23,26 @@ static double margin_at(const LimitVerdict *limit, double found)
     return quantity_margin(limit_kind_named(limit->kind), limit->is_upper, found, limit->value);
 }
 
-void review_bar_add_margin(Text *html, const LimitVerdict *limit)
+const char *review_bar_margin(const LimitVerdict *limit, Arena *arena)
 {
-    if (!isfinite(limit->margin)) return;
+    Text svg = {.arena = arena};
+    if (!isfinite(limit->margin)) return "";
     double x = margin_place(limit->margin);
     double low = margin_place(margin_at(limit, limit->low));
     double high = margin_place(margin_at(limit, limit->high));
-    text_format(html, "<svg class=\"margin\" width=\"%.0f\" height=\"12\" aria-hidden=\"true\">"
+    text_format(&svg, "<svg class=\"margin\" width=\"%.0f\" height=\"12\" aria-hidden=\"true\">"
                 "<rect class=\"%s\" x=\"%.1f\" y=\"2\" width=\"%.1f\" height=\"8\"/>",
                 2 * HALF_WIDTH, words_class(limit->verdict),
                 fmin(x, HALF_WIDTH), fabs(x - HALF_WIDTH));
     if (isfinite(low) && isfinite(high) && fabs(high - low) >= 1)
-        text_format(html, "<path class=\"whisker\" d=\"M%.1f 6H%.1f\"/>", low, high);
-    text_format(html, "<path class=\"limit\" d=\"M%.1f 0V12\"/></svg>", HALF_WIDTH);
+        text_format(&svg, "<path class=\"whisker\" d=\"M%.1f 6H%.1f\"/>", low, high);
+    text_format(&svg, "<path class=\"limit\" d=\"M%.1f 0V12\"/></svg>", HALF_WIDTH);
+    return svg.data;
 }
 
-void review_bar_add_share(Text *html, double share)
+const char *review_bar_percent(double share, Arena *arena)
 {
-    double percent = share > 0 ? fmin(100 * share, 100) : 0;
-    text_format(html, "<svg class=\"share\" height=\"5\" aria-hidden=\"true\">"
-                "<rect width=\"%.1f%%\" height=\"5\"/></svg>", percent);
+    return arena_format(arena, "%.1f", share > 0 ? fmin(100 * share, 100) : 0);
 }
 
 /* ---- luminances ------------------------------------------------------------------------- */
@@ -154,38 +154,16 @@ static void add_mark(Text *html, const Bars *bars)
     text_add(html, "</text>");
 }
 
-static void add_figure(Text *html, const char *kind, const char *name, double cd_m2,
-                       Arena *arena)
+const char *review_bar_luminances(const ReviewCase *c, bool *has_veil, Arena *arena)
 {
-    text_format(html, "<li><i class=\"%s\"></i><span>%s</span> <b>%s</b></li>\n", kind, name,
-                words_figure(cd_m2, arena));
-}
-
-/* Below the bars, which show no numbers. */
-static void add_figures(Text *html, const CaseLuminances *l, bool has_veil, Arena *arena)
-{
-    text_add(html, "<ul class=\"parts\">\n");
-    add_figure(html, "emit", "the symbol's own light", l->foreground, arena);
-    add_figure(html, "emit", "its background's own light", l->background, arena);
-    add_figure(html, "", "reflected by the display, in all", l->reflected, arena);
-    add_figure(html, "mirror", "of that, as in a mirror", l->mirror, arena);
-    add_figure(html, "scatter", "of that, scattered", l->scattered, arena);
-    add_figure(html, has_veil ? "veil" : "", has_veil ? "veil of stray light in the eye"
-               : "veil of stray light in the eye, not in this contrast", l->veil, arena);
-    text_add(html, "</ul>\n");
-}
-
-void review_bar_add_luminances(Text *html, const ReviewCase *c, Arena *arena)
-{
+    Text svg = {.arena = arena};
     Bars bars = make_bars(c, arena);
-    text_add(html, "<h4>What reaches the eye, in cd/m²</h4>\n");
-    if (bars.most > 0 && isfinite(bars.most)) {
-        text_add(html, "<div class=\"bars\"><div>bright part</div><div>dark part</div>"
-                 "<svg height=\"58\" aria-hidden=\"true\">");
-        add_bar(html, bars.bright, bars.most, 18);
-        add_bar(html, bars.dark, bars.most, 42);
-        add_mark(html, &bars);
-        text_add(html, "</svg></div>\n");
-    }
-    add_figures(html, &c->luminance_cd_m2, bars.has_veil, arena);
+    *has_veil = bars.has_veil;
+    if (!(bars.most > 0 && isfinite(bars.most))) return "";
+    text_add(&svg, "<svg height=\"58\" aria-hidden=\"true\">");
+    add_bar(&svg, bars.bright, bars.most, 18);
+    add_bar(&svg, bars.dark, bars.most, 42);
+    add_mark(&svg, &bars);
+    text_add(&svg, "</svg>");
+    return svg.data;
 }

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "review/output/review_decide.h"
 #include "review/output/review_words.h"
+#include "review/review_decide.h"
 #include "text/json_text.h"
 
 const char *const diff_names[7] = {"broken", "mended", "worse", "better",

@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-#include "review/output/review_decide.h"
 #include "review/output/review_words.h"
+#include "review/review_decide.h"
 #include "text/text.h"
 
 #define MENDS_LISTED 2

@@ -6,8 +6,8 @@
 
 #include "base/count.h"
 #include "record/record_write.h"
-#include "review/output/review_decide.h"
 #include "review/output/review_rests.h"
+#include "review/review_decide.h"
 #include "text/json_text.h"
 
 #define DIGITS 6

@@ -2,17 +2,19 @@
 #include "review/output/review_live.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/file_write.h"
 #include "base/mathd.h"
 #include "page/page.h"
-#include "review/output/review_card.h"
-#include "review/output/review_decide.h"
+#include "review/output/review_link.h"
+#include "review/review_decide.h"
+#include "text/json_text.h"
 
 /* Sweeps beyond that much text stay as they are drawn: one minute a step over a year. */
 #define SWEEPS_BYTES ((size_t)6 << 20)
-#define SCRIPT_BYTES ((size_t)1 << 30) /* address space: what is not touched costs nothing */
+#define SCRIPT_BYTES ((size_t)1 << 34) /* address space: what is not touched costs nothing */
 
 /* ---- codes ------------------------------------------------------------------------------- */
 
@@ -56,53 +58,47 @@ const char *live_layer_pack(const float *const rgb[3], size_t count, Arena *aren
 {
     Arena     own = arena_reserve((size_t)1 << 34);
     uint32_t *codes = ARENA_NEW(&own, uint32_t, count);
-    Text      packed = {.arena = arena};
     for (size_t i = 0; i < count; i++) {
         double light[3] = {(double)rgb[0][i], (double)rgb[1][i], (double)rgb[2][i]};
         bool   is_finite = isfinite(light[0]) && isfinite(light[1]) && isfinite(light[2]);
         codes[i] = is_finite ? light_code(light) : 0;
     }
-    bool ok = page_data_add(&packed, codes, count, 4, own, err);
+    const char *packed = page_packed(codes, count, 4, arena, err);
     arena_release(&own);
-    return ok ? packed.data : NULL;
+    return packed;
 }
 
 /* ---- sweeps ------------------------------------------------------------------------------ */
 
-/* The page's text, and room to work. */
-typedef struct Writer {
-    Text  *html;
-    Arena *arena;
-    Error *err;
-} Writer;
-
-typedef struct LiveFound {
+/* Numbers are packed in `arena`, and are gone from there when they stand in the document. */
+typedef struct Packer {
     const Review     *review;
     const ReviewLive *live;
-} LiveFound;
+    Arena             arena;
+    Error            *err;
+    bool              ok;
+    size_t            bytes; /* packed so far */
+} Packer;
 
-/* Null unless finite. */
-static void add_figure(Text *html, const char *name, double value)
+static void set_codes(Packer *to, json_t *object, const char *name, const uint32_t *codes,
+                      int count, int bytes)
 {
-    if (isfinite(value)) text_format(html, ",\"%s\":%.9g", name, value);
-    else text_format(html, ",\"%s\":null", name);
+    Arena       scratch = to->arena;
+    const char *packed = page_packed(codes, (size_t)count, bytes, &scratch, to->err);
+    to->ok &= packed != NULL;
+    to->bytes += packed ? strlen(packed) : 0;
+    if (packed) json_object_set_new(object, name, json_string_nocheck(packed));
 }
 
-static bool add_codes(const Writer *to, const char *name, const uint32_t *codes, size_t count,
-                      int bytes)
+static json_t *sky_json(Packer *to, const LiveSky *sky)
 {
-    text_format(to->html, ",\"%s\":\"", name);
-    if (!page_data_add(to->html, codes, count, bytes, *to->arena, to->err)) return false;
-    text_add(to->html, "\"");
-    return true;
-}
-
-static bool add_sky(const Writer *to, const LiveSky *sky)
-{
-    Arena     scratch = *to->arena;
-    size_t    count = (size_t)sky->count;
-    uint32_t *codes = ARENA_NEW(&scratch, uint32_t, 4 * count);
-    for (size_t i = 0; i < count; i++) {
+    Packer    own = *to;
+    int       count = sky->count;
+    uint32_t *codes = ARENA_NEW(&own.arena, uint32_t, 4 * (size_t)count);
+    json_t   *headings = json_array();
+    for (int i = 0; i < sky->heading_count; i++)
+        json_array_append_new(headings, json_real(sky->headings_deg[i]));
+    for (int i = 0; i < count; i++) {
         const LiveSun *sun = &sky->suns[i];
         double turns = sun->azimuth_deg / 360;
         codes[i] = (uint32_t)(36000 * (turns - floor(turns)) + 0.5) % 36000;
@@ -110,30 +106,27 @@ static bool add_sky(const Writer *to, const LiveSky *sky)
         codes[2 * count + i] = (uint32_t)sun->step;
         codes[3 * count + i] = (uint32_t)sun->heading_id;
     }
-    Writer own = {to->html, &scratch, to->err};
-    text_format(to->html, "{\"count\":%d,\"route\":%s,\"year\":%d,\"minutes\":%.9g,",
-                sky->count, sky->is_route ? "true" : "false", sky->year, sky->step_minutes);
-    text_add(to->html, "\"headings\":[");
-    for (int i = 0; i < sky->heading_count; i++)
-        text_format(to->html, i ? ",%.9g" : "%.9g", sky->headings_deg[i]);
-    text_add(to->html, "]");
-    if (!add_codes(&own, "azimuth", codes, count, 2) ||
-        !add_codes(&own, "elevation", codes + count, count, 2))
-        return false;
-    if (sky->year && (!add_codes(&own, "step", codes + 2 * count, count, 4) ||
-                      !add_codes(&own, "heading", codes + 3 * count, count, 1)))
-        return false;
-    text_add(to->html, "}");
-    return true;
+    json_t *sky_of = json_pack("{s:i, s:b, s:i, s:f, s:o}", "count", count, "route",
+                               sky->is_route, "year", sky->year, "minutes", sky->step_minutes,
+                               "headings", headings);
+    set_codes(&own, sky_of, "azimuth", codes, count, 2);
+    set_codes(&own, sky_of, "elevation", codes + count, count, 2);
+    if (sky->year) set_codes(&own, sky_of, "step", codes + 2 * count, count, 4);
+    if (sky->year) set_codes(&own, sky_of, "heading", codes + 3 * count, count, 1);
+    to->ok = own.ok;
+    to->bytes = own.bytes;
+    return sky_of;
 }
 
-static bool add_numbers(const Writer *to, const char *name, const float *values, int count)
+static void set_numbers(Packer *to, json_t *object, const char *name, const float *values,
+                        int count)
 {
-    Arena     scratch = *to->arena;
-    uint32_t *codes = ARENA_NEW(&scratch, uint32_t, count);
+    Arena     kept = to->arena;
+    uint32_t *codes = ARENA_NEW(&to->arena, uint32_t, count);
     for (int i = 0; i < count; i++)
         codes[i] = log_code((double)values[i], 1e-6, 1e9, 65535);
-    return add_codes(&(Writer){to->html, &scratch, to->err}, name, codes, (size_t)count, 2);
+    set_codes(to, object, name, codes, count, 2);
+    to->arena = kept;
 }
 
 static const float *display_numbers(const LiveSweep *sweep, bool is_lux)
@@ -143,34 +136,33 @@ static const float *display_numbers(const LiveSweep *sweep, bool is_lux)
 
 /* A display's numbers are the same for all of its symbols and eyes: they stand in the first
  * sweep alone, and the others hold its index. */
-static bool add_display_numbers(const Writer *to, const LiveSweep *sweeps, int at, bool is_lux)
+static void set_display_numbers(Packer *to, json_t *object, int at, bool is_lux)
 {
-    const char  *name = is_lux ? "lux" : "level";
-    const float *own = display_numbers(&sweeps[at], is_lux);
-    int          count = sweeps[at].sky->count;
-    for (int i = 0; i < at; i++)
-        if (sweeps[i].sky == sweeps[at].sky &&
-            !memcmp(display_numbers(&sweeps[i], is_lux), own, (size_t)count * sizeof *own)) {
-            text_format(to->html, ",\"%s\":%d", name, i);
-            return true;
-        }
-    return add_numbers(to, name, own, count);
+    const LiveSweep *sweeps = to->live->sweeps;
+    const char      *name = is_lux ? "lux" : "level";
+    const float     *own = display_numbers(&sweeps[at], is_lux);
+    int              count = sweeps[at].sky->count, same = 0;
+    while (same < at && (sweeps[same].sky != sweeps[at].sky ||
+                         memcmp(display_numbers(&sweeps[same], is_lux), own,
+                                (size_t)count * sizeof *own) != 0))
+        same++;
+    if (same < at) page_set_count(object, name, same);
+    else set_numbers(to, object, name, own, count);
 }
 
-static bool add_states(const Writer *to, const LiveSweep *sweep)
+static void set_states(Packer *to, json_t *object, const LiveSweep *sweep)
 {
-    Arena     scratch = *to->arena;
-    int       count = sweep->sky->count;
-    uint32_t *codes = ARENA_NEW(&scratch, uint32_t, count);
-    for (int i = 0; i < count; i++)
+    Arena     kept = to->arena;
+    uint32_t *codes = ARENA_NEW(&to->arena, uint32_t, sweep->sky->count);
+    for (int i = 0; i < sweep->sky->count; i++)
         codes[i] = (uint32_t)(sweep->verdict[i] | sweep->ambient[i] << 2);
-    return add_codes(&(Writer){to->html, &scratch, to->err}, "state", codes, (size_t)count, 1);
+    set_codes(to, object, "state", codes, sweep->sky->count, 1);
+    to->arena = kept;
 }
 
-static void add_limit(Text *html, const LimitVerdict *limit)
+static json_t *limit_json(const LimitVerdict *limit)
 {
-    if (limit) text_format(html, "[%.9g,\"%s\"]", limit->value, limit->kind);
-    else text_add(html, "null");
+    return limit ? json_pack("[f,s]", limit->value, limit->kind) : json_null();
 }
 
 /* Where a case's picture is among the live ones; -1: nowhere. */
@@ -183,179 +175,157 @@ static int picture_of(const ReviewLive *live, const ReviewCase *c)
 
 /* Suns of the same condition, seen by the same eye, of which there are pictures: the card that
  * has it, and where the sun stands. */
-static void add_seen(Text *html, const LiveFound *found, const ReviewSweep *like)
+static json_t *seen_json(const Packer *to, const ReviewSweep *like)
 {
-    int added = 0;
-    text_add(html, ",\"seen\":[");
-    for (int i = 0; i < found->review->sweep_count; i++) {
-        const ReviewSweep *s = &found->review->sweeps[i];
+    json_t *seen = json_array();
+    for (int i = 0; i < to->review->sweep_count; i++) {
+        const ReviewSweep *s = &to->review->sweeps[i];
+        Arena              scratch = to->arena;
         if (strcmp(s->condition, like->condition) || strcmp(s->eye, like->eye) ||
-            picture_of(found->live, &s->worst) < 0)
+            picture_of(to->live, &s->worst) < 0)
             continue;
-        text_format(html, "%s[\"s%d\",%.9g,%.9g]", added++ ? "," : "", i,
-                    s->worst.sun_azimuth_deg, s->worst.sun_elevation_deg);
+        json_array_append_new(
+            seen, json_pack("[s,o,o]", review_card_id(to->review, &s->worst, &scratch),
+                            json_figure(s->worst.sun_azimuth_deg),
+                            json_figure(s->worst.sun_elevation_deg)));
     }
-    text_add(html, "]");
+    return seen;
 }
 
-static bool add_sweep(const Writer *to, const LiveFound *found, int at, int sky_id)
+static json_t *sweep_json(Packer *to, int at, int sky_id)
 {
-    const LiveSweep *sweeps = found->live->sweeps, *sweep = &sweeps[at];
+    const LiveSweep *sweep = &to->live->sweeps[at];
     int              count = sweep->sky->count;
-    text_format(to->html, "{\"id\":%d,\"sky\":%d,\"worst\":%d", sweep->sweep_id, sky_id,
-                sweep->worst);
-    add_figure(to->html, "foreground", sweep->foreground);
-    add_figure(to->html, "background", sweep->background);
-    text_add(to->html, ",\"limits\":[");
-    for (int i = 0; i < 4; i++) {
-        if (i > 0) text_add(to->html, ",");
-        add_limit(to->html, sweep->asked[i]);
-    }
-    text_add(to->html, "]");
-    add_seen(to->html, found, &found->review->sweeps[sweep->sweep_id]);
-    if (!add_numbers(to, "reflected", sweep->reflected, count) ||
-        !add_numbers(to, "mirror", sweep->mirror, count) ||
-        !add_display_numbers(to, sweeps, at, false) ||
-        !add_display_numbers(to, sweeps, at, true) || !add_states(to, sweep))
-        return false;
-    text_add(to->html, "}");
-    return true;
+    json_t          *limits = json_array();
+    for (int i = 0; i < 4; i++) json_array_append_new(limits, limit_json(sweep->asked[i]));
+    json_t *out = json_pack("{s:i, s:i, s:i, s:o, s:o, s:o, s:o}", "id", sweep->sweep_id, "sky",
+                            sky_id, "worst", sweep->worst, "foreground",
+                            json_figure(sweep->foreground), "background",
+                            json_figure(sweep->background), "limits", limits, "seen",
+                            seen_json(to, &to->review->sweeps[sweep->sweep_id]));
+    set_numbers(to, out, "reflected", sweep->reflected, count);
+    set_numbers(to, out, "mirror", sweep->mirror, count);
+    set_display_numbers(to, out, at, false);
+    set_display_numbers(to, out, at, true);
+    set_states(to, out, sweep);
+    return out;
 }
 
 /* Sweeps of one condition follow each other. Those that are left out lose nothing that the
  * page would show without script. */
-static bool add_sweeps(const Writer *to, const LiveFound *found)
+static void set_sweeps(Packer *to, json_t *document)
 {
-    const ReviewLive *live = found->live;
-    Text  skies = {.arena = to->arena};
-    Arena own = arena_reserve((size_t)1 << 34);
-    Writer sky_to = {&skies, &own, to->err}, sweep_to = {to->html, &own, to->err};
     const LiveSky *last = NULL;
-    int    sky_id = -1;
-    size_t start = to->html->size;
-    bool   ok = true;
-    text_add(to->html, "\"sweeps\":[");
-    for (int i = 0; ok && i < live->sweep_count; i++) {
-        const LiveSweep *sweep = &live->sweeps[i];
-        if (to->html->size - start + skies.size > SWEEPS_BYTES) break;
-        if (sweep->sky != last) {
-            if (++sky_id > 0) text_add(&skies, ",");
-            ok = add_sky(&sky_to, sweep->sky);
-        }
-        last = sweep->sky;
-        if (i > 0) text_add(to->html, ",");
-        ok = ok && add_sweep(&sweep_to, found, i, sky_id);
+    json_t        *sweeps = json_array(), *skies = json_array();
+    for (int i = 0; to->ok && i < to->live->sweep_count && to->bytes <= SWEEPS_BYTES; i++) {
+        const LiveSky *sky = to->live->sweeps[i].sky;
+        if (sky != last) json_array_append_new(skies, sky_json(to, sky));
+        json_array_append_new(sweeps, sweep_json(to, i, (int)json_array_size(skies) - 1));
+        last = sky;
     }
-    arena_release(&own);
-    text_format(to->html, "],\n\"skies\":[%s]", skies.data ? skies.data : "");
-    return ok;
+    json_object_set_new(document, "sweeps", sweeps);
+    json_object_set_new(document, "skies", skies);
 }
 
 /* ---- pictures ---------------------------------------------------------------------------- */
 
-static void add_layers(Text *to, const LivePicture *p)
+static json_t *layers_json(const LivePicture *p)
 {
     const char *layers[4] = {p->scene, p->displays, p->eye_scene, p->eye_displays};
-    for (int i = 0; i < 4; i++) {
-        text_add(to, i ? ",\"" : "[\"");
-        text_add(to, layers[i] ? layers[i] : "");
-        text_add(to, "\"");
+    json_t     *list = json_array();
+    for (int i = 0; i < 4; i++)
+        json_array_append_new(list, json_string_nocheck(layers[i] ? layers[i] : ""));
+    return list;
+}
+
+static json_t *picture_json(const LivePicture *p)
+{
+    json_t *out = json_pack(
+        "{s:s, s:i, s:i, s:f, s:f, s:f, s:f, s:f, s:b}", "frame", p->frame, "width", p->width,
+        "height", p->height, "grey", p->grey_cd_m2, "low", p->low, "high", p->high, "age",
+        p->age_years, "pigment", p->pigment, "eye", p->eye_scene != NULL);
+    if (p->beside) page_set(out, "script", p->beside);
+    else json_object_set_new(out, "layers", layers_json(p));
+    return out;
+}
+
+/* A case that has a picture: its card, and what its readings are made of. */
+static json_t *case_json(const Packer *to, const ReviewCase *c, int picture)
+{
+    const CaseLuminances *l = &c->luminance_cd_m2;
+    Arena                 scratch = to->arena;
+    return json_pack("{s:s, s:i, s:i, s:o, s:o, s:o, s:o, s:o}", "card",
+                     review_card_id(to->review, c, &scratch), "picture", picture, "verdict",
+                     (int)c->verdict, "level", json_figure(c->level), "foreground",
+                     json_figure(l->foreground), "background", json_figure(l->background),
+                     "reflected", json_figure(l->reflected), "limit",
+                     limit_json(c->limit_id >= 0 ? &c->limits[c->limit_id] : NULL));
+}
+
+static void set_pictures(Packer *to, json_t *document)
+{
+    json_t *pictures = json_array(), *cases = json_array();
+    for (int i = 0; i < to->live->picture_count; i++)
+        json_array_append_new(pictures, picture_json(&to->live->pictures[i]));
+    for (int i = 0; i < review_case_count(to->review); i++) {
+        const ReviewCase *c = review_case_at(to->review, i);
+        int               picture = picture_of(to->live, c);
+        if (picture >= 0) json_array_append_new(cases, case_json(to, c, picture));
     }
-    text_add(to, "]");
+    json_object_set_new(document, "pictures", pictures);
+    json_object_set_new(document, "cases", cases);
+    json_object_set_new(document, "colours", json_string(to->live->colours));
+}
+
+/* ---- all of it --------------------------------------------------------------------------- */
+
+/* Takes the value. */
+static void add_value(Text *text, json_t *value)
+{
+    char *compact = json_dumps(value, JSON_COMPACT | JSON_REAL_PRECISION(9) | JSON_ENCODE_ANY);
+    text_add(text, compact ? compact : "null");
+    free(compact);
+    json_decref(value);
 }
 
 bool live_layers_write(const LivePicture *picture, const char *path, Error *err)
 {
-    Arena own = arena_reserve((size_t)1 << 34);
+    Arena own = arena_reserve(SCRIPT_BYTES);
     Text  script = {.arena = &own};
     text_format(&script, "liveLayers(\"%s\",", picture->beside);
-    add_layers(&script, picture);
+    add_value(&script, layers_json(picture));
     text_add(&script, ");\n");
     bool ok = file_write(path, script.data, script.size, err);
     arena_release(&own);
     return ok;
 }
 
-static void add_picture(Text *html, const LivePicture *p)
+static bool add_all(Text *to, const Review *review, const ReviewLive *live, Error *err)
 {
-    text_format(html, "{\"frame\":\"%s\",\"width\":%d,\"height\":%d,\"grey\":%.9g,"
-                "\"low\":%.9g,\"high\":%.9g,\"age\":%.9g,\"pigment\":%.9g,\"eye\":%s,",
-                p->frame, p->width, p->height, p->grey_cd_m2, p->low, p->high, p->age_years,
-                p->pigment, p->eye_scene ? "true" : "false");
-    if (p->beside) {
-        text_format(html, "\"script\":\"%s\"}", p->beside);
-        return;
-    }
-    text_add(html, "\"layers\":");
-    add_layers(html, p);
-    text_add(html, "}");
-}
-
-/* A case that has a picture: its card, and what its readings are made of. */
-static void add_case(Text *html, const Review *review, const ReviewCase *c, int picture,
-                     Arena *arena)
-{
-    const CaseLuminances *l = &c->luminance_cd_m2;
-    text_format(html, "{\"card\":\"%s\",\"picture\":%d,\"verdict\":%d",
-                review_card_id(review, c, arena), picture, (int)c->verdict);
-    add_figure(html, "level", c->level);
-    add_figure(html, "foreground", l->foreground);
-    add_figure(html, "background", l->background);
-    add_figure(html, "reflected", l->reflected);
-    text_add(html, ",\"limit\":");
-    add_limit(html, c->limit_id >= 0 ? &c->limits[c->limit_id] : NULL);
-    text_add(html, "}");
-}
-
-static void add_pictures(Text *html, const Review *review, const ReviewLive *live, Arena *arena)
-{
-    int added = 0;
-    text_add(html, ",\n\"pictures\":[");
-    for (int i = 0; i < live->picture_count; i++) {
-        if (i > 0) text_add(html, ",\n");
-        add_picture(html, &live->pictures[i]);
-    }
-    text_add(html, "],\n\"cases\":[");
-    for (int i = 0; i < review_case_count(review); i++) {
-        const ReviewCase *c = review_case_at(review, i);
-        int picture = picture_of(live, c);
-        if (picture < 0) continue;
-        if (added++ > 0) text_add(html, ",");
-        add_case(html, review, c, picture, arena);
-    }
-    text_format(html, "],\"colours\":\"%s\"}", live->colours);
-}
-
-/* ---- all of it --------------------------------------------------------------------------- */
-
-static bool add_all(Text *to, const Review *review, const ReviewLive *live, Arena *arena,
-                    Error *err)
-{
-    Writer writer = {to, arena, err};
-    text_add(to, "{");
-    if (!add_sweeps(&writer, &(LiveFound){review, live})) return false;
-    add_pictures(to, review, live, arena);
-    return true;
+    Arena   own = arena_reserve(SCRIPT_BYTES);
+    Packer  packer = {.review = review, .live = live, .arena = own, .err = err, .ok = true};
+    json_t *document = json_object();
+    set_sweeps(&packer, document);
+    set_pictures(&packer, document);
+    add_value(to, document);
+    arena_release(&own);
+    return packer.ok;
 }
 
 bool review_live_write(const Review *review, const ReviewLive *live, const char *path,
                        Error *err)
 {
-    Arena own = arena_reserve(SCRIPT_BYTES), words = arena_reserve(SCRIPT_BYTES);
+    Arena own = arena_reserve(SCRIPT_BYTES);
     Text  script = {.arena = &own};
     text_add(&script, "window.liveData=");
-    bool ok = add_all(&script, review, live, &words, err);
-    if (ok) {
-        text_add(&script, ";\n");
-        ok = file_write(path, script.data, script.size, err);
-    }
-    arena_release(&words);
+    bool ok = add_all(&script, review, live, err);
+    text_add(&script, ";\n");
+    ok = ok && file_write(path, script.data, script.size, err);
     arena_release(&own);
     return ok;
 }
 
-bool review_live_add(Text *html, const Review *review, const ReviewLive *live, Arena *arena,
-                     Error *err)
+bool review_live_add(Text *html, const Review *review, const ReviewLive *live, Error *err)
 {
     if (live->sweep_count + live->picture_count == 0) return true;
     if (live->beside) {
@@ -363,7 +333,7 @@ bool review_live_add(Text *html, const Review *review, const ReviewLive *live, A
         return true;
     }
     text_add(html, "<script type=\"application/json\" id=\"live-data\">\n");
-    if (!add_all(html, review, live, arena, err)) return false;
+    if (!add_all(html, review, live, err)) return false;
     text_add(html, "</script>\n");
     return true;
 }

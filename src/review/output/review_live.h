@@ -89,5 +89,4 @@ bool review_live_write(const Review *review, const ReviewLive *live, const char 
                        Error *err);
 
 /* A block of JSON that is not shown, or what asks for it: before the page ends. */
-bool review_live_add(Text *html, const Review *review, const ReviewLive *live, Arena *arena,
-                     Error *err);
+bool review_live_add(Text *html, const Review *review, const ReviewLive *live, Error *err);

@@ -12,6 +12,8 @@
 #include "text/base64.h"
 #include "text/text.h"
 
+#define DRAWING_BYTES ((size_t)1 << 32) /* address space for cells and their picture */
+
 /* ---- colours ---------------------------------------------------------------------------- */
 
 typedef struct Colour {
@@ -91,13 +93,37 @@ static void add_tick(Text *html, const char *side, double share, const char *tex
     text_add(html, "</span>");
 }
 
-static void add_key(Text *html, Colour colour, const char *text)
+static void set_colour(json_t *to, const char *name, Colour colour)
 {
-    text_format(html, "<span><i style=\"background:#%02x%02x%02x\"></i>",
-                (int)(colour.srgb[0] * 255 + 0.5f), (int)(colour.srgb[1] * 255 + 0.5f),
-                (int)(colour.srgb[2] * 255 + 0.5f));
-    escape_markup(html, text);
-    text_add(html, "</span>\n");
+    char code[8];
+    snprintf(code, sizeof code, "#%02x%02x%02x", (int)(colour.srgb[0] * 255 + 0.5f),
+             (int)(colour.srgb[1] * 255 + 0.5f), (int)(colour.srgb[2] * 255 + 0.5f));
+    page_set(to, name, code);
+}
+
+static json_t *colours(void)
+{
+    json_t *to = json_object();
+    set_colour(to, "worst", WORST);
+    set_colour(to, "failing", FAILING);
+    set_colour(to, "close", CLOSE);
+    set_colour(to, "passing", PASSING);
+    set_colour(to, "best", BEST);
+    set_colour(to, "hidden", HIDDEN);
+    set_colour(to, "none", NONE);
+    set_colour(to, "night", NIGHT);
+    return to;
+}
+
+/* The drawing goes into a template (map.html, calendar.html) that names and explains it. A
+ * sweep goes by the middle of an eye's box. */
+static json_t *values_of(const Text *drawing, const ReviewSweep *sweep)
+{
+    json_t *to = json_object();
+    json_object_set_new(to, "drawing", json_stringn(drawing->data, drawing->size));
+    json_object_set_new(to, "colour", colours());
+    page_set_flag(to, "of_box", sweep && sweep_has_box(sweep));
+    return to;
 }
 
 /* ---- the map ---------------------------------------------------------------------------- */
@@ -247,44 +273,6 @@ static bool holds(const ReviewMap *map, int wanted)
     return false;
 }
 
-static void add_map_keys(Text *html, const ReviewMap *map)
-{
-    text_add(html, "<div class=\"keys\">");
-    add_key(html, WORST, "margin −100 %: nothing stands out");
-    add_key(html, FAILING, "just below the limit");
-    if (holds(map, VERDICT_TOO_CLOSE)) add_key(html, CLOSE, "too close to call");
-    add_key(html, PASSING, "just above");
-    add_key(html, BEST, "margin +100 % or more");
-    if (holds(map, VERDICT_UNJUDGED)) add_key(html, HIDDEN, "cannot be judged");
-    if (holds(map, GAP))
-        add_key(html, NONE, map->is_between_steps ? "no sun was computed there" : "no answer");
-    text_add(html, "</div>\n");
-}
-
-/* A sweep goes by the middle of an eye's box. */
-static const char *whose_words(const ReviewSweep *sweep)
-{
-    return sweep && sweep_has_box(sweep) ? " As the middle eye of the box sees it." : "";
-}
-
-static void add_map_labels(Text *html, const ReviewMap *map, Arena *arena)
-{
-    for (int i = 0; i < map->path_count; i++) add_path_name(html, map, &map->paths[i]);
-    text_add(html, "</div>");
-    add_elevations(html, map, arena);
-    add_azimuths(html, map);
-    text_add(html, "</div>\n");
-    add_map_keys(html, map);
-    page_element(html, "figcaption", arena_format(
-        arena, "Contrast against its limit, with the sun at every place of the sky; inside the "
-        "dark line it fails.%s%s%s",
-        whose_words(map->of),
-        map->is_between_steps ? " Where the sun passes between two steps that were computed, "
-                                "the nearer one's answer is shown; a cell shows the worst of "
-                                "its own steps." : "",
-        map->path_count > 0 ? " Dashed: the sun's way over the sky on these days." : ""));
-}
-
 /* Contrast of 1 to 10,000 by its logarithm, within 0.06 %. */
 static unsigned code_of(float contrast, unsigned verdict)
 {
@@ -309,20 +297,31 @@ static void begin_map(Text *html, const ReviewMap *map, Arena scratch)
     add_values(html, codes, cells);
 }
 
-bool review_map_add(Text *html, const ReviewMap *map, Arena *arena, Error *err)
+json_t *review_map_values(const ReviewMap *map, Arena scratch, Error *err)
 {
-    text_add(html, "<figure class=\"sweep\">");
-    page_element(html, "h3", map->is_of_vehicle ? "Where the sun stands, seen from the vehicle"
-                                                : "Where the sun stands");
-    begin_map(html, map, *arena);
-    Picture cells = map_picture(map, arena);
-    if (!add_cells(html, &cells, *arena, err)) return false;
-    add_border(html, map);
-    for (int i = 0; i < map->path_count; i++) add_path(html, map, &map->paths[i]);
-    text_add(html, "</svg>");
-    add_map_labels(html, map, arena);
-    text_add(html, "</figure>\n");
-    return true;
+    Text    html = {.arena = &scratch};
+    Arena   own = arena_reserve(DRAWING_BYTES);
+    Picture cells = map_picture(map, &own);
+    begin_map(&html, map, own);
+    bool ok = add_cells(&html, &cells, own, err);
+    add_border(&html, map);
+    for (int i = 0; i < map->path_count; i++) add_path(&html, map, &map->paths[i]);
+    text_add(&html, "</svg>");
+    for (int i = 0; i < map->path_count; i++) add_path_name(&html, map, &map->paths[i]);
+    text_add(&html, "</div>");
+    add_elevations(&html, map, &own);
+    add_azimuths(&html, map);
+    text_add(&html, "</div>\n");
+    arena_release(&own);
+    json_t *to = ok ? values_of(&html, map->of) : NULL;
+    json_t *holds_of = json_pack("{s:b, s:b, s:b}", "close", holds(map, VERDICT_TOO_CLOSE),
+                                 "hidden", holds(map, VERDICT_UNJUDGED), "gap",
+                                 holds(map, GAP));
+    json_object_set_new(to, "holds", holds_of);
+    page_set_flag(to, "is_of_vehicle", map->is_of_vehicle);
+    page_set_flag(to, "is_between_steps", map->is_between_steps);
+    page_set_flag(to, "has_paths", map->path_count > 0);
+    return to;
 }
 
 /* ---- the calendar ----------------------------------------------------------------------- */
@@ -369,17 +368,6 @@ static void add_hours(Text *html, Arena *arena)
     text_add(html, "</div>");
 }
 
-static void add_calendar_keys(Text *html, const ReviewCalendar *calendar)
-{
-    text_add(html, "<div class=\"keys\">");
-    add_key(html, PASSING, calendar->headings > 1 ? "passes whichever way the vehicle points"
-                                                  : "passes");
-    if (calendar->headings > 1) add_key(html, FAILING, "fails for one of many headings");
-    add_key(html, WORST, calendar->headings > 1 ? "fails for all headings" : "fails");
-    add_key(html, NIGHT, "sun below the horizon");
-    text_add(html, "</div>\n");
-}
-
 static void begin_calendar(Text *html, const ReviewCalendar *calendar, Arena scratch)
 {
     size_t         days = (size_t)calendar->days, steps = (size_t)calendar->steps_a_day;
@@ -398,24 +386,22 @@ static void begin_calendar(Text *html, const ReviewCalendar *calendar, Arena scr
     add_values(html, codes, days * steps);
 }
 
-bool review_map_add_calendar(Text *html, const ReviewCalendar *calendar, Arena *arena,
-                             Error *err)
+json_t *review_calendar_values(const ReviewCalendar *calendar, Arena scratch, Error *err)
 {
-    text_add(html, "<figure class=\"sweep\">");
-    page_element(html, "h3", arena_format(arena, "When it fails, %d", calendar->year));
-    begin_calendar(html, calendar, *arena);
-    Picture cells = calendar_picture(calendar, arena);
-    if (!add_cells(html, &cells, *arena, err)) return false;
-    text_add(html, "</svg></div>");
-    add_hours(html, arena);
-    add_months(html, calendar);
-    text_add(html, "</div>\n");
-    add_calendar_keys(html, calendar);
-    page_element(html, "figcaption",
-                 arena_format(arena, "Every day from left to right, every hour from below "
-                              "(%s); %d heading%s of the vehicle.%s", calendar->clock,
-                              calendar->headings, calendar->headings == 1 ? "" : "s",
-                              whose_words(calendar->of)));
-    text_add(html, "</figure>\n");
-    return true;
+    Text    html = {.arena = &scratch};
+    Arena   own = arena_reserve(DRAWING_BYTES);
+    Picture cells = calendar_picture(calendar, &own);
+    begin_calendar(&html, calendar, own);
+    bool ok = add_cells(&html, &cells, own, err);
+    text_add(&html, "</svg></div>");
+    add_hours(&html, &own);
+    add_months(&html, calendar);
+    text_add(&html, "</div>\n");
+    arena_release(&own);
+    json_t *to = ok ? values_of(&html, calendar->of) : NULL;
+    page_set_count(to, "year", calendar->year);
+    page_set_count(to, "headings", calendar->headings);
+    page_set_flag(to, "has_headings", calendar->headings > 1);
+    page_set(to, "clock", calendar->clock);
+    return to;
 }

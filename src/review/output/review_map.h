@@ -6,13 +6,15 @@
  * is small, and can be read on a telephone.
  *
  * Units    angles in degrees.
- * Memory   the arena's. Threads: no shared state.
+ * Memory   values are jansson's, the caller's. Threads: no shared state.
  * Fails    for a picture that cannot be encoded.
  */
 #pragma once
+#include <jansson.h>
+
+#include "base/arena.h"
 #include "base/error.h"
 #include "review/verdict.h"
-#include "text/text.h"
 
 /* Places along an axis: first, first + step, ... */
 typedef struct ReviewAxis {
@@ -42,7 +44,8 @@ typedef struct ReviewMap {
     int                  path_count;
 } ReviewMap;
 
-bool review_map_add(Text *html, const ReviewMap *map, Arena *arena, Error *err);
+/* What the template map.html shows; the caller's. NULL: *err is filled. */
+json_t *review_map_values(const ReviewMap *map, Arena scratch, Error *err);
 
 /* The share of headings that failed, over the hours of every day. The array holds the steps of
  * the first day from midnight on, then those of the second, ... */
@@ -54,5 +57,5 @@ typedef struct ReviewCalendar {
     const float       *failed_share; /* 0..1; NaN: the sun is down, or no answer */
 } ReviewCalendar;
 
-bool review_map_add_calendar(Text *html, const ReviewCalendar *calendar, Arena *arena,
-                             Error *err);
+/* The same of calendar.html. */
+json_t *review_calendar_values(const ReviewCalendar *calendar, Arena scratch, Error *err);

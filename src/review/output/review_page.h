@@ -15,31 +15,15 @@
  * Fails    for a picture that cannot be read and a page that cannot be written.
  */
 #pragma once
-#include "review/output/review_card.h"
-#include "review/output/review_diff.h"
-#include "review/output/review_facts.h"
-#include "review/output/review_live.h"
-#include "review/output/review_map.h"
-#include "review/verdict.h"
+#include "page/template.h"
+#include "review/output/review_values.h"
 
-typedef struct ReviewPage {
-    const Review         *review;
-    const ReviewPicture  *pictures;
-    int                   picture_count;
-    const ReviewPicture  *pairs;    /* two a variant: without and with its change; no file:
-                                       none */
-    const ReviewMap      *maps;
-    int                   map_count;
-    const ReviewCalendar *calendars;
-    int                   calendar_count;
-    const ReviewFact     *facts;    /* scene, panels, sky, program: with versions and hashes */
-    int                   fact_count;
-    const char *const    *commands; /* that make this page again, and look further */
-    int                   command_count;
-    const ReviewDiff     *diff;     /* NULL: none */
-    const ReviewLive     *live;     /* the interactive parts; NULL: none */
-    bool                  is_dark;  /* for readers with a light scheme, too */
-} ReviewPage;
+/* What the templates show: review.json's document with words and drawings added; the caller's.
+ * most: of the verdicts that the list shows; 0: all. */
+json_t *review_page_values(const ReviewPage *page, int most, Arena *arena, Error *err);
+
+/* The formats of the templates. */
+extern const PageFormat review_formats[];
 
 bool review_page_write(const ReviewPage *page, const char *path, Error *err);
 

@@ -133,7 +133,7 @@ static void add_rim_path(Text *html, const ReviewCase *c)
     text_add(html, "Z\"/>");
 }
 
-void review_rays_add_line(Text *html, const ReviewCase *c)
+static void add_line(Text *html, const ReviewCase *c)
 {
     text_add(html, "<g class=\"rim\"><path class=\"under\" d=\"");
     add_rim_path(html, c);
@@ -142,13 +142,22 @@ void review_rays_add_line(Text *html, const ReviewCase *c)
     text_add(html, "</g>");
 }
 
-void review_rays_add_rim(Text *html, const ReviewCase *c)
+const char *review_rays_line(const ReviewCase *c, Arena *arena)
 {
-    if (!c->view || !is_before_eye(c)) return;
-    text_format(html, "<svg class=\"rim\" viewBox=\"0 0 %d %d\" aria-hidden=\"true\" "
+    Text svg = {.arena = arena};
+    add_line(&svg, c);
+    return svg.data;
+}
+
+const char *review_rays_rim(const ReviewCase *c, Arena *arena)
+{
+    Text svg = {.arena = arena};
+    if (!c->view || !is_before_eye(c)) return "";
+    text_format(&svg, "<svg class=\"rim\" viewBox=\"0 0 %d %d\" aria-hidden=\"true\" "
                 "preserveAspectRatio=\"xMidYMid slice\">", c->view->width, c->view->height);
-    review_rays_add_line(html, c);
-    text_add(html, "</svg>");
+    add_line(&svg, c);
+    text_add(&svg, "</svg>");
+    return svg.data;
 }
 
 #define CLOSE_SIZE 6     /* of what is shown close up, over the symbol's */
@@ -187,9 +196,10 @@ const char *review_rays_id(const char *card_id, int i, Arena *arena)
     return arena_format(arena, "%s-way%d", card_id, i + 1);
 }
 
-void review_rays_add(Text *html, const ReviewCase *c, const char *card_id, Arena *arena)
+const char *review_rays_drawn(const ReviewCase *c, const char *card_id, Arena *arena)
 {
     const CaseView *view = c->view;
+    Text            svg = {.arena = arena}, *html = &svg;
     text_format(html, "<svg class=\"rays\" viewBox=\"0 0 %d %d\">", view->width, view->height);
     for (int i = 0; i < c->cause_count; i++) {
         const CaseCause *cause = &c->causes[i];
@@ -209,4 +219,5 @@ void review_rays_add(Text *html, const ReviewCase *c, const char *card_id, Arena
         text_add(html, "</g>");
     }
     text_add(html, "</svg>");
+    return svg.data;
 }

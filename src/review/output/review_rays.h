@@ -8,8 +8,8 @@
  * Memory   the arena's. Threads: pure. Fails: never.
  */
 #pragma once
+#include "base/arena.h"
 #include "review/verdict.h"
-#include "text/text.h"
 
 /* Does cause i have rays that the frame can show? */
 bool review_rays_has(const ReviewCase *c, int i);
@@ -18,12 +18,12 @@ bool review_rays_has(const ReviewCase *c, int i);
 const char *review_rays_id(const char *card_id, int i, Arena *arena);
 
 /* <svg class="rim"> of the frame's size: a line around the symbol, a little outside it, cut
- * where a picture of object-fit: cover is. Nothing where the symbol's rim is not known. */
-void review_rays_add_rim(Text *html, const ReviewCase *c);
+ * where a picture of object-fit: cover is. "" where the symbol's rim is not known. */
+const char *review_rays_rim(const ReviewCase *c, Arena *arena);
 
 /* The same line alone, of a drawing in the frame's pixels: <g class="rim">. The rim must be
  * known. */
-void review_rays_add_line(Text *html, const ReviewCase *c);
+const char *review_rays_line(const ReviewCase *c, Arena *arena);
 
 /* What of the frame shows the symbol close up, with about it what is on its display: left, top,
  * width, height, pixels, of the frame's proportions. False: the rim is not known, or not in the
@@ -31,4 +31,4 @@ void review_rays_add_line(Text *html, const ReviewCase *c);
 bool review_rays_close_up(const ReviewCase *c, double box[4]);
 
 /* <svg class="rays"> of the frame's size, a group for each cause. */
-void review_rays_add(Text *html, const ReviewCase *c, const char *card_id, Arena *arena);
+const char *review_rays_drawn(const ReviewCase *c, const char *card_id, Arena *arena);

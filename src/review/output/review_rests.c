@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "review/output/review_decide.h"
 #include "review/output/review_words.h"
+#include "review/review_decide.h"
 #include "text/text.h"
 
 #define NAMES_LISTED 3

@@ -8,8 +8,9 @@
 #include <string.h>
 
 #include "page/page.h"
-#include "review/output/review_decide.h"
+#include "review/output/review_card.h"
 #include "review/output/review_words.h"
+#include "review/review_decide.h"
 #include "text/effect_text.h"
 
 /* ---- the order --------------------------------------------------------------------------- */
@@ -40,16 +41,6 @@ static int compare(const void *a, const void *b)
     double failed = most_failed(one->review) - most_failed(other->review);
     if (failed != 0) return failed > 0 ? 1 : -1;
     return one < other ? -1 : 1; /* they lie in one list */
-}
-
-/* By verdict, then by worst margin, then by how much of the time they fail. */
-static const ReviewVariantFound **rank(const Review *review, Arena *arena)
-{
-    int count = review->variant_count;
-    const ReviewVariantFound **out = ARENA_NEW(arena, const ReviewVariantFound *, count);
-    for (int i = 0; i < count; i++) out[i] = &review->variants[i];
-    if (count > 0) qsort(out, (size_t)count, sizeof *out, compare);
-    return out;
 }
 
 /* ---- words ------------------------------------------------------------------------------- */
@@ -191,36 +182,6 @@ static const ReviewDifference *moving_most(const ReviewVariantFound *v)
     return moves ? most : NULL;
 }
 
-/* ---- the table of all -------------------------------------------------------------------- */
-
-static void add_verdict_cell(Text *html, Verdict verdict)
-{
-    text_add(html, "<td>");
-    review_card_add_chip(html, verdict);
-    text_add(html, "</td>");
-}
-
-static void add_name_cell(Text *html, const char *name, const char *below)
-{
-    text_add(html, "<td>");
-    page_element(html, "b", name);
-    page_element(html, "small", below);
-    text_add(html, "</td>");
-}
-
-/* A figure, and below it its margin and whose it is. */
-static void add_figure_cell(Text *html, const char *kind, const char *figure,
-                            const char *margins, const char *where)
-{
-    text_format(html, "<td class=\"%s\">", kind);
-    page_element(html, "b", figure);
-    if (margins[0]) page_element(html, "small", margins);
-    page_element(html, "small", where);
-    text_add(html, "</td>");
-}
-
-#define NO_LIMIT "nothing has a limit of contrast"
-
 /* Whose the least margin is, before and after. */
 static const char *least_where(const ReviewDifference *d, Arena *arena)
 {
@@ -244,7 +205,7 @@ const char *review_variants_words(const ReviewVariantFound *v, Arena *arena)
 {
     const ReviewDifference *least = &v->worst, *most = moving_most(v);
     Text text = {.arena = arena};
-    if (!least->after) return NO_LIMIT;
+    if (!least->after) return "nothing has a limit of contrast";
     text_format(&text, "least margin %s, %s: %s", moved_words(least, arena),
                 margins_words(least, arena), least_where(least, arena));
     if (!most) text_add(&text, "; nothing moves");
@@ -254,64 +215,38 @@ const char *review_variants_words(const ReviewVariantFound *v, Arena *arena)
     return text.data;
 }
 
-static void add_change_cell(Text *html, const ReviewDifference *d, const char *where,
-                            Arena *arena)
+/* ---- the table of all -------------------------------------------------------------------- */
+
+/* A figure, and below it its margin and whose it is. */
+static void set_figure(json_t *to, const ReviewDifference *d, const char *where, Arena *arena)
 {
-    add_figure_cell(html, difference_class(d), moved_words(d, arena), margins_words(d, arena),
-                    where);
+    page_set(to, "kind", difference_class(d));
+    page_set(to, "figure", moved_words(d, arena));
+    page_set(to, "margins", margins_words(d, arena));
+    page_set(to, "where", where);
 }
 
-static void add_base_row(Text *html, const Review *review, const ReviewCase *least,
-                         Arena *arena)
+static json_t *add_row(json_t *list, const char *name, const char *changes,
+                       const Review *review, Arena *arena)
 {
-    page_row_begin(html, "same");
-    add_name_cell(html, "as it stands", "the review itself");
-    add_verdict_cell(html, review_verdict(review));
-    if (least) {
-        const char *margin = words_margin(least->margin, arena);
-        add_figure_cell(html, "n", figure_words(least, arena),
-                        arena_format(arena, "margin %s", margin), words_case(least, arena));
-    } else {
-        page_cell(html, "", NO_LIMIT);
-    }
-    page_cell(html, "n", "");
-    page_cell(html, "n", counts_words(review, arena));
-    page_cell(html, "n", failed_words(review, arena));
-    page_row_end(html);
+    json_t *to = page_add(list);
+    page_set(to, "name", name);
+    page_set(to, "changes", changes);
+    page_set(to, "least", NULL);
+    page_set(to, "most", NULL);
+    values_set_verdict(to, review_verdict(review));
+    page_set(to, "counts", counts_words(review, arena));
+    page_set(to, "failed", failed_words(review, arena));
+    return to;
 }
 
-static void add_row(Text *html, const ReviewVariantFound *v, Arena *arena)
+static void add_base_row(const PageValues *v, json_t *list, const ReviewCase *least)
 {
-    const ReviewDifference *most = moving_most(v);
-    page_row_begin(html, "");
-    add_name_cell(html, v->name, changes_words(v, arena));
-    add_verdict_cell(html, review_verdict(v->review));
-    if (v->worst.after)
-        add_change_cell(html, &v->worst, least_where(&v->worst, arena), arena);
-    else page_cell(html, "", NO_LIMIT);
-    if (most) add_change_cell(html, most, words_case(most->after, arena), arena);
-    else page_cell(html, "n", "nothing");
-    page_cell(html, "n", counts_words(v->review, arena));
-    page_cell(html, "n", failed_words(v->review, arena));
-    page_row_end(html);
-}
-
-static void add_table(Text *html, const Review *review, const ReviewVariantFound **ranked,
-                      Arena *arena)
-{
-    static const PageColumn COLUMNS[] = {
-        {"Variant", false, NULL}, {"Verdict", false, NULL},
-        {"Least margin", true, "the contrast that is nearest to its limit, or farthest below, "
-                               "before and after; the difference with its 95 % interval"},
-        {"Moves most", true, "the case whose margin changes most, up or down, before and "
-                             "after"},
-        {"Fail", true, "verdicts"},
-        {"Fails at most", true, "the sweep over time, and that over the sun's directions, that "
-                                "fail most"}};
-    page_table_begin(html, "", "variants", COLUMNS, 6);
-    add_base_row(html, review, ranked[0]->worst.before, arena);
-    for (int i = 0; i < review->variant_count; i++) add_row(html, ranked[i], arena);
-    page_table_end(html);
+    ReviewDifference none = {.after = least, .margin = NAN, .margin_range = {NAN, NAN}};
+    json_t *to = add_row(list, "as it stands", "the review itself", v->review, v->arena);
+    page_set_flag(to, "is_base", true);
+    if (!least) return;
+    set_figure(values_object(to, "least"), &none, words_case(least, v->arena), v->arena);
 }
 
 /* ---- each by itself ---------------------------------------------------------------------- */
@@ -324,75 +259,69 @@ static int compare_change(const void *a, const void *b)
     return x != y ? (x < y ? 1 : -1) : one < other ? -1 : 1;
 }
 
-static void add_difference(Text *html, const ReviewDifference *d, Arena *arena)
+static void add_difference(json_t *list, const ReviewDifference *d, Arena *arena)
 {
-    const ReviewCase *c = d->after;
-    page_row_begin(html, "");
-    page_cell(html, "", words_case(c, arena));
-    add_verdict_cell(html, c->verdict);
-    page_cell(html, "n", moved_words(d, arena));
-    page_cell(html, "n", d->before ? words_margin(d->before->margin, arena) : "–");
-    page_cell(html, "n", words_margin(c->margin, arena));
-    page_cell(html, difference_class(d), difference_words(d, arena));
-    page_row_end(html);
-}
-
-static bool add_picture(Text *html, const ReviewPicture *p, Arena scratch, Error *err)
-{
-    text_add(html, "<figure>");
-    page_element(html, "h4", p->title);
-    if (!review_card_add_picture(html, p, scratch, err)) return false;
-    page_element(html, "figcaption", p->caption);
-    text_add(html, "</figure>\n");
-    return true;
-}
-
-static bool add_pair(Text *html, const ReviewPicture pair[2], Arena scratch, Error *err)
-{
-    if (!pair[1].file) return true;
-    text_add(html, "<div class=\"figures\">\n");
-    for (int i = 0; i < 2; i++)
-        if (!add_picture(html, &pair[i], scratch, err)) return false;
-    text_add(html, "</div>\n");
-    return true;
+    json_t     *to = page_add(list);
+    const char *before = d->before ? words_margin(d->before->margin, arena) : "–";
+    values_set_verdict(to, d->after->verdict);
+    page_set(to, "case", words_case(d->after, arena));
+    page_set(to, "moved", moved_words(d, arena));
+    page_set(to, "before", before);
+    page_set(to, "after", words_margin(d->after->margin, arena));
+    page_set(to, "kind", difference_class(d));
+    page_set(to, "difference", difference_words(d, arena));
 }
 
 /* Those that change most first. */
-static void add_cases(Text *html, const ReviewVariantFound *v, Arena *arena)
+static void add_differences(json_t *to, const ReviewVariantFound *v, Arena *arena)
 {
-    static const PageColumn COLUMNS[] = {{"Case", false, NULL}, {"Verdict", false, NULL},
-                                         {"Before → after", true, NULL},
-                                         {"Margin before", true, NULL},
-                                         {"With the change", true, NULL},
-                                         {"Difference", true, NULL}};
-    const ReviewDifference **list =
-        ARENA_NEW(arena, const ReviewDifference *, v->difference_count);
-    for (int i = 0; i < v->difference_count; i++) list[i] = &v->differences[i];
-    if (v->difference_count > 0)
-        qsort(list, (size_t)v->difference_count, sizeof *list, compare_change);
-    page_table_begin(html, "", "", COLUMNS, 6);
-    for (int i = 0; i < v->difference_count; i++) add_difference(html, list[i], arena);
-    page_table_end(html);
+    size_t  count = (size_t)v->difference_count;
+    json_t *list = values_list(to, "changed");
+    const ReviewDifference **sorted = ARENA_NEW(arena, const ReviewDifference *, count + 1);
+    for (size_t i = 0; i < count; i++) sorted[i] = &v->differences[i];
+    qsort(sorted, count, sizeof *sorted, compare_change);
+    for (size_t i = 0; i < count; i++) add_difference(list, sorted[i], arena);
 }
 
-static bool add_variants(Text *html, const Review *review, const ReviewPicture *pairs,
-                         Arena *arena, Error *err)
+static bool add_pair(json_t *to, const ReviewPicture pair[2], Arena scratch, Error *err)
 {
-    if (!review->variant_count) return true;
-    const ReviewVariantFound **ranked = rank(review, arena);
-    add_table(html, review, ranked, arena);
-    page_more_begin(html, "Every variant, case by case");
-    page_element(html, "p class=\"sub\"",
-                 "The same review with something changed, the best first. Both are traced by "
-                 "the same random numbers, so that a difference is known better than either "
-                 "margin.");
-    for (int i = 0; i < review->variant_count; i++) {
-        int number = (int)(ranked[i] - review->variants);
-        page_element(html, "h3", ranked[i]->name);
-        if (pairs && !add_pair(html, &pairs[2 * number], *arena, err)) return false;
-        add_cases(html, ranked[i], arena);
-    }
-    page_more_end(html);
+    json_t *list = values_list(to, "pair");
+    page_set_flag(to, "has_pair", pair && pair[1].file);
+    for (int i = 0; pair && pair[1].file && i < 2; i++)
+        if (!values_add_picture(page_add(list), &pair[i], scratch, err)) return false;
+    return true;
+}
+
+static bool add_variant(const PageValues *v, json_t *list, const ReviewVariantFound *variant,
+                        Error *err)
+{
+    const ReviewDifference *most = moving_most(variant), *least = &variant->worst;
+    const ReviewPicture    *pairs = v->page->pairs;
+    Arena  *arena = v->arena;
+    json_t *to = add_row(list, variant->name, changes_words(variant, arena), variant->review,
+                         arena);
+    page_set_flag(to, "is_base", false);
+    if (least->after)
+        set_figure(values_object(to, "least"), least, least_where(least, arena), arena);
+    if (most)
+        set_figure(values_object(to, "most"), most, words_case(most->after, arena), arena);
+    add_differences(to, variant, arena);
+    return add_pair(to, pairs ? &pairs[2 * (variant - v->review->variants)] : NULL, *arena,
+                    err);
+}
+
+static bool add_variants(const PageValues *v, Error *err)
+{
+    int     count = v->review->variant_count;
+    json_t *list = values_list(v->doc, "variant_rows");
+    const ReviewVariantFound **ranked = ARENA_NEW(v->arena, const ReviewVariantFound *,
+                                                  count + 1);
+    for (int i = 0; i < count; i++) ranked[i] = &v->review->variants[i];
+    qsort(ranked, (size_t)count, sizeof *ranked, compare);
+    page_set_flag(v->doc, "has_variants", count > 0);
+    if (count) add_base_row(v, list, ranked[0]->worst.before);
+    for (int i = 0; i < count; i++)
+        if (!add_variant(v, list, ranked[i], err)) return false;
     return true;
 }
 
@@ -421,20 +350,22 @@ static double greatest_effect(const Review *review)
 }
 
 /* A bar to the right gains; the line in it is the interval. */
-static void add_effect_bar(Text *html, const ReviewSensitivity *s, const ReviewSlope *slope,
-                           double most)
+static const char *effect_bar(const ReviewSensitivity *s, const ReviewSlope *slope, double most,
+                              Arena *arena)
 {
+    Text   svg = {.arena = arena};
     double scale = most > 0 ? 0.46 * BAR_WIDTH / most : 0, middle = 0.5 * BAR_WIDTH;
     double value = effect(s, slope), x = scale * value;
     double low = middle + scale * 100 * s->step * slope->range.low;
     double high = middle + scale * 100 * s->step * slope->range.high;
-    text_format(html, "<td><svg class=\"margin\" width=\"%d\" height=\"%d\" role=\"img\" "
+    text_format(&svg, "<svg class=\"margin\" width=\"%d\" height=\"%d\" role=\"img\" "
                 "aria-label=\"%+.2g percent of the limit by a step\">", BAR_WIDTH, BAR_HEIGHT,
                 value);
-    text_format(html, "<rect class=\"%s\" x=\"%.1f\" y=\"4\" width=\"%.1f\" height=\"14\"/>",
+    text_format(&svg, "<rect class=\"%s\" x=\"%.1f\" y=\"4\" width=\"%.1f\" height=\"14\"/>",
                 value < 0 ? "bad" : "good", x < 0 ? middle + x : middle, fabs(x));
-    text_format(html, "<path d=\"M%.1f 0V%d\"/><path class=\"whisker\" d=\"M%.1f 11H%.1f\"/>"
-                "</svg></td>", middle, BAR_HEIGHT, fmax(low, 0), fmin(high, BAR_WIDTH));
+    text_format(&svg, "<path d=\"M%.1f 0V%d\"/><path class=\"whisker\" d=\"M%.1f 11H%.1f\"/>"
+                "</svg>", middle, BAR_HEIGHT, fmax(low, 0), fmin(high, BAR_WIDTH));
+    return svg.data;
 }
 
 /* "+1.03 ± 0.01 % per mm"; "none" below what a step shows. */
@@ -446,22 +377,17 @@ static const char *slope_words(const ReviewSensitivity *s, const ReviewSlope *sl
     return arena_format(arena, "%s per %s", effect, s->unit);
 }
 
-static void add_slope(Text *html, const ReviewSensitivity *s, int place, double most,
+static void add_slope(json_t *list, const ReviewSensitivity *s, int place, double most,
                       Arena *arena)
 {
     const ReviewSlope *slope = &s->slopes[place];
-    page_row_begin(html, "");
-    page_cell(html, "", place > 1 ? "" : s->name); /* the first of its table */
-    page_cell(html, "", words_case(slope->of, arena));
-    page_cell(html, "n", words_margin(slope->of->margin, arena));
-    if (isnan(slope->slope)) {
-        page_cell(html, "n", "–");
-        page_cell(html, "", "");
-    } else {
-        page_cell(html, "n", slope_words(s, slope, arena));
-        add_effect_bar(html, s, slope, most);
-    }
-    page_row_end(html);
+    json_t            *to = page_add(list);
+    bool               is_known = !isnan(slope->slope);
+    page_set(to, "name", place > 1 ? "" : s->name); /* the first of its table */
+    page_set(to, "case", words_case(slope->of, arena));
+    page_set(to, "margin", words_margin(slope->of->margin, arena));
+    page_set(to, "slope", is_known ? slope_words(s, slope, arena) : NULL);
+    page_set(to, "bar", is_known ? effect_bar(s, slope, most, arena) : NULL);
 }
 
 static int compare_parameters(const void *a, const void *b)
@@ -475,112 +401,50 @@ static int compare_parameters(const void *a, const void *b)
     return x != y ? (x < y ? 1 : -1) : one < other ? -1 : 1;
 }
 
-/* Symbols [first, end) of each parameter. */
-static void add_slopes(Text *html, const Review *review, const ReviewSensitivity *const *list,
-                       const int from_to[2], Arena *arena)
-{
-    static const PageColumn COLUMNS[] = {
-        {"Parameter", false, NULL}, {"Where its margin is least", false, NULL},
-        {"Margin", true, NULL}, {"Slope", true, "in percent of the limit, with its interval"},
-        {"One step", false, "what a step up does to the margin: right gains"}};
-    double most = greatest_effect(review);
-    page_table_begin(html, "", "variants", COLUMNS, 5);
-    for (int i = 0; i < review->sensitivity_count; i++)
-        for (int k = from_to[0]; k < list[i]->slope_count && k < from_to[1]; k++)
-            add_slope(html, list[i], k, most, arena);
-    page_table_end(html);
-}
-
 /* The parameter that moves the least margin most comes first; symbols whose margin is not the
  * least are folded. */
-static void add_sensitivities(Text *html, const Review *review, Arena *arena)
+static void add_sensitivities(const PageValues *v)
 {
-    static const int LEAST[2] = {0, 1}, OTHERS[2] = {1, INT_MAX};
-    int count = review->sensitivity_count, others = 0;
+    int     count = v->review->sensitivity_count, others = 0;
+    double  most = greatest_effect(v->review);
     if (!count) return;
-    const ReviewSensitivity **list = ARENA_NEW(arena, const ReviewSensitivity *, count);
-    for (int i = 0; i < count; i++) list[i] = &review->sensitivities[i];
+    const ReviewSensitivity **list = ARENA_NEW(v->arena, const ReviewSensitivity *, count);
+    for (int i = 0; i < count; i++) list[i] = &v->review->sensitivities[i];
     for (int i = 0; i < count; i++) others += list[i]->slope_count > 1;
     qsort(list, (size_t)count, sizeof *list, compare_parameters);
-    page_element(html, "h3", "What the margins hang on");
-    add_slopes(html, review, list, LEAST, arena);
-    if (!others) return;
-    page_more_begin(html, "The same of the other symbols");
-    add_slopes(html, review, list, OTHERS, arena);
-    page_more_end(html);
-}
-
-/* ---- places of an eye -------------------------------------------------------------------- */
-
-static void add_place(Text *html, const ReviewPlaces *p, Arena *arena)
-{
-    page_row_begin(html, "");
-    page_cell(html, "", p->at->eye);
-    page_cell(html, "", p->at->symbol);
-    page_cell(html, "n", words_share(p->read_share, arena));
-    page_cell(html, "", p->at->condition);
-    page_row_end(html);
-}
-
-static void add_places(Text *html, const Review *review, Arena *arena)
-{
-    static const PageColumn COLUMNS[] = {{"Eye", false, NULL}, {"Symbol", false, NULL},
-                                         {"Places that can read", true,
-                                          "of the points of its box or ellipse, where fewest"},
-                                         {"Where they are fewest", false, NULL}};
-    int           count;
-    ReviewPlaces *list = review_places(review, &count, arena);
-    if (!count) return;
-    page_more_begin(html, "From how many of an eye's places a symbol can be read");
-    page_table_begin(html, "", "", COLUMNS, 4);
-    for (int i = 0; i < count; i++) add_place(html, &list[i], arena);
-    page_table_end(html);
-    page_more_end(html);
+    json_t *slopes = values_object(v->doc, "slopes");
+    json_t *rows[2] = {values_list(values_object(slopes, "least"), "rows"),
+                       others ? values_list(values_object(slopes, "others"), "rows") : NULL};
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < list[i]->slope_count; k++)
+            add_slope(rows[k > 0], list[i], k, most, v->arena);
 }
 
 /* ---- what would mend it ------------------------------------------------------------------ */
 
-static void add_trials(Text *html, const ReviewMend *mend, Arena *arena)
+static void add_mends(const PageValues *v)
 {
-    static const PageColumn COLUMNS[] = {{"Value", true, NULL}, {"Verdict", false, NULL},
-                                         {"Least margin", true, NULL}, {"Of", false, NULL},
-                                         {"Paths", false, NULL}};
-    page_more_begin(html, arena_format(arena, "What was tried: %d values", mend->trial_count));
-    page_table_begin(html, "", "", COLUMNS, 5);
-    for (int i = 0; i < mend->trial_count; i++) {
-        const ReviewTrial *t = &mend->trials[i];
-        page_row_begin(html, "");
-        page_cell_format(html, "n", "%.4g %s", t->value, mend->unit);
-        page_cell(html, "", words_verdict(t->verdict));
-        page_cell(html, "n", words_margin(t->margin, arena));
-        page_cell(html, "", t->worst ? t->worst : "–");
-        page_cell(html, "", t->is_fresh ? "fresh" : "the review's");
-        page_row_end(html);
-    }
-    page_table_end(html);
-    page_more_end(html);
-}
-
-static void add_mends(Text *html, const Review *review, Arena *arena)
-{
-    for (int i = 0; i < review->mend_count; i++) {
-        const ReviewMend *mend = &review->mends[i];
-        page_element(html, "h3", mend->is_found ? "The smallest change that passes"
-                                                : "No change passes");
-        page_element(html, "p class=\"reason\"", words_mend(mend, arena));
-        add_trials(html, mend, arena);
+    for (int i = 0; i < v->review->mend_count; i++) {
+        const ReviewMend *mend = &v->review->mends[i];
+        json_t *to = json_array_get(json_object_get(v->doc, "mends"), (size_t)i);
+        page_set(to, "words", words_mend(mend, v->arena));
+        page_set_count(to, "trial_count", mend->trial_count);
+        for (int k = 0; k < mend->trial_count; k++) {
+            json_t *trial = json_array_get(json_object_get(to, "trials"), (size_t)k);
+            values_set_verdict(trial, mend->trials[k].verdict);
+            page_set(trial, "margin", words_margin(mend->trials[k].margin, v->arena));
+        }
     }
 }
 
-bool review_variants_add(Text *html, const Review *review, const ReviewPicture *pairs,
-                         Arena *arena, Error *err)
+bool values_add_variants(const PageValues *v, Error *err)
 {
-    if (!review->variant_count && !review->sensitivity_count && !review->mend_count)
-        return true;
-    page_element(html, "h2", "What if");
-    if (!add_variants(html, review, pairs, arena, err)) return false;
-    add_sensitivities(html, review, arena);
-    add_places(html, review, arena);
-    add_mends(html, review, arena);
-    return true;
+    const Review *review = v->review;
+    bool has_places = json_array_size(json_object_get(v->doc, "eye_places")) > 0;
+    page_set_flag(v->doc, "has_places", has_places);
+    page_set_flag(v->doc, "has_what_if", review->variant_count || review->sensitivity_count ||
+                                             review->mend_count);
+    add_sensitivities(v);
+    add_mends(v);
+    return add_variants(v, err);
 }

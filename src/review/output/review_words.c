@@ -6,10 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "print/utf8.h"
 #include "plot/draw/ticks.h"
-#include "review/output/review_decide.h"
 #include "review/quantity.h"
+#include "review/review_decide.h"
 #include "text/interval_text.h"
 #include "text/text.h"
 #include "vision/discomfort.h"
@@ -29,17 +28,6 @@ void words_list_add(WordList *names, const char *name)
     for (int i = 0; i < names->count; i++)
         if (words_same(names->list[i], name)) return;
     names->list[names->count++] = name ? name : "";
-}
-
-const char *words_file_name(const char *text, Arena *arena)
-{
-    char *name = ARENA_NEW(arena, char, WORDS_FILE_NAME_MOST + 1);
-    for (int length = 0; *text && length < WORDS_FILE_NAME_MOST; text++) {
-        bool is_plain = (*text >= 'a' && *text <= 'z') || (*text >= 'A' && *text <= 'Z') ||
-                        (*text >= '0' && *text <= '9') || *text == '_';
-        if (!utf8_continues(*text)) name[length++] = is_plain ? *text : '-';
-    }
-    return name;
 }
 
 const char *words_figure(double value, Arena *arena)
@@ -316,12 +304,6 @@ const char *words_sun(const ReviewCase *c, const char *const *directions, Arena 
     const char *where = directions ? directions[eighth_of(c->sun_azimuth_deg)] : "";
     return arena_format(arena, "sun %.1f° high, %s%sazimuth %.1f°", c->sun_elevation_deg, where,
                         where[0] ? ", " : "", c->sun_azimuth_deg);
-}
-
-const char *words_case(const ReviewCase *c, Arena *arena)
-{
-    return arena_format(arena, "%s, seen by %s, %s", c->symbol ? c->symbol : "?",
-                        c->eye ? c->eye : "?", c->condition ? c->condition : "?");
 }
 
 /* Why no paths decide it, and what would: "the limit lies within ...; what helps: ...". */

@@ -5,7 +5,7 @@
  */
 #pragma once
 #include "base/arena.h"
-#include "review/verdict.h"
+#include "review/review_names.h"
 
 /* NULL is "". */
 bool words_same(const char *a, const char *b);
@@ -18,11 +18,6 @@ typedef struct WordList {
 
 WordList words_list(int most, Arena *arena);
 void     words_list_add(WordList *names, const char *name);
-
-/* A part of a file's name from texts of any kind: letters and digits stay, each other character
- * becomes '-', and what is longer is cut. Texts that differ may give the same. */
-#define WORDS_FILE_NAME_MOST 80
-const char *words_file_name(const char *text, Arena *arena);
 
 /* Three significant digits; "–" for NaN, "∞". */
 const char *words_figure(double value, Arena *arena);
@@ -111,8 +106,6 @@ const char *const *words_directions(bool is_of_vehicle);
  * NULL: nobody knows, and no direction is named. */
 const char *words_sun(const ReviewCase *c, const char *const *directions, Arena *arena);
 
-/* "speed, seen by driver, noon" */
-const char *words_case(const ReviewCase *c, Arena *arena);
 
 /* "wheel (leather) hides 62 %, rim (steel) hides 3.1 %, others 1.0 %"; "": nothing is hidden,
  * or that is not known. */

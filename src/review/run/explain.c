@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "light/ray_ends.h"
+#include "scene/point/ray_ends.h"
 #include "review/judge.h"
 #include "review/request/request_check.h"
 #include "review/chain/causes.h"

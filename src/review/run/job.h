@@ -6,7 +6,7 @@
  */
 #pragma once
 #include "base/problems.h"
-#include "review/keep/journal.h"
+#include "keep/journal.h"
 #include "review/eye/false_suns.h"
 #include "review/light/inherited.h"
 #include "review/pace/work.h"
@@ -50,7 +50,7 @@ typedef struct ReviewRun {
     const char          *identity; /* review_plan's, of what was planned; NULL: anything */
     ReviewNews           news;
     Problems            *problems; /* warnings of scenes, once each */
-    SunSearches         *sun_searches; /* review_run's own */
+    SunSearches         *sun_searches; /* review_run_conditions' own */
     const Review        *base;     /* this is a variant of that, which is made before: verdicts
                                       alone are made (cases.h); NULL: the review itself */
     ReviewRider         *riders;   /* go with it; a share of one has none */

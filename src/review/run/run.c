@@ -3,11 +3,12 @@
 
 #include <string.h>
 
+#include "keep/journal.h"
 #include "render/identity.h"
-#include "review/keep/journal.h"
-#include "review/output/review_decide.h"
+#include "review/keep/goes_on.h"
 #include "review/pace/work.h"
 #include "review/request/request_check.h"
+#include "review/review_decide.h"
 #include "review/run/cases.h"
 #include "review/run/false_sun_times.h"
 #include "review/run/gazes.h"
@@ -452,7 +453,8 @@ static void start(const ReviewRun *run, const ReviewRequest *request, ReviewOutc
                                                    most_false_suns(request))};
 }
 
-bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *err)
+bool review_run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *out,
+                           Error *err)
 {
     SunSearches searches = sun_searches_start();
     ReviewRun   with = *run;

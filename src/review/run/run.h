@@ -3,13 +3,15 @@
  *
  * Memory   the review lives in the arena; setups use scratch of their own.
  * Threads  starts its own; the same review for any count.
- * Fails    as its parts do. review_run writes nothing.
+ * Fails    as its parts do. review_run_conditions writes nothing.
  */
 #pragma once
 #include "review/run/job.h"
 
-/* A run that has a share yields its journal and responses; *out is then meaningless. */
-bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *err);
+/* All moments and sweeps. A run that has a share yields its journal and responses; *out is then
+ * meaningless. */
+bool review_run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *out,
+                           Error *err);
 
 /* How much of the work is done already. Every scene is loaded, and its symbols are found, so
  * that what would end the review later is reported now. */

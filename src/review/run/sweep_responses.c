@@ -7,10 +7,10 @@
 
 #include "base/file.h"
 #include "render/identity.h"
-#include "review/keep/journal.h"
+#include "review/keep/goes_on.h"
 #include "review/light/question.h"
 #include "review/pace/work.h"
-#include "review/output/review_words.h"
+#include "review/review_names.h"
 
 #define OWN_PRECISION 0.02
 #define OWN_PATHS 8192

@@ -6,7 +6,7 @@
 #include "base/mathd.h"
 #include "base/parallel.h"
 #include "base/units.h"
-#include "light/ray_ends.h"
+#include "scene/point/ray_ends.h"
 
 #define COLUMNS 9
 #define MOST_PIXELS 20000

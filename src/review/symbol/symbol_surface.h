@@ -79,5 +79,5 @@ SymbolPatch symbol_patch_of(const SymbolSurface *surface, const double uv[4], Ve
  * does. */
 bool symbol_surface_at(const SymbolSurface *surface, const double uv[2], SymbolPoint *out);
 
-/* Where rays start at the point's front (light/ray_ends.h). */
+/* Where rays start at the point's front (scene/point/ray_ends.h). */
 Vec3 symbol_point_start(const Scene *scene, const SymbolPoint *point);

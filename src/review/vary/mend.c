@@ -5,9 +5,9 @@
 
 #include "base/mathd.h"
 #include "review/pace/work.h"
-#include "review/output/review_decide.h"
-#include "review/output/review_words.h"
+#include "review/review_names.h"
 #include "review/request/request_parameters.h"
+#include "review/review_decide.h"
 #include "review/vary/variants.h"
 
 #define TRIALS_MOST 64

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "review/output/review_decide.h"
 #include "review/request/request_parameters.h"
+#include "review/review_decide.h"
 #include "review/vary/variants.h"
 
 /* ---- the least margin of each symbol ----------------------------------------------------- */

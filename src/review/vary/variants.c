@@ -6,9 +6,9 @@
 #include "base/confidence.h"
 #include "review/judge.h"
 #include "review/light/setup.h"
-#include "review/output/review_decide.h"
 #include "review/request/request_check.h"
 #include "review/request/request_parameters.h"
+#include "review/review_decide.h"
 #include "review/run/rests.h"
 #include "review/run/run.h"
 #include "scene/load/scene_load.h"
@@ -207,7 +207,7 @@ static bool run_variant(const ReviewRun *run, const ReviewVariant *variant, cons
     ReviewRequest *request = ARENA_NEW(arena, ReviewRequest, 1);
     *request = review_request_variant(run->request, variant, arena);
     ReviewRun own = review_run_of(run, request, base);
-    return review_run(&own, arena, out, err) ||
+    return review_run_conditions(&own, arena, out, err) ||
            (err->code <= 128 && error_prefix(err, "variant '%.100s'", variant->name));
 }
 

@@ -37,10 +37,10 @@ static bool model_sample(const void *parameters, Vec3 wo, const float u[3], Bsdf
     return true;
 }
 
-static bool model_scatters(const void *parameters)
+static void model_facts(const void *parameters, BsdfFacts *facts)
 {
     (void)parameters;
-    return true;
+    facts->scatters = true;
 }
 
 /* The integral of f cos i over the hemisphere: grain / 2 (1 - e ln(1 + 1 / e)), e = cos e. */
@@ -57,6 +57,8 @@ static void model_lobes(const void *parameters, Vec3 wo, BsdfLobes *lobes)
     lobes->diffuse = spectrum_max_lane(model_albedo(parameters, wo));
 }
 
-const BsdfModel dust_model = {.eval = model_eval, .sample = model_sample,
-                              .scatters = model_scatters, .lobes = model_lobes,
-                              .albedo = model_albedo};
+const BsdfModel dust_model = {
+    .scatter = {.eval = model_eval, .sample = model_sample, .albedo = model_albedo,
+                .lobes = model_lobes},
+    .facts = model_facts,
+};

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* engine.h -- a whole review, in order: every moment and sweep, then variants, sensitivities, a
+ * remedy, and pictures of the worst cases.
+ *
+ * Who listens gets each condition and each scene (ReviewRun.news), and the review after every
+ * step: all verdicts are there from the first on, what takes long comes later.
+ *
+ * Memory   the review lives in the arena.
+ * Threads  starts its own, by run->means.threads; the same review for any count.
+ * Fails    as its parts do, or as a listener does. INT, TERM or HUP stop it
+ *          (review/keep/goes_on.h), once signals are watched.
+ */
+#pragma once
+#include "review/run/job.h"
+
+typedef struct ReviewSteps {
+    bool is_strict;          /* as in review_decide */
+    bool with_sensitivities; /* the request's; else its parameters serve the remedy alone */
+    const ReviewParameter *mend; /* of it the smallest change is sought that makes all pass;
+                                    NULL: of none */
+    /* After all conditions, and after each later step: outcome->review.to_come names those that
+     * are missing, NULL after the last. NULL: nobody listens. */
+    bool (*on_step)(void *user, ReviewOutcome *outcome, Error *err);
+    void  *user;
+} ReviewSteps;
+
+/* The run's riders and inherited are the engine's own. Pictures and checkpoints are written
+ * into the run's folders; nothing else is written here. */
+bool review_run(const ReviewRun *run, const ReviewSteps *steps, Arena *arena,
+                ReviewOutcome *out, Error *err);

@@ -1,0 +1,270 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "review/folder/review_files.h"
+
+#include <ctype.h>
+#include <dirent.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#include "base/count.h"
+#include "base/file.h"
+#include "base/file_write.h"
+#include "review/output/review_json.h"
+#include "review/output/review_link.h"
+#include "review/output/review_words.h"
+#include "review/review_decide.h"
+#include "text/text.h"
+
+#define LIST "made-by-review.txt"
+#define LIST_TITLE "# files of a review: the next one in this folder replaces or removes them\n"
+#define LIST_BYTES ((size_t)1 << 24)
+
+const char *const review_files_fixed[REVIEW_FILES_FIXED] = {
+    "review.json", "index.html", "cases.csv", "gazes.csv", "false_suns.csv",
+    "junit.xml",   "diff.json",  "run.json",  "live.js",   REVIEW_PAGE_BESIDE, LIST};
+
+/* Behind a frame's name. */
+static const char *const of_frame[] = {".png",          ".exr",         ".layers.js",
+                                       "-luminance.png", "-contrast.png", "-outlook.png"};
+#define OF_VARIANT "-variant-"
+
+/* ---- names ------------------------------------------------------------------------------- */
+
+static bool starts_with(const char *text, const char *start)
+{
+    return !strncmp(text, start, strlen(start));
+}
+
+static bool is_among(const char *const *list, int count, const char *name)
+{
+    for (int i = 0; i < count; i++)
+        if (!strcmp(list[i], name)) return true;
+    return false;
+}
+
+/* Behind its folder, if it is in one. */
+static bool is_numbered(const char *name, const char *folder)
+{
+    const char *in_folder = name + strlen(folder);
+    return starts_with(name, folder) && isdigit((unsigned char)*in_folder) &&
+           !strchr(in_folder, '/');
+}
+
+bool review_files_may_have(const char *name)
+{
+    bool is_summary = starts_with(name, "summary-") && !strchr(name, '/') &&
+                      !strcmp(path_ending(name), ".html");
+    return is_summary || is_among(review_files_fixed, REVIEW_FILES_FIXED, name) ||
+           is_numbered(name, "frames/") || is_numbered(name, "sweeps/");
+}
+
+/* Is the rest of a name, behind a frame's, one of its files? */
+static bool is_rest_of_frame(const char *rest)
+{
+    return is_among(of_frame, COUNT_OF(of_frame), rest) || starts_with(rest, OF_VARIANT);
+}
+
+/* frame: its picture. */
+static bool is_of_frame(const char *name, const char *frame)
+{
+    size_t length = frame ? (size_t)(path_ending(frame) - frame) : 0;
+    return frame && !strncmp(name, frame, length) && is_rest_of_frame(name + length);
+}
+
+bool review_files_is_named(const Review *review, const char *name)
+{
+    for (int i = 0; i < review->case_count; i++)
+        if (is_of_frame(name, review->cases[i].frame)) return true;
+    for (int i = 0; i < review->sweep_count; i++) {
+        const ReviewSweep *sweep = &review->sweeps[i];
+        if (is_of_frame(name, sweep->worst.frame) || words_same(name, sweep->table))
+            return true;
+    }
+    return false;
+}
+
+/* ---- what is there ----------------------------------------------------------------------- */
+
+void review_files_list(Lines *files, const char *folder, const char *prefix)
+{
+    DIR *open = opendir(arena_format(files->arena, "%s/%s", folder, prefix));
+    if (!open) return;
+    for (struct dirent *entry; (entry = readdir(open));) {
+        struct stat info;
+        const char *name = arena_format(files->arena, "%s%s", prefix, entry->d_name);
+        if (!strcmp(entry->d_name, ".") || !strcmp(entry->d_name, "..") ||
+            lstat(arena_format(files->arena, "%s/%s", folder, name), &info) != 0)
+            continue;
+        if (!S_ISDIR(info.st_mode)) lines_put(files, name);
+        else if (!*prefix)
+            review_files_list(files, folder, arena_format(files->arena, "%s/", name));
+    }
+    closedir(open);
+}
+
+/* ---- the list ---------------------------------------------------------------------------- */
+
+bool review_files_has(const Lines *files, const char *name)
+{
+    return is_among(files->list, files->count, name);
+}
+
+void review_files_add(Lines *files, const char *name)
+{
+    if (!review_files_has(files, name)) lines_put(files, name);
+}
+
+/* A folder without a list: what its review.json names. */
+static void adopt(Lines *files, const char *dir)
+{
+    Arena      *arena = files->arena;
+    Lines       there = {.arena = arena};
+    Review      review;
+    Error       ignored;
+    const char *document = arena_format(arena, "%s/review.json", dir);
+    if (!file_exists(document) || !review_json_read(document, arena, &review, &ignored)) return;
+    review_files_list(&there, dir, "");
+    int                all = review_case_count(&review);
+    const ReviewCase **ranked = review_rank(&review, arena);
+    for (int i = 0; i < there.count; i++) {
+        const char *name = there.list[i];
+        bool        is_own = is_among(review_files_fixed, REVIEW_FILES_FIXED, name) ||
+                      review_files_is_named(&review, name);
+        for (int k = 0; k < all && !is_own; k++)
+            is_own = !strcmp(name, review_summary_name(&review, ranked[k]->symbol, arena));
+        if (is_own) lines_put(files, name);
+    }
+}
+
+/* The bytes of a list, of which the title is the mark; NULL: it is none. */
+static const char *list_text(const char *path, Arena *arena)
+{
+    FileBytes bytes;
+    Error     ignored;
+    if (!file_read(path, LIST_BYTES, arena, &bytes, &ignored)) return NULL;
+    const char *text = (const char *)bytes.data;
+    return starts_with(text, LIST_TITLE) ? text + strlen(LIST_TITLE) : NULL;
+}
+
+Lines review_files_read(const char *dir, Arena *arena)
+{
+    Lines       files = {.arena = arena};
+    const char *path = arena_format(arena, "%s/" LIST, dir);
+    if (!file_exists(path)) {
+        adopt(&files, dir);
+        return files;
+    }
+    for (const char *line = list_text(path, arena); line && *line;) {
+        size_t      length = strcspn(line, "\n");
+        const char *name = arena_string(arena, line, length);
+        if (review_files_may_have(name)) lines_put(&files, name);
+        line += length + (line[length] == '\n');
+    }
+    return files;
+}
+
+bool review_files_write(const char *dir, const Lines *files, Arena scratch, Error *err)
+{
+    const char *path = arena_format(&scratch, "%s/" LIST, dir);
+    Text        text = {.arena = &scratch};
+    text_add(&text, LIST_TITLE);
+    for (int i = 0; i < files->count; i++) text_format(&text, "%s\n", files->list[i]);
+    return text_write(&text, path, err);
+}
+
+/* ---- what stands in the way -------------------------------------------------------------- */
+
+/* Also where a file system takes large letters for small ones. */
+static bool starts_alike(const char *text, const char *start)
+{
+    return !strncasecmp(text, start, strlen(start));
+}
+
+/* "summary-NAME.html", "summary-NAME.2.html"; texts that are found are "NAME 1", "NAME 2". */
+static bool may_be_summary(const char *name, const ReviewRequest *request, Arena scratch)
+{
+    for (int i = 0; i < request->symbol_count; i++) {
+        const ReviewSymbol *symbol = &request->symbols[i];
+        const char         *start =
+            arena_format(&scratch, "summary-%s", words_file_name(symbol->name, &scratch));
+        const char *rest = name + strlen(start);
+        if (!starts_alike(name, start)) continue;
+        if (symbol->find_text && *rest == '-') rest++;
+        rest += strspn(rest, ".0123456789");
+        if (!strcasecmp(rest, "html") || !strcasecmp(rest, ".html")) return true;
+    }
+    return false;
+}
+
+/* "frames/1-CONDITION-EYE.png", "sweeps/1-CONDITION-EYE-SYMBOL.csv". */
+static bool may_be_numbered(const char *name, const ReviewRequest *request, Arena scratch)
+{
+    const char *in_folder = strchr(name, '/') + 1;
+    long        number = strtol(in_folder, NULL, 10);
+    for (int c = 0; c < request->condition_count; c++)
+        for (int e = 0; e < request->eye_count; e++) {
+            Arena       own = scratch;
+            const char *start = words_file_name(
+                arena_format(&own, "%ld-%s-%s", number, request->conditions[c].name,
+                             request->eyes[e].name), &own);
+            if (!starts_alike(in_folder, start)) continue;
+            if (name[0] == 's' || is_rest_of_frame(in_folder + strlen(start))) return true;
+        }
+    return false;
+}
+
+static bool may_be_written(const char *name, const ReviewRequest *request, Arena scratch)
+{
+    for (int i = 0; i < REVIEW_FILES_FIXED; i++)
+        if (!strcasecmp(name, review_files_fixed[i])) return true;
+    if (starts_alike(name, "summary-")) return may_be_summary(name, request, scratch);
+    return (is_numbered(name, "frames/") || is_numbered(name, "sweeps/")) &&
+           may_be_numbered(name, request, scratch);
+}
+
+bool review_files_check(const char *dir, const ReviewRequest *request, Arena scratch,
+                        Error *err)
+{
+    Lines made = review_files_read(dir, &scratch), there = {.arena = &scratch};
+    review_files_list(&there, dir, "");
+    for (int i = 0; i < there.count; i++) {
+        const char *name = there.list[i];
+        const char *path = arena_format(&scratch, "%s/%s", dir, name);
+        bool        is_foreign = strcmp(name, LIST) ? !review_files_has(&made, name)
+                                                    : !list_text(path, &scratch);
+        if (is_foreign && may_be_written(name, request, scratch))
+            return review_files_refuse(path, err);
+    }
+    return true;
+}
+
+static bool is_among_files(const Lines *files, const char *path)
+{
+    bool found = false;
+    for (int i = 0; i < files->count && !found; i++)
+        found = file_is_same(files->list[i], path);
+    return found;
+}
+
+bool review_files_spare(const char *dir, const ReviewRequest *request, const Lines *inputs,
+                        Arena scratch, Error *err)
+{
+    Lines there = {.arena = &scratch};
+    review_files_list(&there, dir, "");
+    for (int i = 0; i < there.count; i++) {
+        Arena       room = scratch;
+        const char *path = arena_format(&room, "%s/%s", dir, there.list[i]);
+        if (is_among_files(inputs, path) && may_be_written(there.list[i], request, room))
+            return error_at(err, ERROR_OUTPUT, path, "", "is read, and the review would write "
+                            "over it — give another folder");
+    }
+    return true;
+}
+
+bool review_files_refuse(const char *path, Error *err)
+{
+    return error_at(err, ERROR_OUTPUT, path, "", "was not made by a review, and is not written "
+                    "over — move it, or give another folder");
+}

@@ -1,0 +1,429 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "review/folder/review_folder.h"
+
+#include <string.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "base/file_write.h"
+#include "base/machine.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "render/render.h"
+#include "review/run/frames.h"
+#include "review/folder/live.h"
+#include "review/output/review_link.h"
+#include "review/export/review_csv.h"
+#include "review/output/review_json.h"
+#include "review/export/review_junit.h"
+#include "review/output/review_words.h"
+#include "review/review_decide.h"
+#include "text/text.h"
+
+#define MAP_STEP_DEG 5
+#define MAIN_CARDS 20 /* of the page itself: it stays below 3 MB */
+#define LIVE_FILE "live.js"
+
+/* ---- before the work ------------------------------------------------------------------*/
+
+static bool read_earlier(ReviewFolder *folder, Arena *arena, Error *err)
+{
+    if (!folder->diff) return true;
+    const char *path = arena_format(arena, "%s/review.json", folder->diff);
+    return review_json_read(path, arena, &folder->before, err) &&
+           (!folder->before.is_partial ||
+            error_at(err, ERROR_INPUT, path, "/provisional", "is of a review that was not "
+                     "finished, required: a whole one — the command that made it goes on"));
+}
+
+void review_folder_responses(ReviewFolder *folder, Arena *arena)
+{
+    folder->has_own_responses = !folder->responses;
+    folder->responses_shown = folder->responses ? folder->responses : "responses";
+    if (!folder->responses)
+        folder->responses = arena_format(arena, "%s/responses", folder->target);
+}
+
+/* Responses outlive the review: their folder is no draft. */
+static bool open_responses(ReviewFolder *folder, Arena *arena, Error *err)
+{
+    review_folder_responses(folder, arena);
+    return folder_make(folder->responses, err);
+}
+
+bool review_folder_open(ReviewFolder *folder, Arena *arena, Problems *problems, Error *err)
+{
+    folder->begun_s = monotonic_seconds();
+    if (!read_earlier(folder, arena, err) ||
+        !review_draft_open(folder->target, arena, problems, &folder->draft, err))
+        return false;
+    folder->name = folder->draft.folder;
+    if (open_responses(folder, arena, err)) return true;
+    review_folder_close(folder);
+    return false;
+}
+
+void review_folder_close(ReviewFolder *folder)
+{
+    if (folder->has_own_responses) rmdir(folder->responses);
+    review_draft_close(&folder->draft);
+}
+
+void review_folder_finish(ReviewFolder *folder)
+{
+    if (folder->has_own_responses) rmdir(folder->responses);
+    review_draft_finish(&folder->draft);
+}
+
+/* ---- sweeps ------------------------------------------------------------------------------ */
+
+typedef struct FolderTables {
+    const ReviewFolder *folder;
+    ReviewOutcome      *outcome;
+} FolderTables;
+
+static ReviewSweep *sweep_of(ReviewOutcome *outcome, int table)
+{
+    return &outcome->review.sweeps[outcome->tables[table].sweep_id];
+}
+
+static bool write_table(void *context, int i, Error *err)
+{
+    const FolderTables *work = context;
+    const ReviewSweep  *sweep = sweep_of(work->outcome, i);
+    Arena       own = arena_reserve((size_t)1 << 20);
+    const char *path = arena_format(&own, "%s/%s", work->folder->name, sweep->table);
+    bool        ok = sweep_table_write(
+        &work->outcome->tables[i],
+        review_condition_named(work->folder->request, sweep->condition), path, err);
+    arena_release(&own);
+    return ok;
+}
+
+bool review_folder_write_tables(const ReviewFolder *folder, ReviewOutcome *outcome,
+                                Arena *arena, Error *err)
+{
+    int          count = outcome->table_count;
+    FolderTables work = {folder, outcome};
+    for (int i = 0; i < count; i++) {
+        ReviewSweep *sweep = sweep_of(outcome, i);
+        const char  *name = words_file_name(
+            arena_format(arena, "%d-%s-%s-%s", outcome->tables[i].sweep_id + 1,
+                         sweep->condition, sweep->eye, sweep->symbol), arena);
+        sweep->table = arena_format(arena, "sweeps/%s.csv", name);
+    }
+    return parallel_try(folder->threads, count, write_table, &work, *arena, err);
+}
+
+static void add_charts(const ReviewFolder *folder, const ReviewOutcome *outcome,
+                       ReviewPage *page, Arena *arena)
+{
+    ReviewMap      *maps = ARENA_NEW(arena, ReviewMap, outcome->table_count);
+    ReviewCalendar *calendars = ARENA_NEW(arena, ReviewCalendar, outcome->table_count);
+    for (int i = 0; i < outcome->table_count; i++) {
+        const SweepTable  *table = &outcome->tables[i];
+        const ReviewSweep *sweep = &outcome->review.sweeps[table->sweep_id];
+        const ReviewCondition *condition =
+            review_condition_named(folder->request, sweep->condition);
+        maps[page->map_count++] = sweep_map(table, sweep, MAP_STEP_DEG, arena);
+        if (condition->kind == CONDITION_YEAR_SWEEP)
+            calendars[page->calendar_count++] = sweep_calendar(table, sweep, condition, arena);
+    }
+    page->maps = maps;
+    page->calendars = calendars;
+}
+
+/* ---- the page ---------------------------------------------------------------------------- */
+
+/* Titles and captions of a frame's pictures. */
+static const struct {
+    const char *title, *caption;
+} VIEWS[] = {
+    [FRAME_PICTURE] = {"Frame", "What the eye sees, exposed as a camera would"},
+    [FRAME_LUMINANCE] = {"Luminance", "How bright everything is, as colours on a scale of the "
+                                      "frame's own"},
+    [FRAME_CONTRAST] = {"Contrast map", "Full white over full black at each pixel of a "
+                                        "display, what it reflects added to both; a symbol's "
+                                        "own colours have less. All frames have this scale"},
+};
+
+/* The pictures that a page has room for. */
+typedef struct PictureList {
+    ReviewPicture    *at;
+    int               count;
+    const ReviewCase *worst; /* whose frame the first screen shows, too */
+    bool              has_pairs; /* variants show frames once more */
+} PictureList;
+
+/* One that several cards show stands in the page once. */
+static void add_picture(PictureList *list, ReviewPicture picture, Arena *arena)
+{
+    for (int i = 0; i < list->count && !picture.is_again; i++)
+        if (!strcmp(list->at[i].file, picture.file)) {
+            if (!list->at[i].id) list->at[i].id = arena_format(arena, "p%d", i);
+            picture.id = list->at[i].id;
+            picture.is_again = true;
+        }
+    bool is_shown_again = list->has_pairs || picture.of == list->worst;
+    if (picture.is_frame && is_shown_again && !picture.id)
+        picture.id = arena_format(arena, "p%d", list->count);
+    list->at[list->count++] = picture;
+}
+
+static void add_case_pictures(const ReviewFolder *folder, const ReviewCase *c,
+                              PictureList *list, Arena *arena)
+{
+    if (!c->frame) return;
+    for (FrameView view = FRAME_PICTURE; view < FRAME_VIEWS; view++) {
+        const char   *name = frame_view(c->frame, view, arena);
+        ReviewPicture picture = {.of = c, .title = VIEWS[view].title,
+                                 .caption = VIEWS[view].caption,
+                                 .is_frame = view == FRAME_PICTURE,
+                                 .view = view == FRAME_PICTURE ? c->view : NULL,
+                                 .file = arena_format(arena, "%s/%s", folder->name, name),
+                                 .beside = folder->is_self_contained ? NULL : name};
+        add_picture(list, picture, arena);
+    }
+    if (!c->outlook) return;
+    ReviewPicture outlook = {
+        .of = c, .title = "What the display sees",
+        .caption = arena_format(arena, "Looking out from the symbol's middle, half a sphere. "
+                                       "%s", c->outlook_words),
+        .file = arena_format(arena, "%s/%s", folder->name, c->outlook),
+        .beside = folder->is_self_contained ? NULL : c->outlook};
+    add_picture(list, outlook, arena);
+}
+
+/* In the page's order: cases by rank, then sweeps. */
+static void add_pictures(const ReviewFolder *folder, const Review *review, ReviewPage *page,
+                         Arena *arena)
+{
+    int                all = review->case_count + review->sweep_count;
+    const ReviewCase **ranked = review_rank(review, arena);
+    PictureList        list = {ARENA_NEW(arena, ReviewPicture, all * (FRAME_VIEWS + 1)), 0,
+                               review_worst(review, *arena),
+                               review->variant_count && review->variants[0].frame};
+    for (int i = 0; i < all; i++)
+        if (review_card_id(review, ranked[i], arena)[0] == 'c')
+            add_case_pictures(folder, ranked[i], &list, arena);
+    for (int i = 0; i < review->sweep_count; i++)
+        add_case_pictures(folder, &review->sweeps[i].worst, &list, arena);
+    page->pictures = list.at;
+    page->picture_count = list.count;
+}
+
+/* The picture of a case that the page has already: it stands there. */
+static ReviewPicture shown_again(const ReviewPage *page, const char *file)
+{
+    for (int i = 0; i < page->picture_count; i++)
+        if (!strcmp(page->pictures[i].file, file))
+            return (ReviewPicture){.id = page->pictures[i].id, .is_again = true};
+    return (ReviewPicture){0};
+}
+
+static void set_pair(const ReviewFolder *folder, const ReviewVariantFound *v,
+                     const ReviewPage *page, ReviewPicture pair[2], Arena *arena)
+{
+    const char *names[2] = {v->frame_before, v->frame};
+    const char *file = arena_format(arena, "%s/%s", folder->name, v->frame_before);
+    pair[0] = shown_again(page, file);
+    pair[0].title = "As it stands";
+    pair[1].title = v->name;
+    for (int i = 0; i < 2; i++) {
+        pair[i].file = arena_format(arena, "%s/%s", folder->name, names[i]);
+        pair[i].beside = folder->is_self_contained ? NULL : names[i];
+        pair[i].caption = arena_format(arena, "%s, %s%s", v->seen->condition, v->seen->eye,
+                                       i ? ", exposed as the other" : "");
+    }
+}
+
+static void add_pairs(const ReviewFolder *folder, const Review *review, ReviewPage *page,
+                      Arena *arena)
+{
+    ReviewPicture *pairs = ARENA_NEW(arena, ReviewPicture, 2 * review->variant_count);
+    for (int i = 0; i < review->variant_count; i++)
+        if (review->variants[i].frame)
+            set_pair(folder, &review->variants[i], page, &pairs[2 * i], arena);
+    page->pairs = pairs;
+}
+
+static void add_facts(const Review *review, ReviewPage *page, Arena *arena)
+{
+    ReviewFact *facts = ARENA_NEW(arena, ReviewFact, review->input_count + 1);
+    facts[page->fact_count++] = (ReviewFact){
+        "program", arena_format(arena, "parhelion %s, sources %s", PARHELION_VERSION,
+                                SOURCES_HASH)};
+    for (int i = 0; i < review->input_count; i++)
+        facts[page->fact_count++] =
+            (ReviewFact){review->inputs[i].path,
+                         arena_format(arena, "XXH3 %s", review->inputs[i].xxh3)};
+    page->facts = facts;
+}
+
+/* " --mend NAME"; "" without a name. */
+static const char *option_text(const char *option, const char *name, Arena *arena)
+{
+    return name ? arena_format(arena, " %s %s", option, escape_shell(name, arena)) : "";
+}
+
+const char *review_folder_command(const ReviewFolder *folder, Arena *arena)
+{
+    const char *profile =
+        folder->profile ? arena_format(arena, " --profile %s", folder->profile) : "";
+    const char *diff = folder->diff ? arena_format(arena, " --diff %s", folder->diff) : "";
+    const char *root = folder->root ? arena_format(arena, " --root %s", folder->root) : "";
+    const char *responses = folder->has_own_responses
+                                ? ""
+                                : arena_format(arena, " --responses %s", folder->responses);
+    const char *mend = option_text("--mend", folder->mend ? folder->mend->name : NULL, arena);
+    const char *summary = option_text("--summary", folder->summary, arena);
+    return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s%s%s%s%s%s",
+                        folder->request->file,
+                        folder->target, profile, root, folder->state_text, diff, responses,
+                        mend, summary, folder->is_alone ? " --no-variants" : "",
+                        folder->is_strict ? " --strict" : "",
+                        folder->is_self_contained ? " --self-contained" : "");
+}
+
+/* "frames/NAME.layers.js" of "frames/NAME.png". */
+static const char *layers_name(const char *frame, Arena *arena)
+{
+    return arena_format(arena, "%.*s.layers.js", (int)(path_ending(frame) - frame), frame);
+}
+
+static bool put_layers_beside(const ReviewFolder *folder, ReviewLive *live, Arena *arena,
+                              Error *err)
+{
+    LivePicture *beside = ARENA_NEW(arena, LivePicture, live->picture_count);
+    for (int i = 0; i < live->picture_count; i++) {
+        beside[i] = live->pictures[i];
+        beside[i].beside = layers_name(beside[i].frame, arena);
+        const char *path = arena_format(arena, "%s/%s", folder->name, beside[i].beside);
+        if (!live_layers_write(&beside[i], path, err)) return false;
+    }
+    live->pictures = beside;
+    return true;
+}
+
+/* Fills all of the page but the review. */
+static bool fill_page(const ReviewFolder *folder, const ReviewOutcome *outcome,
+                      ReviewPage *page, Arena *arena, Error *err)
+{
+    ReviewLive *live = ARENA_NEW(arena, ReviewLive, 1);
+    LiveAsk     ask = {folder->request, outcome, folder->name, folder->threads,
+                       folder->work};
+    if (!live_make(&ask, arena, live, err) ||
+        (!folder->is_self_contained && !put_layers_beside(folder, live, arena, err)))
+        return false;
+    if (!folder->is_self_contained && live->sweep_count + live->picture_count) {
+        live->beside = LIVE_FILE;
+        if (!review_live_write(&outcome->review, live,
+                               arena_format(arena, "%s/%s", folder->name, LIVE_FILE), err))
+            return false;
+    }
+    page->live = live;
+    add_charts(folder, outcome, page, arena);
+    add_pictures(folder, &outcome->review, page, arena);
+    add_pairs(folder, &outcome->review, page, arena);
+    add_facts(&outcome->review, page, arena);
+    return true;
+}
+
+static bool write_diff(const ReviewFolder *folder, const ReviewOutcome *outcome,
+                       ReviewPage *page, Arena *arena, Error *err)
+{
+    if (!folder->diff) return true;
+    ReviewDiff *diff = ARENA_NEW(arena, ReviewDiff, 1);
+    *diff = review_diff(&folder->before, &outcome->review, folder->diff, folder->target, arena);
+    page->diff = diff;
+    return review_json_write(review_diff_json(diff),
+                             arena_format(arena, "%s/diff.json", folder->name), err);
+}
+
+/* One a symbol; --summary: that one alone. */
+static bool write_summaries(const ReviewFolder *folder, const ReviewPage *page, Arena *arena,
+                            Error *err)
+{
+    const Review      *review = page->review;
+    int                all = review->case_count + review->sweep_count;
+    const ReviewCase **ranked = review_rank(review, arena);
+    for (int i = 0; i < all; i++) {
+        const char *symbol = ranked[i]->symbol;
+        bool        is_listed = folder->summary && strcmp(folder->summary, symbol) != 0;
+        for (int k = 0; k < i && !is_listed; k++)
+            is_listed = !strcmp(ranked[k]->symbol, symbol);
+        if (is_listed) continue;
+        const char *path = arena_format(arena, "%s/%s", folder->name,
+                                        review_summary_name(review, symbol, arena));
+        if (!review_page_write_summary(page, symbol, path, err)) return false;
+    }
+    return true;
+}
+
+/* Many cases take two pages, so that the first is light. */
+static bool write_page(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
+                       Error *err)
+{
+    Review     *review = &outcome->review;
+    const char *command = review_folder_command(folder, arena);
+    ReviewPage  page = {.review = review, .commands = &command, .command_count = 1};
+    int         all = review->case_count + review->sweep_count;
+    review->has_summaries = !folder->is_self_contained && !folder->summary;
+    review->main_cards = folder->is_self_contained || all <= MAIN_CARDS ? 0 : MAIN_CARDS;
+    if (!fill_page(folder, outcome, &page, arena, err) ||
+        !write_diff(folder, outcome, &page, arena, err) ||
+        !review_page_write(&page, arena_format(arena, "%s/index.html", folder->name), err))
+        return false;
+    if ((review->has_summaries || folder->summary) &&
+        !write_summaries(folder, &page, arena, err))
+        return false;
+    if (!review->main_cards) return true;
+    review->is_beside = true;
+    bool ok = review_page_write(
+        &page, arena_format(arena, "%s/%s", folder->name, REVIEW_PAGE_BESIDE), err);
+    review->is_beside = false;
+    return ok;
+}
+
+static bool write_run(const ReviewFolder *folder, const ReviewOutcome *outcome, Arena *arena,
+                      Error *err)
+{
+    json_t *run = json_pack("{s:f, s:f, s:s, s:i}", "seconds",
+                            monotonic_seconds() - folder->begun_s, "peak_memory_bytes",
+                            machine_peak_bytes(), "version", PARHELION_VERSION,
+                            "responses_reused", outcome->responses_kept);
+    return review_json_write(run, arena_format(arena, "%s/run.json", folder->name), err);
+}
+
+bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
+                         Error *err)
+{
+    const Review *review = &outcome->review;
+    return review_csv_write(review, arena_format(arena, "%s/cases.csv", folder->name), err) &&
+           (!review->false_sun_count ||
+            review_csv_write_false_suns(
+                review, arena_format(arena, "%s/false_suns.csv", folder->name), err)) &&
+           review_csv_write_gazes(review, arena_format(arena, "%s/gazes.csv", folder->name),
+                                  err) &&
+           review_junit_write(review, arena_format(arena, "%s/junit.xml", folder->name), err) &&
+           review_json_write(review_json(review),
+                             arena_format(arena, "%s/review.json", folder->name), err) &&
+           write_page(folder, outcome, arena, err) && write_run(folder, outcome, arena, err) &&
+           review_draft_publish(&folder->draft, review, *arena, err);
+}
+
+bool review_folder_write_so_far(const ReviewFolder *folder, const ReviewOutcome *so_far,
+                                const char *to_come, Arena scratch, Error *err)
+{
+    ReviewOutcome known = *so_far;
+    Review       *review = &known.review;
+    review->to_come = to_come;
+    review->is_partial = true;
+    review->is_strict = folder->is_strict;
+    review_decide(review);
+    return review_folder_write_tables(folder, &known, &scratch, err) &&
+           review_json_write(review_json(review),
+                             arena_format(&scratch, "%s/review.json", folder->name), err) &&
+           write_page(folder, &known, &scratch, err) &&
+           review_draft_publish(&folder->draft, review, scratch, err);
+}

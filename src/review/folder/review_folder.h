@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* review_folder.h -- the folder of a review: page, documents, tables, pictures.
+ *
+ * index.html (with many cases cases.html beside it), live.js, summary-SYMBOL.html, review.json,
+ * cases.csv, junit.xml; sweeps/NAME.csv; frames/NAME.exr and .png, and
+ * NAME.layers.js, which the page asks for when its reader looks at the picture;
+ * responses/NAME.response; run.json with what may differ from run to run; diff.json beside an
+ * earlier review; unfinished/ (review_draft.h) until all is there.
+ *
+ * Memory   from the arena.
+ * Threads  one at a time.
+ * Fails    with the file or folder that cannot be written.
+ */
+#pragma once
+#include "review/folder/review_draft.h"
+#include "review/folder/sweep_output.h"
+#include "review/pace/work.h"
+
+typedef struct ReviewFolder {
+    const char          *target; /* as on the command line */
+    const ReviewRequest *request;
+    const char          *diff; /* folder of an earlier review; NULL: none */
+    const ReviewParameter *mend; /* --mend's; NULL: none */
+    const char          *summary; /* the symbol that --summary names; NULL: all */
+    const char          *profile, *root; /* as on the command line; NULL: not given */
+    const char          *state_text;     /* the same, each option with a blank before it */
+    const char          *responses; /* the same, then where they are */
+    int                  threads;
+    bool                 is_strict;
+    bool                 is_alone;          /* --no-variants */
+    bool                 is_self_contained; /* pictures stand in the page, not beside it */
+    Review               before; /* what stood there */
+    double               begun_s;
+    /* since it is open: */
+    ReviewDraft          draft;
+    const char          *name; /* where its files are written: the draft's folder */
+    const char          *responses_shown;   /* as review.json names the folder */
+    Work                *work; /* of the review, of which its files are a part */
+    bool                 has_own_responses; /* DIR/responses */
+} ReviewFolder;
+
+/* Sets where responses are. */
+void review_folder_responses(ReviewFolder *folder, Arena *arena);
+
+/* Before the work: makes it and what is in it, sees that it can be written, and reads the
+ * earlier review, which may lie in the same folder. What it made is gone again when it fails.
+ */
+bool review_folder_open(ReviewFolder *folder, Arena *arena, Problems *problems, Error *err);
+
+/* After a failure: what was found is kept; the folders that were made go as far as they are
+ * empty. */
+void review_folder_close(ReviewFolder *folder);
+
+/* The review is whole: nothing is left to go on with. */
+void review_folder_finish(ReviewFolder *folder);
+
+/* The command that makes it. */
+const char *review_folder_command(const ReviewFolder *folder, Arena *arena);
+
+/* The same of what is known so far: page, review.json and tables, marked as such, so that
+ * nobody takes them for the whole. to_come: for people. */
+bool review_folder_write_so_far(const ReviewFolder *folder, const ReviewOutcome *so_far,
+                                const char *to_come, Arena scratch, Error *err);
+
+/* Tables of the sweeps, whose names it sets: once, before review_folder_write. Nothing that
+ * comes later changes them. */
+bool review_folder_write_tables(const ReviewFolder *folder, ReviewOutcome *outcome,
+                                Arena *arena, Error *err);
+
+/* All other files; they take the places of an earlier review's. */
+bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
+                         Error *err);

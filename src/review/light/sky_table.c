@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "review/light/sky_table.h"
+
+#include <math.h>
+
+#include "base/count.h"
+#include "base/units.h"
+
+/* Close where the air mass changes fast. */
+static const double elevations[] = {-12, -9, -6, -4, -2, -1, 0,  0.5, 1,  1.5, 2,
+                                    2.5, 3,  4,  5,  6,  8,  10, 13,  16, 20,  25,
+                                    30,  36, 42, 48, 54, 60, 66, 72,  78, 84,  90};
+
+/* Those from the last at or below `low` to the first at or above `high`. */
+static int elevations_within(double low, double high, int *first)
+{
+    int last = COUNT_OF(elevations) - 1;
+    *first = 0;
+    while (*first < last && elevations[*first + 1] <= low) (*first)++;
+    while (last > *first && elevations[last - 1] >= high) last--;
+    return last - *first + 1;
+}
+
+SkyTable sky_table_start(const DaylightInput *like, double low_deg, double high_deg,
+                         Arena *arena)
+{
+    int first, count = elevations_within(low_deg, high_deg, &first);
+    return (SkyTable){*like, elevations + first,
+                      arena_alloc(arena, sizeof(float[LIGHT_BANDS]), _Alignof(float),
+                                  (size_t)count), count, 0, SKY_AZIMUTHS, NULL};
+}
+
+void sky_table_between(SkyTable *table, double low_deg, double high_deg)
+{
+    int first = (int)floor(low_deg / 360 * SKY_AZIMUTHS);
+    int last = (int)floor(high_deg / 360 * SKY_AZIMUTHS) + 1; /* to interpolate */
+    if (last - first + 1 >= SKY_AZIMUTHS) return;
+    table->first_azimuth = (first % SKY_AZIMUTHS + SKY_AZIMUTHS) % SKY_AZIMUTHS;
+    table->azimuths = last - first + 1;
+}
+
+static const Daylight *build_sky(const DaylightInput *input, Arena *arena, Error *err)
+{
+    Daylight *sky = ARENA_NEW(arena, Daylight, 1);
+    return daylight_build(input, arena, sky, err) ? sky : NULL;
+}
+
+static DaylightInput row_input(const SkyTable *table, int row)
+{
+    DaylightInput input = table->like;
+    input.has_sun = true;
+    input.sun_azimuth = 0;
+    input.sun_elevation = radians_from_degrees(table->elevation_deg[row]);
+    input.sun_lux = -1;
+    input.no_moon = true;
+    return input;
+}
+
+const Daylight *sky_table_make(SkyTable *table, int row, Arena *arena, Error *err)
+{
+    DaylightInput   input = row_input(table, row);
+    const Daylight *sky = table->inherited ? inherited_sky(table->inherited, &input, err)
+                           : build_sky(&input, arena, err);
+    if (sky) light_bands_sun(sky, table->sun_bands[row]);
+    return sky;
+}
+
+bool sky_table_make_suns(SkyTable *table, const Arena *arena, Error *err)
+{
+    for (int row = 0; row < table->count; row++) {
+        Arena         room = *arena;
+        DaylightInput input = row_input(table, row);
+        input.sun_alone = true;
+        const Daylight *sky = build_sky(&input, &room, err);
+        if (!sky) return false;
+        light_bands_sun(sky, table->sun_bands[row]);
+    }
+    return true;
+}
+
+int sky_table_row(const SkyTable *table, double elevation_deg, double *share)
+{
+    int row = 0;
+    *share = 0;
+    if (table->count == 1) return 0;
+    while (row < table->count - 2 && table->elevation_deg[row + 1] <= elevation_deg) row++;
+    double low = table->elevation_deg[row], high = table->elevation_deg[row + 1];
+    *share = fmin(fmax((elevation_deg - low) / (high - low), 0), 1);
+    return row;
+}
+
+/* The share of the way to the next row in the air mass that the sun's light passes. */
+static double share_by_air(const SkyTable *table, int row, double elevation_deg)
+{
+    double low = daylight_air_mass(table->elevation_deg[row]);
+    double high = daylight_air_mass(table->elevation_deg[row + 1]);
+    return fmin(fmax((daylight_air_mass(elevation_deg) - low) / (high - low), 0), 1);
+}
+
+/* Light falls off by powers of the air mass: between two rows that both have some it is the
+ * logarithm that is linear. */
+void sky_table_sun(const SkyTable *table, double elevation_deg, double light,
+                   float bands[LIGHT_BANDS])
+{
+    double share;
+    int    row = sky_table_row(table, elevation_deg, &share), next = row + (share > 0);
+    if (share > 0 && table->elevation_deg[row] >= 0)
+        share = share_by_air(table, row, elevation_deg);
+    for (int b = 0; b < LIGHT_BANDS; b++) {
+        double low = (double)table->sun_bands[row][b], high = (double)table->sun_bands[next][b];
+        bands[b] = (float)(light * (low > 0 && high > 0 ? low * pow(high / low, share)
+                                                        : low + share * (high - low)));
+    }
+}

@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* review_values.h -- what a page of a review is made of; and what its templates show: the
+ * review's own record (the document of review.json), with words, classes, links and drawings
+ * added where a template names them. Each part of the page adds its own (review_card.h,
+ * review_answer.h, review_table.h, review_variants.h, review_gaze.h).
+ *
+ * Memory   the document's (jansson) and the arena's. Threads: one at a time. Fails: never.
+ */
+#pragma once
+#include <jansson.h>
+
+#include "image/picture.h"
+#include "review/output/review_diff.h"
+#include "review/output/review_facts.h"
+#include "review/output/review_live.h"
+#include "review/output/review_map.h"
+#include "review/verdict.h"
+
+/* Shown in the card of a case. Several of one case stand side by side. */
+typedef struct ReviewPicture {
+    const ReviewCase *of;      /* one of the review's cases, or a sweep's worst: the pointer */
+    const char       *title, *caption;
+    const CaseView   *view;    /* rays are drawn over it; NULL: none */
+    const Picture    *picture; /* NULL: the file */
+    const char       *file;    /* PNG or JPEG by its ending; goes into the page as it stands */
+    const char       *beside;  /* its name from the page on goes there instead; or NULL */
+    bool              is_frame; /* the frame itself: review_look.js shows it in its stead */
+    const char       *id;      /* a file's that several cards show: it stands in the first */
+    bool              is_again; /* of them, and this is another; NULL: one card shows it */
+} ReviewPicture;
+
+typedef struct ReviewPage {
+    const Review         *review;
+    const ReviewPicture  *pictures;
+    int                   picture_count;
+    const ReviewPicture  *pairs;    /* two a variant: without and with its change; no file:
+                                       none */
+    const ReviewMap      *maps;
+    int                   map_count;
+    const ReviewCalendar *calendars;
+    int                   calendar_count;
+    const ReviewFact     *facts;    /* scene, panels, sky, program: with versions and hashes */
+    int                   fact_count;
+    const char *const    *commands; /* that make this page again, and look further */
+    int                   command_count;
+    const ReviewDiff     *diff;     /* NULL: none */
+    const ReviewLive     *live;     /* the interactive parts; NULL: none */
+    bool                  is_dark;  /* for readers with a light scheme, too */
+} ReviewPage;
+
+typedef struct PageValues {
+    json_t           *doc;
+    const ReviewPage *page;
+    const Review     *review; /* the page's */
+    Arena            *arena;
+} PageValues;
+
+/* A case's object in the document, and a sweep's; borrowed. */
+json_t *values_of_case(const PageValues *v, const ReviewCase *c);
+json_t *values_of_sweep(const PageValues *v, const ReviewSweep *s);
+
+/* Shows the case once more, in a list; c: NULL is a cell without one. */
+void values_add_case(const PageValues *v, json_t *list, const ReviewCase *c);
+
+/* A new list or object of that name; borrowed. */
+json_t *values_list(json_t *to, const char *name);
+json_t *values_object(json_t *to, const char *name);
+
+/* class, mark, outcome, and whether it passes. */
+void values_set_verdict(json_t *to, Verdict verdict);
+
+/* A name that is missing is shown as one that nobody knows: "?". */
+void values_set_names(json_t *to, const char *const *keys);

@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A whole review without a command line: a display on a wall under an even sky. */
+#include "fixture.h"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "base/count.h"
+#include "keep/kept.h"
+#include "review/engine/engine.h"
+#include "review/request/request_read.h"
+#include "review/review_decide.h"
+#include "text/base64.h"
+
+/* ' stands for ". */
+static const char scene_text[] =
+    "{'asset':{'version':'2.0'},'extensionsUsed':['PARHELION_display'],'scene':0,"
+    "'scenes':[{'nodes':[0,1]}],'nodes':[{'mesh':0},{'name':'eye','camera':0,"
+    "'translation':[0.05,0.02,0.7]}],"
+    "'cameras':[{'name':'eye','type':'perspective','perspective':{'yfov':0.5,'znear':0.01}}],"
+    "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':1},'indices':2,"
+    "'material':0}]}],"
+    "'materials':[{'name':'cluster','extensions':{'PARHELION_display':{'panel':'p.panel'}}}],"
+    "'accessors':[{'bufferView':0,'componentType':5126,'count':4,'type':'VEC3',"
+    "'min':[-0.15,-0.05,0],'max':[0.15,0.05,0]},"
+    "{'bufferView':1,'componentType':5126,'count':4,'type':'VEC2'},"
+    "{'bufferView':2,'componentType':5123,'count':6,'type':'SCALAR'}],"
+    "'bufferViews':[{'buffer':0,'byteLength':48},{'buffer':0,'byteOffset':48,'byteLength':32},"
+    "{'buffer':0,'byteOffset':80,'byteLength':12}],"
+    "'buffers':[{'byteLength':92,'uri':'data:application/octet-stream;base64,%s'}]}";
+
+static const char request_text[] =
+    "{'title':'Small','scene':['a.gltf'],'forward':[0,0,-1],"
+    "'eyes':{'driver':{'camera':'eye'}},"
+    "'symbols':{'speed':{'display':'cluster','content':'c.png','uv':[0.167,0.408,0.27,0.609],"
+    "'polarity':'light-on-dark'}},'profile':'iso-15008','precision':{'contrast':0.2},"
+    "'gaze':[{'at':'symbols'},{'name':'road','direction':[0,0.2,-1],'eyes':['driver']}],"
+    "'frames':{'size':[32,18],'noise':1,'worst':0},"
+    "'variants':{'brighter':{'brightness':{'*':2}}},"
+    "'conditions':[{'name':'grey','environment':{'type':'constant','luminance':500}},"
+    "{'name':'bright','environment':{'type':'constant','luminance':90000}}]}";
+
+static void copy(const char *from, const char *name, Arena arena)
+{
+    FileBytes bytes;
+    assert_done(file_read(from, 1 << 24, &arena, &bytes, &err));
+    write_bytes(in_folder(name), bytes.data, bytes.size);
+}
+
+static void write_quoted(const char *name, const char *text, Arena arena)
+{
+    char *quoted = arena_string(&arena, text, strlen(text));
+    for (char *c = quoted; *c; c++)
+        if (*c == '\'') *c = '"';
+    write_text(in_folder(name), quoted);
+}
+
+static void write_files(Arena arena)
+{
+    static const struct {
+        float    at[12], uv[8];
+        uint16_t corners[6];
+    } quad = {{-0.15f, -0.05f, 0, 0.15f, -0.05f, 0, 0.15f, 0.05f, 0, -0.15f, 0.05f, 0},
+              {0, 1, 1, 1, 1, 0, 0, 0}, {0, 1, 2, 0, 2, 3}};
+    Text digits = {.arena = &arena};
+    base64_encode(&digits, &quad, sizeof quad);
+    size_t room = sizeof scene_text + digits.size;
+    char  *scene = ARENA_NEW(&arena, char, room);
+    snprintf(scene, room, scene_text, digits.data);
+    write_quoted("a.gltf", scene, arena);
+    write_quoted("r.json", request_text, arena);
+    copy(PROJECT_DIR "/assets/panels/ips_cluster.panel", "p.panel", arena);
+    copy(PROJECT_DIR "/assets/content/cluster.png", "c.png", arena);
+}
+
+typedef struct Heard {
+    int  conditions, scenes, steps;
+    bool is_complete, refuses;
+} Heard;
+
+static bool hear_condition(void *user, const ReviewOutcome *so_far, int done, Error *err)
+{
+    Heard *heard = user;
+    (void)err;
+    heard->conditions++;
+    assert_int_equal(done, heard->conditions);
+    assert_int_equal(so_far->review.case_count, done);
+    return true;
+}
+
+static bool hear_scene(void *user, const Scene *scene, Error *err)
+{
+    Heard *heard = user;
+    (void)err;
+    assert_int_equal(scene->display_count, 1);
+    heard->scenes++;
+    return true;
+}
+
+static bool hear_step(void *user, ReviewOutcome *outcome, Error *err)
+{
+    Heard *heard = user;
+    if (!heard->steps++)
+        assert_string_equal(outcome->review.to_come,
+                            "every verdict is there; to come: variants");
+    heard->is_complete = !outcome->review.to_come;
+    return !heard->refuses || error_set(err, ERROR_OUTPUT, "the disk is full");
+}
+
+static bool run_request(Heard *heard, Journal *journal, Arena *arena, ReviewOutcome *out,
+                        Error *err)
+{
+    Problems       problems = problems_start(arena);
+    ReviewRequest  request;
+    const Profile *profile;
+    Error          fault = {0};
+    if (!review_request_read(in_folder("r.json"), NULL, arena, &problems, &request, &fault) ||
+        !profile_load(request.profile, arena, &profile, &fault))
+        fail_msg("%s: %s", fault.path, fault.text);
+    WorkPlan  all = work_of_review(&request, NULL);
+    Work      work = work_start(PROGRESS_NONE, &all);
+    ReviewRun run = {.request = &request, .profile = profile,
+                     .means = {.threads = 2, .journal = journal},
+                     .problems = &problems, .work = &work,
+                     .news = {hear_condition, hear_scene, heard}};
+    ReviewSteps steps = {.with_sensitivities = true, .on_step = hear_step, .user = heard};
+    return review_run(&run, &steps, arena, out, err);
+}
+
+ARENA_TEST(a_review_is_a_call)
+{
+    ReviewOutcome outcome;
+    Heard         heard = {0};
+    write_files(arena);
+    assert_done(run_request(&heard, NULL, &arena, &outcome, &err));
+    const Review *review = &outcome.review;
+    assert_int_equal(heard.conditions, 2);
+    assert_true(heard.scenes >= 2);
+    assert_int_equal(heard.steps, 2);
+    assert_true(heard.is_complete);
+    assert_int_equal(review->case_count, 2);
+    assert_int_equal(review->variant_count, 1);
+    const ReviewCase *grey = review_case_named(review, "grey", "driver", "speed");
+    const ReviewCase *bright = review_case_named(review, "bright", "driver", "speed");
+    assert_true(grey && bright);
+    assert_true(bright->contrast_ratio > 1 && bright->contrast_ratio < grey->contrast_ratio);
+    assert_false(review->pass);
+    assert_int_equal(bright->verdict, VERDICT_FAIL);
+}
+
+ARENA_TEST(a_listener_ends_it)
+{
+    ReviewOutcome outcome;
+    Heard         heard = {.refuses = true};
+    write_files(arena);
+    assert_fails_as(run_request(&heard, NULL, &arena, &outcome, &err), ERROR_OUTPUT,
+                    "the disk is full");
+    assert_int_equal(heard.steps, 1);
+}
+
+/* ---- what was kept ----------------------------------------------------------------------- */
+
+static bool run_kept(Arena *arena, ReviewOutcome *out, int *answers, Error *fault)
+{
+    Heard    heard = {0};
+    Problems problems = problems_start(arena);
+    Journal *journal;
+    assert_done(journal_open(in_folder("journal"), arena, &problems, &journal, &err));
+    assert_int_equal(problems.count, 0);
+    bool ok = run_request(&heard, journal, arena, out, fault);
+    *answers = journal_count(journal);
+    journal_close(journal);
+    return ok;
+}
+
+/* Every answer with other bytes, and a checksum that fits. */
+static void patch(const FileBytes *file, uint64_t word, size_t from, Arena arena)
+{
+    unsigned char *bytes = ARENA_NEW(&arena, unsigned char, file->size);
+    memcpy(bytes, file->data, file->size);
+    for (size_t at = sizeof(KeptHead); at < file->size;) {
+        uint64_t     size;
+        XXH3_state_t sum;
+        memcpy(&size, bytes + at + 16, sizeof size);
+        for (size_t k = from; k + 8 <= size; k += 8) memcpy(bytes + at + 32 + k, &word, 8);
+        XXH3_64bits_reset(&sum);
+        XXH3_64bits_update(&sum, bytes + at, 24);
+        XXH3_64bits_update(&sum, bytes + at + 32, size);
+        uint64_t checksum = XXH3_64bits_digest(&sum);
+        memcpy(bytes + at + 24, &checksum, sizeof checksum);
+        at += 32 + size;
+    }
+    write_bytes(in_folder("journal"), bytes, file->size);
+}
+
+/* No member may lead anywhere: numbers that are none, indices that are far off. */
+ARENA_TEST(answers_with_any_bytes_do_no_harm)
+{
+    static const uint64_t words[] = {UINT64_MAX,            /* NaN; -1, -1 */
+                                     0x7fe1ccf385ebc8a0u,   /* 1e308 */
+                                     0x7ffffff07ffffff0u,   /* large ints; NaN */
+                                     0x3ff0000040000000u,   /* 1 and somewhat */
+                                     0x8000000080000000u,   /* the least ints */
+                                     0x0000000700000007u};
+    ReviewOutcome first, again;
+    FileBytes     file;
+    int           count, kept;
+    write_files(arena);
+    assert_done(run_kept(&arena, &first, &count, &err));
+    assert_true(count > 4);
+    assert_done(file_read(in_folder("journal"), 1 << 26, &arena, &file, &err));
+    assert_done(run_kept(&arena, &again, &kept, &err));
+    assert_int_equal(kept, count);
+    assert_true(again.review.cases[0].contrast_ratio == first.review.cases[0].contrast_ratio);
+    for (int i = 0; i < 2 * COUNT_OF(words); i++) {
+        Arena room = arena;
+        patch(&file, words[i / 2], i % 2 ? 8 : 0, room);
+        if (!run_kept(&room, &again, &kept, why())) assert_true(why()->text[0]);
+        else assert_int_equal(again.review.case_count, first.review.case_count);
+    }
+}
+
+TEST_PROGRAM(make_folder, clear_folder)
