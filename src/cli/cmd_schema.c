@@ -11,19 +11,19 @@
 
 static void each_format(void (*row)(const char *name, const char *text))
 {
-    for (int i = 0; i < format_count; i++) row(format_table[i].name, format_table[i].title);
+    for (int i = 0; i < schema_count; i++) row(format_table[i].name, format_table[i].title);
 }
 
 static const NamedFormat *find(const char *name, Arena *arena, Error *err)
 {
-    const char **known = ARENA_NEW(arena, const char *, format_count);
+    const char **known = ARENA_NEW(arena, const char *, schema_count);
     char         advice[256];
-    for (int i = 0; i < format_count; i++) {
+    for (int i = 0; i < schema_count; i++) {
         known[i] = format_table[i].name;
         if (!strcmp(name, known[i])) return &format_table[i];
     }
     error_set(err, ERROR_USAGE, "there is no format '%.60s': %s", name,
-              nearest_word_advice(name, known, format_count, advice, sizeof advice));
+              nearest_word_advice(name, known, schema_count, advice, sizeof advice));
     return NULL;
 }
 

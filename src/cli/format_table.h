@@ -10,3 +10,5 @@ typedef struct NamedFormat {
 
 extern const NamedFormat format_table[];
 extern const int         format_count;
+extern const int         schema_count; /* with our extensions of glTF behind them, whose rows a
+                                          document is checked by (scene/check) */

@@ -10,7 +10,6 @@
 #include "record/rows.h"
 #include "review/profile_table.h"
 #include "scene/check/display_frame.h"
-#include "text/nearest_word.h"
 
 #define METRES_MAX 1e6
 #define LEAST_M 0.001   /* a display's side of any size */
@@ -97,7 +96,7 @@ static const RecordFormat mesh_format = {
 #define OWNER EquipDisplay
 static const RecordRow DISPLAY[] = {
     TEXT("name", MUST | RECORD_FILLED, name, NULL),
-    TEXT("on", 0, on, "For people: the node that was clicked."),
+    NOTE("on", 0, "For people: the node that was clicked."),
     POSITION("centre_m", MUST, centre_m, "On the face."),
     POSITION("right", MUST | RECORD_UNIT, right, "Of the picture."),
     POSITION("up", MUST | RECORD_UNIT, up, "At right angles to right."),
@@ -179,13 +178,18 @@ static bool check_display(const JsonView *view, void *item, Error *err)
 
 static const RecordFormat display_format = {
     "display", sizeof(EquipDisplay), DISPLAY, start_display, check_display,
-    .rules = "{\"allOf\": [{\"if\": {\"not\": {\"required\": [\"max_level\"]}}, "
-             "\"then\": {\"properties\": {\"level\": {\"maximum\": 1}}}}, "
-             "{\"if\": {\"not\": {\"required\": [\"any_size\"]}}, \"then\": {\"properties\": {"
-             "\"width_m\": {\"minimum\": 0.005, \"maximum\": 1.5}, "
-             "\"height_m\": {\"minimum\": 0.005, \"maximum\": 1.5}}}}]}"};
+    .rules = "{'allOf': [{'if': {'not': {'required': ['max_level']}}, "
+             "'then': {'properties': {'level': {'maximum': 1}}}}, "
+             "{'if': {'not': {'required': ['any_size']}}, 'then': {'properties': {"
+             "'width_m': {'minimum': 0.005, 'maximum': 1.5}, "
+             "'height_m': {'minimum': 0.005, 'maximum': 1.5}}}}]}"};
 
 /* ---- eyes -------------------------------------------------------------------------------- */
+
+static const RecordNames DISPLAY_NAMES = {"displays", "display", offsetof(Equip, displays),
+                                          offsetof(Equip, display_count), sizeof(EquipDisplay)};
+static const RecordNames EYE_NAMES = {"eyes", "eye", offsetof(Equip, eyes),
+                                      offsetof(Equip, eye_count), sizeof(EquipEye)};
 
 #define OWNER EquipEye
 static const RecordRow EYE[] = {
@@ -194,14 +198,15 @@ static const RecordRow EYE[] = {
     TEXT("proposed_from", 0, proposed_from,
          "From what the page proposed it; `set by hand` and `as it was saved`: nobody did. The "
          "review of it says so."),
-    TEXT("looks_at", 0, looks_at, "A display's name."),
+    {"looks_at", RECORD_REFER, RECORD_AT(OWNER, display_id), .among = &DISPLAY_NAMES,
+     .doc = "A display's name."},
     POSITION("target_m", 0, target_m, NULL),
     {0}};
 #undef OWNER
 
 static void start_eye(void *item)
 {
-    *(EquipEye *)item = (EquipEye){.target_m = {NAN}};
+    *(EquipEye *)item = (EquipEye){.target_m = {NAN}, .display_id = NO_ID};
 }
 
 /* What the page writes of an eye whose place somebody typed, or of an older file's. */
@@ -209,21 +214,29 @@ static const char *const GIVEN[] = {"", "set by hand", "as it was saved"};
 
 static bool check_eye(const JsonView *view, void *item, Error *err)
 {
-    EquipEye *eye = item;
-    bool      has_target = !isnan(eye->target_m[0]);
+    const Equip *equip = view->whole;
+    EquipEye    *eye = item;
+    bool         has_target = !isnan(eye->target_m[0]);
+    double       way = 0;
     eye->place = view->path;
     for (int i = 0; eye->proposed_from && i < COUNT_OF(GIVEN); i++)
         if (!strcmp(eye->proposed_from, GIVEN[i])) eye->proposed_from = NULL;
-    if (!eye->looks_at && !has_target)
+    if (eye->display_id == NO_ID && !has_target)
         return error_at(err, ERROR_INPUT, view->file, view->path, "key 'target_m' is missing");
-    return !eye->looks_at || !has_target ||
-           record_fails(view, "target_m", err,
-                        "stands beside \"looks_at\", required: one of the two");
+    if (eye->display_id != NO_ID && has_target)
+        return record_fails(view, "target_m", err,
+                            "stands beside \"looks_at\", required: one of the two");
+    if (!has_target)
+        memcpy(eye->target_m, equip->displays[eye->display_id].centre_m, sizeof eye->target_m);
+    for (int k = 0; k < 3; k++) way += pow(eye->target_m[k] - eye->position_m[k], 2);
+    return sqrt(way) >= NEAR_M ||
+           record_fails(view, "position_m", err, "is where it looks at, required: another "
+                                                 "place");
 }
 
 static const RecordFormat eye_format = {
     "eye", sizeof(EquipEye), EYE, start_eye, check_eye,
-    .rules = "{\"oneOf\": [{\"required\": [\"looks_at\"]}, {\"required\": [\"target_m\"]}]}"};
+    .rules = "{'oneOf': [{'required': ['looks_at']}, {'required': ['target_m']}]}"};
 
 /* ---- materials --------------------------------------------------------------------------- */
 
@@ -276,7 +289,7 @@ static bool check_material(const JsonView *view, void *item, Error *err)
 
 static const RecordFormat material_format = {
     "material", sizeof(EquipMaterial), MATERIAL, start_material, check_material,
-    .rules = "{\"anyOf\": [{\"required\": [\"as\"]}, {\"required\": [\"base_color\"]}]}",
+    .rules = "{'anyOf': [{'required': ['as']}, {'required': ['base_color']}]}",
     .doc = "A material of the model is replaced; figures beside `as` change the usual ones."};
 
 /* ---- the review -------------------------------------------------------------------------- */
@@ -303,8 +316,8 @@ static bool check_place(const JsonView *view, void *item, Error *err)
 
 static const RecordFormat place_format = {
     "place", sizeof(ReviewPlace), PLACE, .check = check_place,
-    .rules = "{\"allOf\": [{\"properties\": {\"where\": {\"prefixItems\": ["
-             "{\"minimum\": -90, \"maximum\": 90}, {\"minimum\": -180, \"maximum\": 180}]}}}]}",
+    .rules = "{'allOf': [{'properties': {'where': {'prefixItems': ["
+             "{'minimum': -90, 'maximum': 90}, {'minimum': -180, 'maximum': 180}]}}}]}",
     .doc = "Noon and a year of the review are there."};
 
 #define OWNER EquipOccupant
@@ -312,13 +325,23 @@ static const char *const SHIRTS[] = {"white", "grey", "black", NULL};
 static const char *const SHIRT_SCENES[] = {"occupant", "occupant_grey", "occupant_dark"};
 
 static const RecordRow OCCUPANT[] = {
-    TEXT("eye", MUST | RECORD_FILLED, eye, "An eye's name."),
+    {"eye", RECORD_REFER, MUST, RECORD_AT(OWNER, eye_id), .among = &EYE_NAMES,
+     .doc = "An eye's name."},
     CHOICE("shirt", 0, shirt_id, SHIRTS, NULL),
     {0}};
 #undef OWNER
 
+static bool check_occupant(const JsonView *view, void *item, Error *err)
+{
+    EquipOccupant *occupant = item;
+    (void)err;
+    occupant->scene = SHIRT_SCENES[occupant->shirt_id];
+    occupant->name = arena_format(view->arena, "driver in %s", SHIRTS[occupant->shirt_id]);
+    return true;
+}
+
 static const RecordFormat occupant_format = {
-    "occupant", sizeof(EquipOccupant), OCCUPANT,
+    "occupant", sizeof(EquipOccupant), OCCUPANT, .check = check_occupant,
     .doc = "The shipped driver, seated so that his eyes are where that eye is, in every "
            "condition of the review."};
 
@@ -327,7 +350,7 @@ static const RecordFormat occupant_format = {
 #define OWNER Equip
 static const RecordRow EQUIP[] = {
     {"equip", RECORD_CONST, MUST, .low = EQUIP_VERSION, .doc = "The version of this format."},
-    TEXT("model", 0, model, "For people: which model it was made for."),
+    NOTE("model", 0, "For people: which model it was made for."),
     LIST("displays", 0, displays, display_count, 1, EQUIP_DISPLAYS_MAX, display_format, NULL),
     LIST("eyes", MUST, eyes, eye_count, 1, EQUIP_EYES_MAX, eye_format, NULL),
     LIST("materials", 0, materials, material_count, 1, MATERIALS_MAX, material_format, NULL),
@@ -350,53 +373,24 @@ static void start(void *item)
         .occupant.eye_id = NO_ID};
 }
 
-/* A display and an eye go by different names: of displays, then of eyes. */
-static bool check_names(const JsonView *root, const char *const *names, const Equip *equip,
-                        Error *err)
+/* A display and an eye go by different names. */
+static bool check_names(const JsonView *root, Error *err)
 {
-    int displays = equip->display_count;
-    for (int i = 0; i < displays + equip->eye_count; i++)
+    const char **displays, **eyes;
+    int display_count = record_names(root, &DISPLAY_NAMES, &displays);
+    int count = display_count + record_names(root, &EYE_NAMES, &eyes);
+    for (int i = 0; i < count; i++)
         for (int k = 0; k < i; k++) {
-            if (strcmp(names[i], names[k]) != 0) continue;
-            bool is_eye = i >= displays;
-            return record_fails(root, arena_format(root->arena, "%s/%d/name",
-                                                   is_eye ? "eyes" : "displays",
-                                                   is_eye ? i - displays : i),
-                                err, "is '%.60s' once more, required: a new name", names[i]);
+            int         at = i - display_count;
+            const char *name = at < 0 ? displays[i] : eyes[at];
+            if (strcmp(name, k < display_count ? displays[k] : eyes[k - display_count]) != 0)
+                continue;
+            const char *place = at < 0 ? arena_format(root->arena, "displays/%d/name", i)
+                                       : arena_format(root->arena, "eyes/%d/name", at);
+            return record_fails(root, place, err, "is '%.60s' once more, required: a new name",
+                                name);
         }
     return true;
-}
-
-/* The index of a name that the file gives elsewhere; NO_ID is an error: there is none. */
-static int find_name(const JsonView *root, const char *key, const char *name,
-                     const char *const *names, int count, Error *err)
-{
-    char advice[256];
-    for (int i = 0; i < count; i++)
-        if (!strcmp(name, names[i])) return i;
-    record_fails(root, key, err, "is '%.60s', required: another word: %s", name,
-                 nearest_word_advice(name, names, count, advice, sizeof advice));
-    return NO_ID;
-}
-
-static bool find_target(const JsonView *root, int i, const char *const *names, Equip *equip,
-                        Error *err)
-{
-    EquipEye   *eye = (EquipEye *)&equip->eyes[i];
-    const char *key = arena_format(root->arena, "eyes/%d/looks_at", i);
-    double      way = 0;
-    if (eye->looks_at && !equip->display_count)
-        return record_fails(root, key, err, "names a display where there is none, required: "
-                                            "\"target_m\"");
-    if (eye->looks_at) {
-        int id = find_name(root, key, eye->looks_at, names, equip->display_count, err);
-        if (id == NO_ID) return false;
-        memcpy(eye->target_m, equip->displays[id].centre_m, sizeof eye->target_m);
-    }
-    for (int k = 0; k < 3; k++) way += pow(eye->target_m[k] - eye->position_m[k], 2);
-    return sqrt(way) >= NEAR_M ||
-           record_fails(root, arena_format(root->arena, "eyes/%d/position_m", i), err,
-                        "is where it looks at, required: another place");
 }
 
 static bool check_indices(const JsonView *root, const Equip *equip, Error *err)
@@ -422,35 +416,16 @@ static void propose_forward(Equip *out)
     out->forward[2] = is_x ? 0 : z > 0 ? 1 : -1;
 }
 
-static bool seat_occupant(const JsonView *root, const char *const *eyes, Equip *equip,
-                          Error *err)
-{
-    EquipOccupant *occupant = &equip->occupant;
-    if (!occupant->eye) return true;
-    occupant->eye_id = find_name(root, "occupant/eye", occupant->eye, eyes, equip->eye_count,
-                                 err);
-    if (occupant->eye_id == NO_ID) return false;
-    occupant->scene = SHIRT_SCENES[occupant->shirt_id];
-    occupant->name = arena_format(root->arena, "driver in %s", SHIRTS[occupant->shirt_id]);
-    return true;
-}
-
 static bool check(const JsonView *root, void *item, Error *err)
 {
-    Equip      *equip = item;
-    const char *names[EQUIP_DISPLAYS_MAX + EQUIP_EYES_MAX];
-    int         count = equip->display_count;
-    for (int i = 0; i < count; i++) names[i] = equip->displays[i].name;
-    for (int i = 0; i < equip->eye_count; i++) names[count + i] = equip->eyes[i].name;
-    if (!check_names(root, names, equip, err)) return false;
-    for (int i = 0; i < equip->eye_count; i++)
-        if (!find_target(root, i, names, equip, err)) return false;
+    Equip *equip = item;
+    if (!check_names(root, err)) return false;
     equip->forward_is_proposed = isnan(equip->forward[0]);
     if (equip->forward_is_proposed) propose_forward(equip);
     if (!(hypot_d(equip->forward[0], equip->forward[2]) > VERTICAL))
         return record_fails(root, "forward", err, "is vertical, required: where the vehicle "
                                                   "points");
-    return check_indices(root, equip, err) && seat_occupant(root, names + count, equip, err);
+    return check_indices(root, equip, err);
 }
 
 const RecordFormat equip_format = {

@@ -35,7 +35,6 @@ typedef struct EquipMesh {
 /* A rectangle before a face of the model, or such a face. */
 typedef struct EquipDisplay {
     const char *name, *place; /* place: its JSON path, for messages */
-    const char *on;           /* for people: the node that was clicked; NULL: not stated */
     double      centre_m[3], right[3], up[3]; /* unit, at right angles; on the face */
     double      width_m, height_m;
     double      before_m;     /* so far before the face */
@@ -53,7 +52,7 @@ typedef struct EquipEye {
     const char *name, *place;
     double      position_m[3];
     double      target_m[3]; /* elsewhere */
-    const char *looks_at;    /* the display that is there; NULL: none */
+    int         display_id;  /* that is there, or NO_ID */
     const char *proposed_from; /* by the page, which nobody corrected; NULL: it was given */
 } EquipEye;
 
@@ -67,8 +66,7 @@ typedef struct EquipMaterial {
 
 /* Somebody sits where an eye is. */
 typedef struct EquipOccupant {
-    const char *eye;      /* its name; NULL: nobody does */
-    int         eye_id;   /* NO_ID likewise */
+    int         eye_id;   /* NO_ID: nobody does */
     int         shirt_id; /* white, grey, black */
     const char *scene;    /* the shipped scene that it is */
     const char *name;     /* in the review */
@@ -76,7 +74,6 @@ typedef struct EquipOccupant {
 
 typedef struct Equip {
     const char          *file;
-    const char          *model; /* for people: which one it was made for; NULL: not stated */
     const EquipDisplay  *displays;
     const EquipEye      *eyes;
     const EquipMaterial *materials;

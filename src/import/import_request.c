@@ -11,21 +11,16 @@
 #include "import/primaries.h"
 #include "import/set/import_complete.h"
 #include "panel/set/primary_bands.h"
-#include "text/json_view.h"
+#include "record/rows.h"
 
-#define KEYS_MAX 64
-
-/* Keys besides those of the text tables. */
-static const char *const other_keys[] = {"roles", "skip", "format", "wavelength_nm", "area_mm",
-    "panel", "instrument", "date", "operator", "conditions", "primaries", "levels", "specular",
-    "specular_aperture_deg", "gloss", "isotropic", "symmetry", "no_black", "accept",
-    "backlight", "peaks_nm", "note"};
-
-static bool wrong_kind(const JsonView *view, const char *key, const char *wanted, Error *err)
-{
-    return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key), "required: %s",
-                    wanted);
-}
+#define TEXT_OR_NUMBER "{'type': ['string', 'number']}"
+#define WORDS(list) "{'enum': [" list "]}"
+#define NUMBER_FROM(bottom, top)                                                               \
+    "{'type': 'number', 'minimum': " bottom ", 'maximum': " top "}"
+/* One of them, or a list. */
+#define ENTRIES                                                                                \
+    "{'oneOf': [" TEXT_OR_NUMBER ", {'type': 'array', 'items': " TEXT_OR_NUMBER                \
+    ", 'maxItems': 256}]}"
 
 /* A text or a number as the text that the command line would have. */
 static const char *plain_text(const JsonView *view, const json_t *value)
@@ -39,18 +34,18 @@ static const char *plain_text(const JsonView *view, const json_t *value)
 }
 
 static bool set_one(const JsonView *view, const char *key, const json_t *value,
-                        TextOptions *text, Error *err)
+                    TextOptions *text, Error *err)
 {
+    Error       why;
     const char *plain = plain_text(view, value);
-    if (!plain) return wrong_kind(view, key, "a text or a number", err);
-    return text_options_set(text, key, plain, err) ||
-           error_at(err, ERROR_INPUT, view->file, json_view_path(view, key), "%s",
-                    arena_string(view->arena, err->text, strlen(err->text)));
+    if (!plain) return record_fails(view, key, err, "required: a text or a number");
+    return text_options_set(text, key, plain, &why) ||
+           record_fails(view, key, err, "%s", why.text);
 }
 
 /* "columns": ["theta", "phi"] is as good as "theta,phi"; other lists add entry by entry. */
 static bool set_list(const JsonView *view, const char *key, const json_t *list,
-                         TextOptions *text, Error *err)
+                     TextOptions *text, Error *err)
 {
     size_t      i;
     json_t     *value;
@@ -58,7 +53,7 @@ static bool set_list(const JsonView *view, const char *key, const json_t *list,
     bool        is_columns = !strcmp(key, "columns");
     json_array_foreach((json_t *)list, i, value) {
         const char *plain = plain_text(view, value);
-        if (!plain) return wrong_kind(view, key, "texts or numbers", err);
+        if (!plain) return record_fails(view, key, err, "required: texts or numbers");
         if (is_columns)
             joined = arena_format(view->arena, "%s%s%s", joined, i ? "," : "", plain);
         else if (!set_one(view, key, value, text, err)) return false;
@@ -67,70 +62,152 @@ static bool set_list(const JsonView *view, const char *key, const json_t *list,
            error_in_file(err, view->file);
 }
 
-static bool read_text_keys(const JsonView *view, TextOptions *text, Error *err)
+/* A key that is a line of a text declaration, and an option, as well. */
+static bool read_line(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
-    for (int i = 0; i < text_key_count; i++) {
-        const char   *key = text_keys[i].key;
-        const json_t *value = json_object_get(view->object, key);
-        if (!value) continue;
-        if (json_is_array(value) ? !set_list(view, key, value, text, err)
-                                 : !set_one(view, key, value, text, err))
-            return false;
-    }
-    return true;
+    TextOptions  *text = &((ImportRequest *)item)->text;
+    const json_t *value = json_object_get(view->object, row->key);
+    return json_is_array(value) ? set_list(view, row->key, value, text, err)
+                                : set_one(view, row->key, value, text, err);
 }
 
-static bool read_roles(const JsonView *root, TextOptions *text, Error *err)
+static bool read_roles(const JsonView *root, const RecordRow *row, void *item, Error *err)
 {
-    JsonView    view;
-    const char *pattern;
-    json_t     *value;
-    if (!json_view_child(root, "roles", false, &view, err)) return false;
-    if (!view.object) return true;
+    TextOptions *text = &((ImportRequest *)item)->text;
+    JsonView     view;
+    const char  *pattern;
+    json_t      *value;
+    if (!json_view_child(root, row->key, &view, err)) return false;
     json_object_foreach(view.object, pattern, value) {
         const char *role = plain_text(&view, value);
         Role        parsed;
-        double      most = text_options_level_max(text);
-        if (!role) return wrong_kind(&view, pattern, "a role", err);
-        if (!role_parse(role, most, &parsed, err))
-            return error_at(err, ERROR_INPUT, view.file, json_view_path(&view, pattern), "%s",
-                            arena_string(view.arena, err->text, strlen(err->text)));
+        Error       why;
+        if (!role) return record_fails(&view, pattern, err, "required: a role");
+        if (!role_parse(role, text_options_level_max(text), &parsed, &why))
+            return record_fails(&view, pattern, err, "%s", why.text);
         if (text->role_count == TEXT_ENTRIES_MAX)
-            return wrong_kind(root, "roles", "fewer roles", err);
+            return record_fails(root, row->key, err, "required: fewer roles");
         text->role[text->role_count++] =
             (RoleRow){arena_string(view.arena, pattern, strlen(pattern)), role};
     }
     return true;
 }
 
-static bool read_skip(const JsonView *root, TextList *skip, Error *err)
+static bool read_skip(const JsonView *root, const RecordRow *row, void *item, Error *err)
 {
-    size_t  i;
-    json_t *value, *list = json_object_get(root->object, "skip");
-    if (!list) return true;
-    if (!json_is_array(list)) return wrong_kind(root, "skip", "a list of patterns", err);
+    TextList *skip = &((ImportRequest *)item)->skip;
+    size_t    i;
+    json_t   *value, *list = json_object_get(root->object, row->key);
+    bool      ok = json_is_array(list);
     json_array_foreach(list, i, value) {
         const char *plain = plain_text(root, value);
-        if (!plain || skip->count == TEXT_ENTRIES_MAX)
-            return wrong_kind(root, "skip", "a list of patterns", err);
-        skip->text[skip->count++] = plain;
+        ok = ok && plain && skip->count < TEXT_ENTRIES_MAX;
+        if (ok) skip->text[skip->count++] = plain;
     }
+    return ok || record_fails(root, row->key, err, "required: a list of patterns");
+}
+
+/* Whatever it is. */
+static bool read_remark(const JsonView *view, const RecordRow *row, void *item, Error *err)
+{
+    (void)view, (void)row, (void)item, (void)err;
     return true;
 }
 
-static bool read_flag(const JsonView *root, const char *key, bool *out, Error *err)
+static const char *const SYMMETRIES[] = {"none", "left-right", "up-down", "both", "half-turn",
+                                         NULL};
+
+#define OWNER ImportRequest
+#define LINE(key, json, words)                                                                 \
+    {key, RECORD_OWN, .read = read_line, .schema = json, .doc = words}
+
+static const RecordRow DECLARATION[] = {
+    LINE("table", WORDS("'list', 'theta-down', 'phi-down', 'horizontal-down', "
+                        "'vertical-down'"),
+         "A direction a row, or a matrix and what runs down."),
+    LINE("columns", "{'oneOf': [" TEXT_OR_NUMBER ", {'type': 'array', 'minItems': 1, 'items': "
+                    TEXT_OR_NUMBER "}]}",
+         "What each column is; - skips one."),
+    LINE("quantity", "{'type': 'string'}",
+         "What a matrix without a label holds: X, Y, Z, L, brdf, 550nm."),
+    LINE("delimiter", WORDS("'comma', 'semicolon', 'tab', 'blank'"), NULL),
+    LINE("decimal", WORDS("'point', 'comma'"), NULL),
+    LINE("encoding", WORDS("'utf-8', 'latin-1', 'utf-16le', 'utf-16be'"), NULL),
+    LINE("skip_lines", "{'type': 'integer', 'minimum': 0, 'maximum': 1000000}",
+         "Lines to pass over at the file's beginning."),
+    LINE("comment", ENTRIES, "What begins a comment besides # ! % //."),
+    LINE("mask", ENTRIES, "Values that mean: not measured."),
+    LINE("section", ENTRIES, "PATTERN=DEG: azimuth of files that have theta alone."),
+    LINE("angle_unit", WORDS("'deg', 'rad'"), NULL),
+    LINE("angles", WORDS("'polar', 'projected', 'equidistant', 'north-polar', "
+                         "'east-polar'"),
+         "Which two angles a direction has."),
+    LINE("unit", WORDS("'cd/m2', 'nit', 'fL', 'kcd/m2', 'cd/ft2', 'brdf', "
+                       "'brdf-cos', 'factor', 'signal'"),
+         "Of the values."),
+    LINE("azimuth_zero", "{'oneOf': [" WORDS("'right', 'top', 'left', 'bottom'")
+                         ", " NUMBER_FROM("-360", "360") "]}",
+         "Where the file's azimuth 0 points."),
+    LINE("azimuth_sense", WORDS("'ccw', 'cw'"), NULL),
+    LINE("azimuth_seen_from", WORDS("'viewer', 'behind'"), NULL),
+    LINE("light_azimuth", NUMBER_FROM("-360", "360"), "In the file's azimuths."),
+    LINE("white_reflectance", NUMBER_FROM("1e-6", "1.5"), NULL),
+    LINE("level_max", NUMBER_FROM("1", "65535"), "The panel's highest code."),
+    {"roles", RECORD_OWN, .read = read_roles,
+     .schema = "{'type': 'object', 'additionalProperties': {'type': 'string'}}",
+     .doc = "Pattern of files to a role."},
+    {"skip", RECORD_OWN, .read = read_skip,
+     .schema = "{'type': 'array', 'items': " TEXT_OR_NUMBER "}",
+     .doc = "Patterns of files to leave out."},
+    TEXT("format", 0, options.format, "As --format."),
+    NUMBER("wavelength_nm", 0, options.wavelength_nm, 360, 830, NULL),
+    VECTOR("area_mm", 0, options.area_mm, 2, 1e-3, 1e6, "Luminous area of a luminaire file."),
+    TEXT("panel", 0, panel, "Name for the manifest."),
+    TEXT("instrument", 0, instrument, "Name for the manifest."),
+    TEXT("date", 0, date, "Of the measurement, for the manifest."),
+    TEXT("operator", 0, operator_name, "Who measured, for the manifest."),
+    TEXT("conditions", 0, conditions, "Under which it was measured, for the manifest."),
+    PATH("primaries", 0, primaries,
+         "A file beside the declaration: columns nm, red, green, blue."),
+    PATH("levels", 0, levels,
+         "A gamma table beside the declaration, for a set of white alone."),
+    PATH("specular", 0, specular.file,
+         "A table beside the declaration: incidence, wavelength, reflectance."),
+    NUMBER("specular_aperture_deg", 0, specular.aperture_deg, 0, SPECULAR_APERTURE_MOST_DEG,
+           "Full angle that it was measured in; 0: the mirror alone."),
+    LIST("gloss", 0, gloss, gloss_count, 1, GLOSS_METERS, gloss_format,
+         "What gloss meters read, one value a geometry."),
+    FLAG("isotropic", 0, is_isotropic, NULL),
+    CHOICE("symmetry", 0, symmetry, SYMMETRIES, NULL),
+    FLAG("no_black", 0, black_is_zero, NULL),
+    {"backlight", RECORD_WORD, RECORD_AT(OWNER, backlight), .words = primary_backlights,
+     .doc = "Of primaries without spectra: the kind whose bands are assumed."},
+    VECTOR("peaks_nm", 0, peaks_nm, 3, 380, 780,
+           "Peak wavelengths of red, green and blue without spectra."),
+    FLAG("accept", 0, accepts_repeats,
+         "Take means also where repeated directions or runs contradict each other."),
+    {"note", RECORD_OWN, .read = read_remark, .schema = "{}",
+     .doc = "A remark that is not read."},
+    {0}};
+#undef OWNER
+
+static bool check(const JsonView *view, void *item, Error *err)
 {
-    const json_t *value = json_object_get(root->object, key);
-    if (value && !json_is_boolean(value)) return wrong_kind(root, key, "true or false", err);
-    if (value) *out = json_is_true(value);
-    return true;
+    ImportRequest *request = item;
+    return !request->gloss_count ||
+           specular_gloss_collect(view, request->gloss, request->gloss_count,
+                                  &request->specular.gloss, err);
 }
+
+const RecordFormat import_format = {
+    "import_declaration", sizeof(ImportRequest), DECLARATION, .check = check,
+    .doc = "What a laboratory says once about its files; every key but the last is an option "
+           "as well."};
 
 bool import_symmetry_named(const char *name, ImportSymmetry *out, Error *err)
 {
-    static const char *const names[] = {"none", "left-right", "up-down", "both", "half-turn"};
-    for (int i = 0; i < COUNT_OF(names); i++)
-        if (!strcmp(names[i], name)) {
+    for (int i = 0; SYMMETRIES[i]; i++)
+        if (!strcmp(SYMMETRIES[i], name)) {
             *out = (ImportSymmetry)i;
             return true;
         }
@@ -139,67 +216,12 @@ bool import_symmetry_named(const char *name, ImportSymmetry *out, Error *err)
                      name);
 }
 
-static bool read_symmetry(const JsonView *root, ImportSymmetry *out, Error *err)
-{
-    const char *name = "none";
-    return json_view_text(root, "symmetry", &name, err) &&
-           (import_symmetry_named(name, out, err) || error_in_file(err, root->file));
-}
-
-static bool read_specular(const JsonView *root, ImportSpecular *out, Error *err)
-{
-    if (!json_view_text(root, "specular", &out->file, err) ||
-        !json_view_number(root, "specular_aperture_deg", 0, SPECULAR_APERTURE_MOST_DEG,
-                          &out->aperture_deg, err))
-        return false;
-    if (out->file && !json_view_file(root, "specular", out->file, &out->file, err))
-        return false;
-    return !json_object_get(root->object, "gloss") ||
-           specular_gloss_read(root, &out->gloss, err);
-}
-
-static bool read_others(const JsonView *root, ImportRequest *request, Error *err)
-{
-    int  peaks = 0;
-    bool ok = read_roles(root, &request->text, err) && read_skip(root, &request->skip, err) &&
-              json_view_text(root, "format", &request->options.format, err) &&
-              json_view_number(root, "wavelength_nm", 360, 830, &request->options.wavelength_nm,
-                               err) &&
-              json_view_pair(root, "area_mm", 1e-3, 1e6, request->options.area_mm, err) &&
-              json_view_text(root, "panel", &request->panel, err) &&
-              json_view_text(root, "instrument", &request->instrument, err) &&
-              json_view_text(root, "date", &request->date, err) &&
-              json_view_text(root, "operator", &request->operator_name, err) &&
-              json_view_text(root, "conditions", &request->conditions, err) &&
-              json_view_text(root, "backlight", &request->backlight, err) &&
-              json_view_numbers(root, "peaks_nm", (JsonRange){380, 780, 3}, request->peaks_nm,
-                                &peaks, err) &&
-              json_view_text(root, "primaries", &request->primaries, err) &&
-              json_view_text(root, "levels", &request->levels, err) &&
-              read_specular(root, &request->specular, err) &&
-              read_flag(root, "isotropic", &request->is_isotropic, err) &&
-              read_symmetry(root, &request->symmetry, err) &&
-              read_flag(root, "no_black", &request->black_is_zero, err) &&
-              read_flag(root, "accept", &request->accepts_repeats, err);
-    if (!ok) return false;
-    if (peaks && peaks < 3) return wrong_kind(root, "peaks_nm", "three wavelengths", err);
-    return (!request->primaries || json_view_file(root, "primaries", request->primaries,
-                                                  &request->primaries, err)) &&
-           (!request->levels || json_view_file(root, "levels", request->levels,
-                                               &request->levels, err));
-}
-
 bool import_request_read(const char *file, Arena *arena, ImportRequest *request, Error *err)
 {
-    JsonView    root;
-    const char *known[KEYS_MAX];
-    int         count = 0;
-    for (int i = 0; i < text_key_count; i++) known[count++] = text_keys[i].key;
-    for (int i = 0; i < COUNT_OF(other_keys); i++) known[count++] = other_keys[i];
+    JsonView root;
     if (!json_view_open(file, arena, &root, err)) return false;
     root.root = request->root;
-    bool ok = json_view_check_keys(&root, known, count, err) &&
-              read_text_keys(&root, &request->text, err) && read_others(&root, request, err);
+    bool ok = record_read(&root, &import_format, request, err);
     json_view_close(&root);
     return ok;
 }

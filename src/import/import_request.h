@@ -8,6 +8,7 @@
 #pragma once
 #include "import/set/import_beside.h"
 #include "import/text/text_options.h"
+#include "record/record.h"
 
 /* Called with the number of files done. */
 typedef void ImportStep(void *context, int done);
@@ -22,11 +23,15 @@ typedef struct ImportRequest {
     const char     *root;      /* --root: where else such a file may name files; or NULL */
     const char     *panel, *instrument, *date, *operator_name, *conditions, *backlight;
     double          peaks_nm[3]; /* 0: not stated */
+    const GlossReading *gloss; /* as a file has it; specular.gloss counts */
+    int             gloss_count;
     ImportSymmetry  symmetry;
     bool            is_isotropic, black_is_zero, accepts_repeats;
     ImportStep     *step; /* NULL: nobody waits */
     void           *context;
 } ImportRequest;
+
+extern const RecordFormat import_format;
 
 /* Reads a file of options (README: its keys) into a request, whose root is set already. */
 bool import_request_read(const char *file, Arena *arena, ImportRequest *request, Error *err);

@@ -3,7 +3,8 @@
 
 #include "text/text.h"
 
-const char *const job_kind_names[JOB_KINDS] = {[JOB_FRAME] = "frame", [JOB_REVIEW] = "review"};
+const char *const job_kind_names[JOB_KINDS + 1] = {[JOB_FRAME] = "frame",
+                                                     [JOB_REVIEW] = "review"};
 
 const char *job_part_ending(const SharedJob *job)
 {

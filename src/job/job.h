@@ -64,7 +64,7 @@ const char *job_part_file(const SharedJob *job, int index, const char *ending, A
 const char *job_part_ending(const SharedJob *job);
 
 /* "frame", "review": how manifests and messages call it. */
-extern const char *const job_kind_names[JOB_KINDS];
+extern const char *const job_kind_names[JOB_KINDS + 1]; /* and NULL */
 
 /* The output, as seen from anywhere. */
 const char *job_output_file(const SharedJob *job, Arena *arena);

@@ -6,11 +6,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/count.h"
 #include "base/file.h"
 #include "openexr/exr_file.h"
+#include "record/rows.h"
 #include "text/json_text.h"
-#include "text/json_view.h"
 
 #define FORMAT "parhelion job"
 #define VERSION 1
@@ -66,185 +65,125 @@ const char *job_manifest_text(const SharedJob *job, Arena *arena)
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
-/* Every key has to be there: the last two of a frame alone. */
-static const char *const keys[] = {"format", "version", "kind", "command", "program", "isa",
-                                   "folder", "output", "words", "identity", "parts", "merge",
-                                   "size", "keeps_sums"};
-static const char *const part_keys[] = {"index", "file", "command", "samples", "crop"};
-
-static int key_count(const SharedJob *job, int all)
+static bool read_format(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
-    return job->kind == JOB_FRAME ? all : all - 2;
+    Error why;
+    (void)item;
+    const RecordRow is = {row->key, RECORD_CONST, .words = row->words};
+    return record_read_value(view, &is, NULL, &why) ||
+           record_fails(view, row->key, err, "%s — it is no job that was shared by `parhelion "
+                        "render --slurm N` or `parhelion review --slurm N`", why.text);
 }
 
-static bool check_all_there(const JsonView *view, const char *const *wanted, int count,
-                            Error *err)
+/* A part's is its place in the list. */
+static bool read_index(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
-    for (int i = 0; i < count; i++)
-        if (!json_object_get(view->object, wanted[i]))
-            return error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing",
-                            wanted[i]);
-    return json_view_check_keys(view, wanted, count, err);
+    int       place = atoi(path_name(view->path));
+    RecordRow is = {row->key, RECORD_CONST, .low = place};
+    return record_read_value(view, &is, item, err);
 }
 
-static bool check_format(const JsonView *view, Error *err)
+#define OWNER JobPart
+static const RecordRow PART_ROWS[] = {
+    {"index", RECORD_OWN, MUST, .read = read_index,
+     .schema = "{'type': 'integer', 'minimum': 0}", .doc = "Its place in the list."},
+    NOTE("file", MUST, "What it becomes."),
+    NOTE("command", MUST, "That makes it."),
+    WHOLES("samples", 0, first_sample, 2, 0, FILM_SAMPLES_MAX, "Half-open; of a frame."),
+    WHOLES("crop", 0, crop, 4, 0, EXR_MAX_SIDE, "X0, Y0, X1, Y1, half-open; of a frame."),
+    {0}};
+#undef OWNER
+_Static_assert(sizeof(FilmRect) == 4 * sizeof(int), "a crop is four whole numbers");
+_Static_assert(offsetof(JobPart, end_sample) == offsetof(JobPart, first_sample) + sizeof(int),
+               "a pair");
+
+/* Some keys have to be there in a frame's job, and in no other. */
+static bool check_frame_key(const JsonView *view, const char *key, Error *err)
 {
-    const char *format = "";
-    double      version = 0;
-    if (!json_view_text(view, "format", &format, err)) return false;
-    if (strcmp(format, FORMAT) != 0)
-        return error_at(err, ERROR_INPUT, view->file, "/format",
-                        "is '%.80s', required: '" FORMAT "' — it is no job that was shared by "
-                        "`parhelion render --slurm N` or `parhelion review --slurm N`",
-                        format);
-    if (!json_view_number(view, "version", 0, 1e6, &version, err)) return false;
-    return version == VERSION ||
-           error_at(err, ERROR_INPUT, view->file, "/version",
-                    "is %g, this program reads version %d", version, VERSION);
+    bool is_frame = ((const SharedJob *)view->whole)->kind == JOB_FRAME;
+    bool is_there = json_object_get(view->object, key) != NULL;
+    if (is_there == is_frame) return true;
+    return is_there ? record_fails(view, key, err, "unknown key: it is of a frame, required: "
+                                   "none of a review")
+                    : error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing",
+                               key);
 }
 
-static bool read_list(const JsonView *view, const char *key, int least, int most,
-                      json_t **out, Error *err)
+static bool check_part(const JsonView *view, void *item, Error *err)
 {
-    json_t *list = json_object_get(view->object, key);
-    if (!json_is_array(list)) return json_view_wrong_kind(view, key, list, "a list", err);
-    int count = (int)json_array_size(list);
-    if (count < least || count > most)
-        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                        "has %d items, required: %d to %d", count, least, most);
-    *out = list;
-    return true;
-}
-
-static bool read_words(const JsonView *view, SharedJob *job, Error *err)
-{
-    json_t *list, *value;
-    size_t  i;
-    if (!read_list(view, "words", 1, WORDS_MAX, &list, err)) return false;
-    job->word_count = (int)json_array_size(list);
-    job->words = ARENA_NEW(view->arena, const char *, job->word_count);
-    json_array_foreach(list, i, value) {
-        if (!json_is_string(value))
-            return json_view_wrong_kind(view, "words", value, "only texts", err);
-        job->words[i] = arena_string(view->arena, json_string_value(value),
-                                     json_string_length(value));
-    }
-    return true;
-}
-
-/* `count` whole numbers of [0, high]. */
-static bool read_wholes(const JsonView *view, const char *key, int count, double high,
-                        double *out, Error *err)
-{
-    int found = 0;
-    if (!json_view_numbers(view, key, (JsonRange){0, high, count}, out, &found, err))
+    const SharedJob *job = view->whole;
+    const JobPart   *part = item;
+    const FilmRect   crop = part->crop;
+    if (!check_frame_key(view, "samples", err) || !check_frame_key(view, "crop", err))
         return false;
-    for (int i = 0; i < found; i++)
-        if (out[i] != (double)(long)out[i])
-            return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                            "is %g, required: whole numbers", out[i]);
-    return found == count || error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                                      "has %d values, required: %d", found, count);
+    if (job->kind != JOB_FRAME) return true;
+    if (part->first_sample >= part->end_sample)
+        return record_fails(view, "samples", err, "is %u to %u, required: a range",
+                            part->first_sample, part->end_sample);
+    return (crop.x0 < crop.x1 && crop.y0 < crop.y1 && crop.x1 <= job->width &&
+            crop.y1 <= job->height) ||
+           record_fails(view, "crop", err, "required: X0,Y0,X1,Y1 inside the frame of %dx%d "
+                        "pixels", job->width, job->height);
 }
 
-static bool check_index(const JsonView *view, int index, Error *err)
+static const RecordFormat part_format = {"part", sizeof(JobPart), PART_ROWS,
+                                         .check = check_part};
+
+/* What a part is checked against is there before. */
+static bool read_parts(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
-    double number = 0;
-    return json_view_number(view, "index", 0, JOB_PARTS_MAX, &number, err) &&
-           (number == index ||
-            error_at(err, ERROR_INPUT, view->file, json_view_path(view, "index"),
-                     "is %g, required: %d", number, index));
+    return check_frame_key(view, "size", err) && check_frame_key(view, "keeps_sums", err) &&
+           record_read_kind(view, row, item, err);
 }
 
-/* Reads a part of a frame. */
-static bool read_part(const JsonView *view, const SharedJob *job, JobPart *out, Error *err)
+static const char *const FORMATS[] = {FORMAT, NULL};
+
+#define OWNER SharedJob
+static const RecordRow JOB[] = {
+    {"format", RECORD_OWN, MUST, .read = read_format, .words = FORMATS},
+    {"version", RECORD_CONST, MUST, .low = VERSION},
+    CHOICE("kind", MUST, kind, job_kind_names, NULL),
+    TEXT("command", MUST, line, "Of the one run that the job stands for."),
+    TEXT("program", MUST, program, "That planned it, its path from the root."),
+    TEXT("isa", MUST, isa, "The instruction set that all parts take."),
+    TEXT("folder", MUST, folder, "From where the names are seen."),
+    TEXT("output", MUST, output, "The frame, or the review's folder."),
+    TEXT("identity", MUST, identity, "What decides a sample, or the answers."),
+    WHOLES("size", 0, width, 2, 0, EXR_MAX_SIDE, "Pixels of the frame."),
+    FLAG("keeps_sums", 0, keeps_sums, "The frame is itself a part."),
+    {"words", RECORD_TEXTS, MUST, RECORD_AT(OWNER, words), .least = 1, .most = WORDS_MAX,
+     .count = offsetof(OWNER, word_count), .doc = "Arguments that all parts have."},
+    {"parts", RECORD_LIST, MUST, RECORD_MANY(OWNER, parts, part_count),
+     RECORD_COUNT(1, JOB_PARTS_MAX), .of = &part_format, .read = read_parts},
+    NOTE("merge", MUST, "The command that makes the frame or the review."),
+    {0}};
+#undef OWNER
+_Static_assert(offsetof(SharedJob, height) == offsetof(SharedJob, width) + sizeof(int),
+               "a pair");
+
+static bool check_path(const JsonView *view, const char *key, const char *path, Error *err)
 {
-    double samples[2], crop[4];
-    if (!read_wholes(view, "samples", 2, FILM_SAMPLES_MAX, samples, err) ||
-        !read_wholes(view, "crop", 4, EXR_MAX_SIDE, crop, err))
-        return false;
-    if (samples[0] >= samples[1])
-        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "samples"),
-                        "is %g to %g, required: a range", samples[0], samples[1]);
-    if (crop[0] >= crop[2] || crop[1] >= crop[3] || crop[2] > job->width ||
-        crop[3] > job->height)
-        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "crop"),
-                        "required: X0,Y0,X1,Y1 inside the frame of %dx%d pixels", job->width,
-                        job->height);
-    *out = (JobPart){{(int)crop[0], (int)crop[1], (int)crop[2], (int)crop[3]},
-                     (uint32_t)samples[0], (uint32_t)samples[1]};
-    return true;
+    return path[0] == '/' || record_fails(view, key, err, "is '%.200s', required: a path from "
+                                          "the root", path);
 }
 
-static bool read_parts(const JsonView *view, SharedJob *job, Error *err)
+static bool check(const JsonView *view, void *item, Error *err)
 {
-    json_t *list;
-    if (!read_list(view, "parts", 1, JOB_PARTS_MAX, &list, err)) return false;
-    job->part_count = (int)json_array_size(list);
-    job->parts = ARENA_NEW(view->arena, JobPart, job->part_count);
-    for (int i = 0; i < job->part_count; i++) {
-        json_t    *value = json_array_get(list, (size_t)i);
-        const char *path = arena_format(view->arena, "/parts/%d", i);
-        JsonView    item = {.object = value, .file = view->file, .path = path,
-                            .arena = view->arena};
-        if (!json_is_object(value))
-            return json_view_wrong_kind(view, "parts", value, "a list of objects", err);
-        if (!check_all_there(&item, part_keys, key_count(job, COUNT_OF(part_keys)), err) ||
-            !check_index(&item, i, err) ||
-            (job->kind == JOB_FRAME && !read_part(&item, job, &job->parts[i], err)))
-            return false;
-    }
-    return true;
+    const SharedJob *job = item;
+    return check_path(view, "program", job->program, err) &&
+           check_path(view, "folder", job->folder, err);
 }
 
-static bool read_folder(const JsonView *view, const char *key, const char **out, Error *err)
-{
-    return json_view_text(view, key, out, err) &&
-           ((*out)[0] == '/' ||
-            error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                     "is '%.200s', required: a path from the root", *out));
-}
-
-static bool read_kind(const JsonView *view, JobKind *out, Error *err)
-{
-    const char *kind = "";
-    if (!json_object_get(view->object, "kind"))
-        return error_at(err, ERROR_INPUT, view->file, view->path, "key 'kind' is missing");
-    if (!json_view_text(view, "kind", &kind, err)) return false;
-    for (*out = JOB_FRAME; *out < JOB_KINDS; (*out)++)
-        if (!strcmp(kind, job_kind_names[*out])) return true;
-    return error_at(err, ERROR_INPUT, view->file, "/kind",
-                    "is '%.80s', required: 'frame' or 'review'", kind);
-}
-
-/* Reads what only a frame's job has. */
-static bool read_frame(const JsonView *view, SharedJob *job, Error *err)
-{
-    double  size[2];
-    json_t *keeps_sums = json_object_get(view->object, "keeps_sums");
-    if (!read_wholes(view, "size", 2, EXR_MAX_SIDE, size, err)) return false;
-    if (!json_is_boolean(keeps_sums))
-        return json_view_wrong_kind(view, "keeps_sums", keeps_sums, "true or false", err);
-    job->keeps_sums = json_is_true(keeps_sums);
-    job->width = (int)size[0];
-    job->height = (int)size[1];
-    return true;
-}
-
-static bool read_all(const JsonView *view, SharedJob *job, Error *err)
-{
-    if (!check_format(view, err) || !read_kind(view, &job->kind, err) ||
-        !check_all_there(view, keys, key_count(job, COUNT_OF(keys)), err) ||
-        !json_view_text(view, "command", &job->line, err) ||
-        !read_folder(view, "program", &job->program, err) ||
-        !json_view_text(view, "isa", &job->isa, err) ||
-        !read_folder(view, "folder", &job->folder, err) ||
-        !json_view_text(view, "output", &job->output, err) ||
-        !json_view_text(view, "identity", &job->identity, err) ||
-        (job->kind == JOB_FRAME && !read_frame(view, job, err)))
-        return false;
-    return read_words(view, job, err) && read_parts(view, job, err);
-}
+const RecordFormat job_format = {
+    "job", sizeof(SharedJob), JOB, .check = check,
+    .rules = "{'allOf': [{'properties': {'program': {'pattern': '^/'}, "
+             "'folder': {'pattern': '^/'}}}], "
+             "'if': {'properties': {'kind': {'const': 'frame'}}}, "
+             "'then': {'required': ['size', 'keeps_sums'], 'properties': {'parts': "
+             "{'items': {'required': ['samples', 'crop']}}}}, "
+             "'else': {'properties': {'size': false, 'keeps_sums': false, 'parts': "
+             "{'items': {'properties': {'samples': false, 'crop': false}}}}}}",
+    .doc = "assets/schemas/job.md explains the keys."};
 
 bool job_manifest_is_there(const char *dir, Arena scratch)
 {
@@ -269,7 +208,7 @@ bool job_manifest_read(const char *dir, Arena *arena, SharedJob *out, Error *err
     free(whole);
     if (!json_view_open(arena_format(arena, "%s/" JOB_MANIFEST, dir), arena, &view, err))
         return false;
-    bool reads = read_all(&view, &job, err);
+    bool reads = record_read(&view, &job_format, &job, err);
     json_view_close(&view);
     if (reads) *out = job;
     return reads;

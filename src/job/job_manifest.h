@@ -7,10 +7,12 @@
 #pragma once
 #include <jansson.h>
 
-#include "base/error.h"
 #include "job/job.h"
+#include "record/record.h"
 
 #define JOB_MANIFEST "manifest.json"
+
+extern const RecordFormat job_format;
 
 /* The document, with a newline; the same for the same job. */
 const char *job_manifest_text(const SharedJob *job, Arena *arena);

@@ -3,11 +3,14 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/mathd.h"
 #include "base/units.h"
 #include "text/nearest_word.h"
+#include "text/uri.h"
 
 #define KEYS_MAX 256 /* of an object, and words of a choice */
 #define LENGTH_LEAST 1e-9 /* shorter vectors have no direction */
@@ -21,41 +24,136 @@ bool record_fails(const JsonView *view, const char *key, Error *err, const char 
     return false;
 }
 
-/* ---- single values ----------------------------------------------------------------------- */
-
-static bool check_low(const JsonView *view, const RecordRow *row, double value, Error *err)
+bool record_has(const JsonView *view, const char *key)
 {
-    return !(row->flags & RECORD_ABOVE) || value > row->low ||
-           record_fails(view, row->key, err, "is %g, required: a number above %g", value,
-                        row->low);
+    return json_object_get(view->object, key) != NULL;
 }
 
-static bool read_number(const JsonView *view, const RecordRow *row, double *out, Error *err)
+bool record_misses(const JsonView *view, const char *key, Error *err)
 {
-    double value = NAN, low = row->flags & RECORD_ABOVE ? -HUGE_VAL : row->low;
-    if (!json_view_number(view, row->key, low, row->high, &value, err) ||
-        !check_low(view, row, value, err))
+    return error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing", key);
+}
+
+bool record_one_of(const JsonView *view, const char *one, const char *other, Error *err)
+{
+    bool has_one = record_has(view, one);
+    return has_one != record_has(view, other) ||
+           error_at(err, ERROR_INPUT, view->file, view->path,
+                    "has %s, required: one of '%s' and '%s'", has_one ? "both" : "neither",
+                    one, other);
+}
+
+static void *at_offset(void *item, size_t offset)
+{
+    return (char *)item + offset;
+}
+
+/* ---- numbers ----------------------------------------------------------------------------- */
+
+static bool is_integer(const RecordRow *row)
+{
+    return row->kind == RECORD_INTEGER || row->kind == RECORD_WHOLES;
+}
+
+/* Is it a number of the row's: in [low, high], whole? */
+static bool check_number(const JsonView *view, const RecordRow *row, const json_t *value,
+                         double *out, Error *err)
+{
+    *out = (double)NAN;
+    if (json_is_null(value) && row->flags & RECORD_NULL) return true;
+    if (!json_is_number(value))
+        return json_view_wrong_kind(view, row->key, value,
+                                    row->most ? "only numbers" : "a number", err);
+    double number = *out = json_number_value(value);
+    bool   is_above = row->flags & RECORD_ABOVE;
+    if (!isfinite(number) || number > row->high || (!is_above && number < row->low))
+        return record_fails(view, row->key, err, "is %g, required: a number from %g to %g",
+                            number, row->low, row->high);
+    if (is_above && !(number > row->low))
+        return record_fails(view, row->key, err, "is %g, required: a number above %g", number,
+                            row->low);
+    return (!is_integer(row) && !(row->flags & RECORD_WHOLE)) || number == floor(number) ||
+           record_fails(view, row->key, err, "is %g, required: %s", number,
+                        row->most ? "whole numbers" : "a whole number");
+}
+
+/* The i-th of them, as the row keeps it. */
+static void keep_number(const RecordRow *row, void *at, int i, double value)
+{
+    if (is_integer(row) && row->flags & RECORD_LONG) ((long *)at)[i] = (long)value;
+    else if (is_integer(row)) ((int *)at)[i] = (int)value;
+    else if (row->flags & RECORD_FLOAT) ((float *)at)[i] = (float)value;
+    else ((double *)at)[i] = value;
+}
+
+static bool read_number(const JsonView *view, const RecordRow *row, void *out, Error *err)
+{
+    double value;
+    if (!check_number(view, row, json_object_get(view->object, row->key), &value, err))
         return false;
-    if (row->flags & RECORD_WHOLE && value != floor(value))
-        return record_fails(view, row->key, err, "is %g, required: a whole number", value);
-    *out = row->flags & RECORD_RADIANS ? radians_from_degrees(value)
-           : row->flags & RECORD_METRES ? value / 1000 : value;
+    if (row->flags & RECORD_RADIANS) value = radians_from_degrees(value);
+    if (row->flags & RECORD_METRES) value /= 1000;
+    keep_number(row, out, 0, value);
     return true;
 }
 
-static bool read_integer(const JsonView *view, const RecordRow *row, int *out, Error *err)
+static bool make_unit(const JsonView *view, const RecordRow *row, double *vector, Error *err)
 {
-    double    value;
-    RecordRow whole = *row;
-    whole.flags |= RECORD_WHOLE;
-    if (!read_number(view, &whole, &value, err)) return false;
-    *out = (int)value;
+    double length = hypot_d(hypot_d(vector[0], vector[1]), vector[2]);
+    if (!(length > LENGTH_LEAST))
+        return record_fails(view, row->key, err, "is the zero vector, required: a direction");
+    for (int i = 0; i < 3; i++) vector[i] /= length;
     return true;
 }
+
+/* How many items an array or object has. */
+static bool find_count(const JsonView *view, const RecordRow *row, const char *what, int *count,
+                       Error *err)
+{
+    const json_t *list = json_object_get(view->object, row->key);
+    bool          is_map = row->kind == RECORD_MAP;
+    if (is_map ? !json_is_object(list) : !json_is_array(list))
+        return json_view_wrong_kind(view, row->key, list, what, err);
+    const char *items = is_map ? "members" : "values";
+    size_t size = is_map ? json_object_size(list) : json_array_size(list);
+    size_t most = row->most ? (size_t)row->most : SIZE_MAX;
+    *count = (int)size;
+    if (size >= (size_t)row->least && size <= most) return true;
+    if (row->least == row->most)
+        return record_fails(view, row->key, err, "has %zu %s, required: %d", size, items,
+                            row->least);
+    return record_fails(view, row->key, err,
+                        row->most ? "has %zu %s, required: %d to %d"
+                                  : "has %zu %s, required: at least %d", size, items,
+                        row->least, row->most);
+}
+
+static bool read_numbers(const JsonView *view, const RecordRow *row, void *item, Error *err)
+{
+    int           count;
+    void         *at = at_offset(item, row->offset);
+    const json_t *values = json_object_get(view->object, row->key);
+    if (!find_count(view, row, "an array of numbers", &count, err)) return false;
+    double *list = ARENA_NEW(view->arena, double, count);
+    for (int i = 0; i < count; i++)
+        if (!check_number(view, row, json_array_get(values, (size_t)i), &list[i], err))
+            return false;
+    if (row->flags & RECORD_UNIT && !make_unit(view, row, list, err)) return false;
+    if (row->kind == RECORD_FIGURES) memcpy(at, &list, sizeof list);
+    else
+        for (int i = 0; i < count; i++) keep_number(row, at, i, list[i]);
+    if (row->count) *(int *)at_offset(item, row->count) = count;
+    return true;
+}
+
+/* ---- words ------------------------------------------------------------------------------- */
 
 static bool read_text(const JsonView *view, const RecordRow *row, const char **out, Error *err)
 {
-    if (!json_view_text(view, row->key, out, err)) return false;
+    const json_t *value = json_object_get(view->object, row->key);
+    if (!json_is_string(value))
+        return json_view_wrong_kind(view, row->key, value, "a text", err);
+    *out = arena_string(view->arena, json_string_value(value), json_string_length(value));
     return !(row->flags & RECORD_FILLED) || **out ||
            record_fails(view, row->key, err, "is an empty text, required: some words");
 }
@@ -72,14 +170,14 @@ const char *record_word(const RecordRow *row, int i)
 static bool read_word(const JsonView *view, const RecordRow *row, int *place, const char **out,
                       Error *err)
 {
-    const char *text = NULL, *word, *known[KEYS_MAX];
+    const char *text, *word, *known[KEYS_MAX];
     char        advice[256];
     int         count = 0;
-    if (!json_view_text(view, row->key, &text, err)) return false;
+    if (!read_text(view, row, &text, err)) return false;
     for (; count < KEYS_MAX && (word = record_word(row, count)); count++) {
         known[count] = word;
         if (strcmp(text, word) != 0) continue;
-        *place = count;
+        *place = count + (row->flags & RECORD_NULL ? 1 : 0);
         *out = word;
         return true;
     }
@@ -103,109 +201,163 @@ static bool read_const(const JsonView *view, const RecordRow *row, Error *err)
                         row->low);
 }
 
-/* ---- lists ------------------------------------------------------------------------------- */
+static bool read_file(const JsonView *view, const RecordRow *row, const char **out, Error *err)
+{
+    Error         why;
+    const json_t *value = json_object_get(view->object, row->key);
+    const char   *uri = json_string_value(value);
+    char         *relative;
+    if (!uri) return json_view_wrong_kind(view, row->key, value, "a file's path", err);
+    size_t scheme = uri_scheme_length(uri);
+    if (scheme)
+        return record_fails(view, row->key, err,
+                            "has the scheme '%.*s:', required: a relative path",
+                            (int)(scheme < 40 ? scheme : 40), uri);
+    if (!uri_decode(uri, view->arena, &relative, &why))
+        return record_fails(view, row->key, err, "%s", why.text);
+    if (!json_view_file(view, row->key, relative, out, err)) return false;
+    return file_exists(*out) ||
+           record_fails(view, row->key, err,
+                        "names '%.200s', which cannot be read; required: a file", *out);
+}
 
-static bool find_list(const JsonView *view, const RecordRow *row, const char *what, int *count,
+/* ---- names of other items ---------------------------------------------------------------- */
+
+int record_names(const JsonView *view, const RecordNames *among, const char ***out)
+{
+    const char *whole = view->whole, *item;
+    int         count = *(const int *)(whole + among->count);
+    memcpy(&item, whole + among->list, sizeof item);
+    *out = ARENA_NEW(view->arena, const char *, count);
+    for (int i = 0; i < count; i++, item += among->size)
+        memcpy(&(*out)[i], item, sizeof **out);
+    return count;
+}
+
+static int place_of(const char *name, const char **names, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (!strcmp(names[i], name)) return i;
+    return -1;
+}
+
+static bool read_refer(const JsonView *view, const RecordRow *row, int *out, Error *err)
+{
+    const char *name, **names, *key = row->among->key;
+    char        advice[256];
+    if (!read_text(view, row, &name, err)) return false;
+    int count = record_names(view, row->among, &names), place = place_of(name, names, count);
+    if (place >= 0) {
+        *out = place;
+        return true;
+    }
+    if (!count)
+        return record_fails(view, row->key, err, "is '%.60s', but the file has no '%s'", name,
+                            key);
+    return record_fails(view, row->key, err, "is '%.60s', required: a name of '%s': %s", name,
+                        key, nearest_word_advice(name, names, count, advice, sizeof advice));
+}
+
+/* A map's member has a name, one of the row's if it has some. */
+static bool check_name(const JsonView *map, const RecordRow *row, const char *name, Error *err)
+{
+    const char **names;
+    char         advice[256];
+    if (!*name)
+        return error_at(err, ERROR_INPUT, map->file, map->path,
+                        "has a member with an empty name, required: a name");
+    int count = row->among ? record_names(map, row->among, &names) : 0;
+    return !row->among || place_of(name, names, count) >= 0 ||
+           record_fails(map, name, err, "unknown %s; %s", row->among->one,
+                        count ? nearest_word_advice(name, names, count, advice, sizeof advice)
+                              : "the file has none");
+}
+
+/* ---- lists and maps ---------------------------------------------------------------------- */
+
+/* A list as an object whose members' names are their places, for who reads members. */
+static json_t *by_place(const json_t *list)
+{
+    json_t *object = json_object(), *value;
+    size_t  i;
+    char    place[24];
+    json_array_foreach(list, i, value) {
+        snprintf(place, sizeof place, "%zu", i);
+        json_object_set(object, place, value);
+    }
+    return object;
+}
+
+static bool read_item(const JsonView *view, const RecordRow *row, const char *name, void *item,
                       Error *err)
 {
-    const json_t *list = json_object_get(view->object, row->key);
-    if (!json_is_array(list)) return json_view_wrong_kind(view, row->key, list, what, err);
-    size_t size = json_array_size(list), most = row->most ? (size_t)row->most : SIZE_MAX;
-    if (size < (size_t)row->least || size > most) {
-        if (row->least == row->most)
-            return record_fails(view, row->key, err, "has %zu values, required: %d", size,
-                                row->least);
-        return record_fails(view, row->key, err,
-                            row->most ? "has %zu values, required: %d to %d"
-                                      : "has %zu values, required: at least %d", size,
-                            row->least, row->most);
+    JsonView            inside;
+    const RecordFormat *of = row->of;
+    if (of->start) of->start(item);
+    if (row->kind == RECORD_MAP) {
+        const char *kept = arena_string(view->arena, name, strlen(name));
+        if (!check_name(view, row, name, err)) return false;
+        memcpy(item, &kept, sizeof kept);
     }
-    *count = (int)size;
-    return true;
+    if (!of->value)
+        return json_view_child(view, name, &inside, err) &&
+               record_read(&inside, of, item, err);
+    RecordRow value = *of->value;
+    value.key = name;
+    return record_read_value(view, &value, item, err) &&
+           (!of->check || of->check(view, item, err));
 }
 
-static void *at_offset(void *item, size_t offset)
+static bool read_items(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
-    return (char *)item + offset;
-}
-
-static bool make_unit(const JsonView *view, const RecordRow *row, double *vector, Error *err)
-{
-    double length = hypot_d(hypot_d(vector[0], vector[1]), vector[2]);
-    if (!(length > LENGTH_LEAST))
-        return record_fails(view, row->key, err, "is the zero vector, required: a direction");
-    for (int i = 0; i < 3; i++) vector[i] /= length;
-    return true;
-}
-
-static bool read_numbers(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    int count, found;
-    if (!find_list(view, row, "an array of numbers", &count, err)) return false;
-    double   *list = row->kind == RECORD_NUMBERS ? at_offset(item, row->offset)
-                                                 : ARENA_NEW(view->arena, double, count);
-    JsonRange range = {row->flags & RECORD_ABOVE ? -HUGE_VAL : row->low, row->high, count};
-    if (count && !json_view_numbers(view, row->key, range, list, &found, err)) return false;
-    for (int i = 0; i < count; i++) {
-        if (!check_low(view, row, list[i], err)) return false;
-        if (row->flags & RECORD_WHOLE && list[i] != floor(list[i]))
-            return record_fails(view, row->key, err, "is %g, required: whole numbers", list[i]);
+    int         count;
+    JsonView    inside = *view;
+    json_t     *value, *own = json_object_get(view->object, row->key);
+    const char *name;
+    bool        ok = true;
+    if (!find_count(view, row, row->kind == RECORD_MAP ? "an object"
+                               : row->of->value        ? "an array"
+                                                       : "an array of objects", &count, err))
+        return false;
+    char *items = arena_alloc(view->arena, row->of->size, _Alignof(max_align_t),
+                              (size_t)count);
+    memcpy(at_offset(item, row->offset), &items, sizeof items);
+    *(int *)at_offset(item, row->count) = count;
+    inside.path = json_view_path(view, row->key);
+    inside.object = row->kind == RECORD_MAP ? json_incref(own) : by_place(own);
+    json_object_foreach(inside.object, name, value) {
+        ok = ok && read_item(&inside, row, name, items, err);
+        items += row->of->size;
     }
-    if (row->flags & RECORD_UNIT && !make_unit(view, row, list, err)) return false;
-    if (row->kind == RECORD_FIGURES)
-        memcpy(at_offset(item, row->offset), &list, sizeof list);
-    if (row->count) *(int *)at_offset(item, row->count) = count;
-    return true;
+    json_decref(inside.object);
+    return ok;
 }
+
+static const RecordRow    A_TEXT = {.kind = RECORD_TEXT}, A_FILE = {.kind = RECORD_FILE};
+static const RecordFormat texts = {"text", sizeof(char *), .value = &A_TEXT};
+const RecordFormat        record_files = {"file", sizeof(char *), .value = &A_FILE};
 
 static bool read_texts(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
-    int count;
-    if (!find_list(view, row, "an array of texts", &count, err)) return false;
-    const char **texts = ARENA_NEW(view->arena, const char *, count);
-    for (int i = 0; i < count; i++) {
-        json_t *text = json_array_get(json_object_get(view->object, row->key), (size_t)i);
-        if (!json_is_string(text))
-            return json_view_wrong_kind(view, arena_format(view->arena, "%s/%d", row->key, i),
-                                        text, "a text", err);
-        texts[i] = arena_string(view->arena, json_string_value(text),
-                                json_string_length(text));
-    }
-    memcpy(at_offset(item, row->offset), &texts, sizeof texts);
-    *(int *)at_offset(item, row->count) = count;
-    return true;
+    RecordRow list = *row;
+    list.of = &texts;
+    return read_items(view, &list, item, err);
 }
 
-static bool read_list(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    int count;
-    if (!find_list(view, row, "an array of objects", &count, err)) return false;
-    char *items = arena_alloc(view->arena, row->of->size, _Alignof(max_align_t),
-                              (size_t)count);
-    for (int i = 0; i < count; i++) {
-        JsonView    inside = *view;
-        const char *place = arena_format(view->arena, "%s/%d", row->key, i);
-        void       *at = items + (size_t)i * row->of->size;
-        inside.object = json_array_get(json_object_get(view->object, row->key), (size_t)i);
-        inside.path = json_view_path(view, place);
-        if (!json_is_object(inside.object))
-            return json_view_wrong_kind(view, place, inside.object, "an object", err);
-        if (row->of->start) row->of->start(at);
-        if (!record_read(&inside, row->of, at, err)) return false;
-    }
-    memcpy(at_offset(item, row->offset), &items, sizeof items);
-    *(int *)at_offset(item, row->count) = count;
-    return true;
-}
-
-/* ---- objects ----------------------------------------------------------------------------- */
+/* ---- objects and choices ----------------------------------------------------------------- */
 
 static bool read_object(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
     JsonView inside;
-    if (!json_view_child(view, row->key, true, &inside, err) ||
-        !record_read(&inside, row->of, at_offset(item, row->offset), err))
-        return false;
+    void    *at = at_offset(item, row->offset);
+    if (!json_view_child(view, row->key, &inside, err)) return false;
+    if (row->flags & RECORD_APART) {
+        void *apart = arena_alloc(view->arena, row->of->size, _Alignof(max_align_t), 1);
+        if (row->of->start) row->of->start(apart);
+        memcpy(at, &apart, sizeof apart);
+        at = apart;
+    }
+    if (!record_read(&inside, row->of, at, err)) return false;
     if (row->count) *(bool *)at_offset(item, row->count) = true;
     return true;
 }
@@ -219,42 +371,119 @@ static bool read_flag(const JsonView *view, const RecordRow *row, bool *out, Err
     return true;
 }
 
-bool record_read_value(const JsonView *view, const RecordRow *row, void *item, Error *err)
+static bool is_of(const json_t *value, RecordKind kind)
+{
+    switch (kind) {
+    case RECORD_NUMBER:
+    case RECORD_INTEGER: return json_is_number(value);
+    case RECORD_FLAG: return json_is_boolean(value);
+    case RECORD_OBJECT:
+    case RECORD_MAP: return json_is_object(value);
+    case RECORD_WHOLES:
+    case RECORD_NUMBERS:
+    case RECORD_FIGURES:
+    case RECORD_TEXTS:
+    case RECORD_LIST: return json_is_array(value);
+    default: return json_is_string(value);
+    }
+}
+
+static bool read_either(const JsonView *view, const RecordRow *row, void *item, Error *err)
+{
+    const char   *required = "";
+    const json_t *value = json_object_get(view->object, row->key);
+    for (const RecordRow *form = row->forms; form->key; form++) {
+        RecordRow own = *form;
+        own.key = row->key;
+        if (is_of(value, form->kind))
+            return record_read_value(view, &own, at_offset(item, row->offset), err);
+        required = arena_format(view->arena, "%s%s%s", required, *required ? " or " : "",
+                                form->key);
+    }
+    return json_view_wrong_kind(view, row->key, value, required, err);
+}
+
+bool record_read_kind(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
     void       *at = at_offset(item, row->offset);
     const char *word;
     int         place;
     switch (row->kind) {
-    case RECORD_NUMBER: return read_number(view, row, at, err);
-    case RECORD_INTEGER: return read_integer(view, row, at, err);
+    case RECORD_NUMBER:
+    case RECORD_INTEGER: return read_number(view, row, at, err);
+    case RECORD_WHOLES:
     case RECORD_NUMBERS:
     case RECORD_FIGURES: return read_numbers(view, row, item, err);
     case RECORD_FLAG: return read_flag(view, row, at, err);
     case RECORD_TEXT: return read_text(view, row, at, err);
+    case RECORD_NOTE: return read_text(view, row, &word, err);
     case RECORD_TEXTS: return read_texts(view, row, item, err);
     case RECORD_CHOICE: return read_word(view, row, at, &word, err);
     case RECORD_WORD: return read_word(view, row, &place, at, err);
     case RECORD_CONST: return read_const(view, row, err);
+    case RECORD_FILE: return read_file(view, row, at, err);
+    case RECORD_PATH:
+        return read_text(view, row, &word, err) &&
+               json_view_file(view, row->key, word, at, err);
+    case RECORD_REFER: return read_refer(view, row, at, err);
     case RECORD_OBJECT: return read_object(view, row, item, err);
-    case RECORD_LIST: return read_list(view, row, item, err);
-    default: return row->read(view, row, item, err);
+    case RECORD_LIST:
+    case RECORD_MAP: return read_items(view, row, item, err);
+    default: return read_either(view, row, item, err);
     }
 }
 
-bool record_read(const JsonView *view, const RecordFormat *format, void *item, Error *err)
+bool record_read_value(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
-    const char *keys[KEYS_MAX];
+    return (row->read ? row->read : record_read_kind)(view, row, item, err);
+}
+
+/* Refuses a key that no row has, with the nearest one. */
+static bool check_keys(const JsonView *view, const RecordRow *rows, Error *err)
+{
+    const char *known[KEYS_MAX], *key;
+    json_t     *value;
     int         count = 0;
-    for (const RecordRow *row = format->rows; row->key && count < KEYS_MAX; row++)
-        keys[count++] = row->key;
-    if (!json_view_check_keys(view, keys, count, err)) return false;
+    for (const RecordRow *row = rows; row->key && count < KEYS_MAX; row++)
+        known[count++] = row->key;
+    json_object_foreach(view->object, key, value) {
+        if (place_of(key, known, count) >= 0) continue;
+        const char *meant = nearest_word_meant(key, known, count); /* "age" is "age_years" */
+        return record_fails(view, key, err, "unknown key; the nearest known one is '%s'",
+                            meant ? meant : nearest_word(key, known, count));
+    }
+    return true;
+}
+
+/* What nobody knows, of a row that says so by null. */
+static void clear(const RecordRow *row, void *item)
+{
+    void *at = at_offset(item, row->offset);
+    if (row->kind == RECORD_TEXT) memset(at, 0, sizeof(const char *));
+    if (row->kind == RECORD_CHOICE) memset(at, 0, sizeof(int));
+    if (row->kind == RECORD_NUMBER) *(double *)at = (double)NAN;
+    for (int i = 0; row->kind == RECORD_NUMBERS && i < row->most; i++)
+        ((double *)at)[i] = (double)NAN;
+    if (row->kind != RECORD_OBJECT) return;
+    *(bool *)at_offset(item, row->count) = false;
+    for (const RecordRow *inside = row->of->rows; inside->key; inside++)
+        if (inside->flags & RECORD_NULL) clear(inside, at);
+}
+
+bool record_read(const JsonView *outer, const RecordFormat *format, void *item, Error *err)
+{
+    JsonView own = *outer, *view = &own;
+    if (!own.whole) own.whole = item;
+    if (!format->takes_more && !check_keys(view, format->rows, err)) return false;
     for (const RecordRow *row = format->rows; row->key; row++) {
-        if (json_object_get(view->object, row->key)) {
-            if (!record_read_value(view, row, item, err)) return false;
-        } else if (row->flags & RECORD_REQUIRED) {
-            return error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing",
-                            row->key);
-        }
+        const json_t *value = json_object_get(view->object, row->key);
+        if (row->flags & RECORD_WRITTEN) continue;
+        if (!value && row->flags & RECORD_REQUIRED)
+            return record_misses(view, row->key, err);
+        if (row->flags & RECORD_NULL) clear(row, item);
+        if (value && !(json_is_null(value) && row->flags & RECORD_NULL) &&
+            !record_read_value(view, row, item, err))
+            return false;
     }
     return !format->check || format->check(view, item, err);
 }

@@ -8,7 +8,8 @@
 #include "base/units.h"
 
 static json_t *object_schema(const RecordFormat *format, const void *item);
-static json_t *object_schema_alone(const RecordFormat *format);
+static json_t *item_schema(const RecordFormat *format);
+static json_t *value_schema(const RecordRow *row, const void *item);
 
 static void set(json_t *schema, const char *key, json_t *value)
 {
@@ -20,9 +21,15 @@ static json_t *kind(const char *name)
     return json_pack("{s:s}", "type", name);
 }
 
+/* JSON of rows, in which ' stands for ". */
 static json_t *loaded(const char *text)
 {
-    return json_loads(text, JSON_DECODE_ANY, NULL);
+    char *copy = strdup(text);
+    for (char *c = copy; c && *c; c++)
+        if (*c == '\'') *c = '"';
+    json_t *value = copy ? json_loads(copy, JSON_DECODE_ANY, NULL) : NULL;
+    free(copy);
+    return value;
 }
 
 /* 5 as 5, 0.5 as 0.5. */
@@ -34,7 +41,8 @@ static json_t *number(double value)
 
 static json_t *number_schema(const RecordRow *row)
 {
-    bool    is_whole = row->kind == RECORD_INTEGER || row->flags & RECORD_WHOLE;
+    bool    is_whole = row->kind == RECORD_INTEGER || row->kind == RECORD_WHOLES ||
+                    row->flags & RECORD_WHOLE;
     json_t *schema = kind(is_whole ? "integer" : "number");
     if (isfinite(row->low))
         set(schema, row->flags & RECORD_ABOVE ? "exclusiveMinimum" : "minimum",
@@ -61,11 +69,36 @@ static json_t *choice_schema(const RecordRow *row)
 static json_t *list_schema(const RecordRow *row, json_t *items)
 {
     json_t *schema = json_pack("{s:s, s:o}", "type", "array", "items", items);
-    if (row->flags & RECORD_UNIT)
-        set(schema, "not", loaded("{\"items\": {\"const\": 0}}"));
+    if (row->flags & RECORD_UNIT) set(schema, "not", loaded("{'items': {'const': 0}}"));
     if (row->least) set(schema, "minItems", json_integer(row->least));
     if (row->most) set(schema, "maxItems", json_integer(row->most));
     return schema;
+}
+
+static json_t *file_schema(void)
+{
+    return json_pack("{s:s, s:i, s:s}", "type", "string", "minLength", 1, "format",
+                     "uri-reference");
+}
+
+static json_t *map_schema(const RecordRow *row)
+{
+    json_t *schema = json_pack("{s:s, s:o, s:{s:i}}", "type", "object", "additionalProperties",
+                               item_schema(row->of), "propertyNames", "minLength", 1);
+    if (row->least) set(schema, "minProperties", json_integer(row->least));
+    if (row->most) set(schema, "maxProperties", json_integer(row->most));
+    return schema;
+}
+
+static json_t *either_schema(const RecordRow *row)
+{
+    json_t *forms = json_array();
+    for (const RecordRow *form = row->forms; form->key; form++) {
+        json_t *one = value_schema(form, NULL);
+        set(one, "description", json_string(form->doc ? form->doc : form->key));
+        json_array_append_new(forms, one);
+    }
+    return json_pack("{s:o}", "anyOf", forms);
 }
 
 /* item: holds the defaults; NULL: nobody knows them. */
@@ -74,39 +107,61 @@ static json_t *value_schema(const RecordRow *row, const void *item)
     switch (row->kind) {
     case RECORD_NUMBER:
     case RECORD_INTEGER: return number_schema(row);
+    case RECORD_WHOLES:
     case RECORD_NUMBERS:
     case RECORD_FIGURES: return list_schema(row, number_schema(row));
     case RECORD_FLAG: return kind("boolean");
-    case RECORD_TEXT: return text_schema(row);
+    case RECORD_TEXT:
+    case RECORD_NOTE:
+    case RECORD_PATH: return text_schema(row);
     case RECORD_TEXTS: return list_schema(row, kind("string"));
     case RECORD_CHOICE:
     case RECORD_WORD: return choice_schema(row);
     case RECORD_CONST:
         return json_pack("{s:o}", "const",
                          row->words ? json_string(row->words[0]) : number(row->low));
+    case RECORD_FILE: return file_schema();
+    case RECORD_REFER: return kind("string");
     case RECORD_OBJECT:
+        if (row->flags & RECORD_APART) return item_schema(row->of);
         return object_schema(row->of, item ? (const char *)item + row->offset : NULL);
-    case RECORD_LIST: return list_schema(row, object_schema_alone(row->of));
-    default: return row->schema ? loaded(row->schema) : choice_schema(row);
+    case RECORD_LIST: return list_schema(row, item_schema(row->of));
+    case RECORD_MAP: return map_schema(row);
+    case RECORD_EITHER: return either_schema(row);
+    default:
+        if (row->schema) return loaded(row->schema);
+        return row->of ? item_schema(row->of) : choice_schema(row);
     }
 }
 
+/* The i-th of a row's. */
+static double number_at(const RecordRow *row, const void *at, int i)
+{
+    if (row->kind == RECORD_INTEGER || row->kind == RECORD_WHOLES)
+        return ((const int *)at)[i];
+    double value = row->flags & RECORD_FLOAT ? (double)((const float *)at)[i]
+                                             : ((const double *)at)[i];
+    if (row->flags & RECORD_METRES) return 1000 * value;
+    return row->flags & RECORD_RADIANS ? degrees_from_radians(value) : value;
+}
+
 /* NULL: a default that no file could state. */
-static json_t *numbers(const RecordRow *row, const double *list, int count)
+static json_t *numbers(const RecordRow *row, const void *list, int count)
 {
     json_t *out = json_array();
+    bool    is_zero = row->flags & RECORD_UNIT;
     for (int i = 0; i < count; i++) {
-        double value = row->flags & RECORD_RADIANS  ? degrees_from_radians(list[i])
-                       : row->flags & RECORD_METRES ? 1000 * list[i]
-                                                    : list[i];
-        bool is_low = value < row->low && !(row->flags & RECORD_RADIANS);
-        if (is_low || isnan(value)) {
+        double value = number_at(row, list, i);
+        is_zero = is_zero && value == 0;
+        if ((value < row->low && !(row->flags & RECORD_RADIANS)) || isnan(value)) {
             json_decref(out);
             return NULL;
         }
         json_array_append_new(out, number(rint(1e9 * value) / 1e9));
     }
-    return out;
+    if (!is_zero) return out;
+    json_decref(out);
+    return NULL;
 }
 
 /* What an absent member means; NULL: nothing that JSON could say. */
@@ -114,20 +169,20 @@ static json_t *default_of(const RecordRow *row, const void *item)
 {
     const void *at = (const char *)item + row->offset;
     const void *count = (const char *)item + row->count;
-    const double *figures = row->kind == RECORD_FIGURES ? *(double *const *)at : at;
-    const char   *word;
-    json_t       *list;
+    const void *list = row->kind == RECORD_FIGURES ? *(double *const *)at : at;
+    const char *word;
     switch (row->kind) {
     case RECORD_NUMBER:
-        list = numbers(row, at, 1);
-        json_t *first = json_incref(json_array_get(list, 0));
-        json_decref(list);
+    case RECORD_INTEGER: {
+        json_t *one = numbers(row, at, 1), *first = json_incref(json_array_get(one, 0));
+        json_decref(one);
         return first;
-    case RECORD_INTEGER: return json_integer(*(const int *)at);
+    }
+    case RECORD_WHOLES:
     case RECORD_NUMBERS:
     case RECORD_FIGURES:
-        if (!figures || (row->count && !*(const int *)count)) return NULL;
-        return numbers(row, figures, row->count ? *(const int *)count : row->most);
+        if (!list || (row->count && !*(const int *)count)) return NULL;
+        return numbers(row, list, row->count ? *(const int *)count : row->most);
     case RECORD_FLAG: return json_boolean(*(const bool *)at);
     case RECORD_CHOICE: return json_string(record_word(row, *(const int *)at));
     case RECORD_WORD:
@@ -143,7 +198,8 @@ static json_t *object_schema(const RecordFormat *format, const void *item)
     for (const RecordRow *row = format->rows; row->key; row++) {
         json_t *value = value_schema(row, item);
         bool    is_required = row->flags & RECORD_REQUIRED;
-        json_t *usual = is_required || !item ? NULL : default_of(row, item);
+        bool    is_open = is_required || row->read || row->flags & RECORD_OPEN;
+        json_t *usual = is_open || !item ? NULL : default_of(row, item);
         if (usual) set(value, "default", usual);
         if (row->doc) set(value, "description", json_string(row->doc));
         set(properties, row->key, value);
@@ -163,11 +219,14 @@ static json_t *object_schema(const RecordFormat *format, const void *item)
 }
 
 /* Of a list's item, or a whole file. */
-static json_t *object_schema_alone(const RecordFormat *format)
+static json_t *item_schema(const RecordFormat *format)
 {
-    void   *item = calloc(1, format->size);
+    void *item = calloc(1, format->size);
     if (item && format->start) format->start(item);
-    json_t *schema = object_schema(format, item);
+    json_t *schema = format->value ? value_schema(format->value, NULL)
+                                   : object_schema(format, item);
+    if (format->value && format->value->doc)
+        set(schema, "description", json_string(format->value->doc));
     free(item);
     return schema;
 }
@@ -176,7 +235,7 @@ json_t *record_schema(const RecordFormat *format, const char *title)
 {
     json_t *schema = json_pack("{s:s, s:s}", "$schema",
                                "https://json-schema.org/draft/2020-12/schema", "title", title);
-    json_t *body = object_schema_alone(format);
+    json_t *body = item_schema(format);
     json_object_update(schema, body);
     json_decref(body);
     return schema;

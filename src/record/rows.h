@@ -20,6 +20,9 @@
 #define VECTOR(key, flag, member, size, bottom, top, words)                                    \
     {key, RECORD_NUMBERS, flag, RECORD_AT(OWNER, member), RECORD_RANGE(bottom, top),           \
      .least = size, .most = size, .doc = words}
+#define WHOLES(key, flag, member, size, bottom, top, words)                                    \
+    {key, RECORD_WHOLES, flag, RECORD_AT(OWNER, member), RECORD_RANGE(bottom, top),            \
+     .least = size, .most = size, .doc = words}
 #define NUMBERS(key, flag, member, counted, size, bottom, top, words)                          \
     {key, RECORD_NUMBERS, flag, RECORD_AT(OWNER, member), RECORD_RANGE(bottom, top),           \
      .least = 1, .most = size, .count = offsetof(OWNER, counted), .doc = words}
@@ -31,6 +34,9 @@
     {key, RECORD_FLAG, flag, RECORD_AT(OWNER, member), .doc = words}
 #define TEXT(key, flag, member, words)                                                         \
     {key, RECORD_TEXT, flag, RECORD_AT(OWNER, member), .doc = words}
+#define PATH(key, flag, member, words)                                                         \
+    {key, RECORD_PATH, flag, RECORD_AT(OWNER, member), .doc = words}
+#define NOTE(key, flag, words) {key, RECORD_NOTE, flag, .doc = words}
 #define CHOICE(key, flag, member, list, words_doc)                                             \
     {key, RECORD_CHOICE, flag, RECORD_AT(OWNER, member), .words = list, .doc = words_doc}
 
@@ -43,3 +49,12 @@
 #define LIST(key, flag, member, counted, fewest, size, format, words)                          \
     {key, RECORD_LIST, flag, RECORD_AT(OWNER, member), .least = fewest, .most = size,          \
      .of = &format, .count = offsetof(OWNER, counted), .doc = words}
+#define MAP(key, flag, member, counted, size, format, words)                                   \
+    {key, RECORD_MAP, flag, RECORD_AT(OWNER, member), .least = 1, .most = size,                \
+     .of = &format, .count = offsetof(OWNER, counted), .doc = words}
+
+/* A readable file; a list of some. */
+#define A_FILE(key, flag, member, words)                                                      \
+    {key, RECORD_FILE, flag, RECORD_AT(OWNER, member), .doc = words}
+#define FILES(key, flag, member, counted, size, words)                                         \
+    LIST(key, flag, member, counted, 1, size, record_files, words)

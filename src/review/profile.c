@@ -6,28 +6,26 @@
 
 #include "base/count.h"
 #include "base/file.h"
+#include "record/rows.h"
 #include "review/profile_table.h"
 #include "text/nearest_word.h"
 
 #define LARGEST 1e9 /* of any number in a profile */
-#define MUST RECORD_REQUIRED
-#define SOURCE(Type, source, was_read)                                                         \
-    {"source", RECORD_TEXT, MUST | RECORD_FILLED, RECORD_AT(Type, source),                     \
-     .doc = "Where it was read."},                                                             \
-    {"read_in_the_standard", RECORD_FLAG, MUST, RECORD_AT(Type, was_read),                     \
-     .doc = "Was that the standard itself?"}
+#define SOURCE(source, was_read)                                                               \
+    TEXT("source", MUST | RECORD_FILLED, source, "Where it was read."),                        \
+    FLAG("read_in_the_standard", MUST, was_read, "Was that the standard itself?")
 
 /* ---- a limit ----------------------------------------------------------------------------- */
 
+#define OWNER LimitSlope
+
 static const RecordRow SLOPE[] = {
-    {"per_arcmin", RECORD_NUMBER, MUST | RECORD_ABOVE, RECORD_AT(LimitSlope, per_arcmin),
-     RECORD_RANGE(0, LARGEST)},
-    {"reference_arcmin", RECORD_NUMBER, MUST | RECORD_ABOVE,
-     RECORD_AT(LimitSlope, reference_arcmin), RECORD_RANGE(0, LARGEST)},
-    {"heights_arcmin", RECORD_NUMBERS, MUST, RECORD_AT(LimitSlope, from_arcmin),
-     RECORD_RANGE(0, LARGEST), .least = 2, .most = 2,
-     .doc = "The heights that it holds for, rising."},
+    NUMBER("per_arcmin", MUST | RECORD_ABOVE, per_arcmin, 0, LARGEST, NULL),
+    NUMBER("reference_arcmin", MUST | RECORD_ABOVE, reference_arcmin, 0, LARGEST, NULL),
+    VECTOR("heights_arcmin", MUST, from_arcmin, 2, 0, LARGEST,
+           "The heights that it holds for, rising."),
     {0}};
+#undef OWNER
 _Static_assert(offsetof(LimitSlope, to_arcmin) ==
                offsetof(LimitSlope, from_arcmin) + sizeof(double), "a pair");
 
@@ -86,8 +84,9 @@ static bool read_ambients(const JsonView *view, const RecordRow *row, void *item
 static bool read_unit(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
     const LimitKindFacts *kind = &limit_kinds[((ProfileLimit *)item)->kind];
-    const char           *unit = NULL;
-    if (!json_view_text(view, row->key, &unit, err)) return false;
+    RecordRow             text = {.key = row->key, .kind = RECORD_TEXT};
+    const char           *unit;
+    if (!record_read_kind(view, &text, &unit, err)) return false;
     return !strcmp(unit, kind->unit) ||
            record_fails(view, row->key, err, "is '%.60s', required: '%s' for %s", unit,
                         kind->unit, kind->name);
@@ -97,32 +96,31 @@ static const char *const BOUNDS[] = {"least", "most", NULL};
 
 static bool read_bound(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
-    int       bound;
-    RecordRow choice = {row->key, RECORD_CHOICE, .words = BOUNDS};
-    if (!record_read_value(view, &choice, &bound, err)) return false;
+    int bound;
+    if (!record_read_kind(view, row, &bound, err)) return false;
     ((ProfileLimit *)item)->is_upper = bound;
     return true;
 }
 
-#define AMBIENTS "{\"enum\": [\"night\", \"twilight\", \"day\", \"sun\", \"any\"]}"
+#define AMBIENTS "{'enum': ['night', 'twilight', 'day', 'sun', 'any']}"
+
+#define OWNER ProfileLimit
 
 static const RecordRow LIMIT[] = {
     {"ambient", RECORD_OWN, MUST, .read = read_ambients,
-     .schema = "{\"oneOf\": [" AMBIENTS ", {\"type\": \"array\", \"minItems\": 1, \"items\": "
+     .schema = "{'oneOf': [" AMBIENTS ", {'type': 'array', 'minItems': 1, 'items': "
                AMBIENTS "}]}"},
-    {"kind", RECORD_CHOICE, MUST, RECORD_AT(ProfileLimit, kind), .words = limit_kind_names},
-    {"value", RECORD_NUMBER, MUST | RECORD_ABOVE, RECORD_AT(ProfileLimit, value),
-     RECORD_RANGE(0, LARGEST), .doc = "In the kind's unit; of a modulation below 1."},
-    {"unit", RECORD_OWN, MUST, .read = read_unit, .schema = "{\"enum\": [\"1\", \"arcmin\"]}"},
-    SOURCE(ProfileLimit, source, read_in_the_standard),
-    {"name", RECORD_TEXT, RECORD_AT(ProfileLimit, name),
-     .doc = "For reports; made of kind and ambient unless it is given."},
-    {"bound", RECORD_OWN, .read = read_bound, .schema = "{\"enum\": [\"least\", \"most\"]}"},
-    {"advice", RECORD_FLAG, RECORD_AT(ProfileLimit, is_advice),
-     .doc = "Preferred, not required: shown, and never fails."},
-    {"slope", RECORD_OBJECT, RECORD_AT(ProfileLimit, slope), .of = &slope_format,
-     .count = offsetof(ProfileLimit, slope.has_slope)},
+    CHOICE("kind", MUST, kind, limit_kind_names, NULL),
+    NUMBER("value", MUST | RECORD_ABOVE, value, 0, LARGEST,
+           "In the kind's unit; of a modulation below 1."),
+    {"unit", RECORD_OWN, MUST, .read = read_unit, .schema = "{'enum': ['1', 'arcmin']}"},
+    SOURCE(source, read_in_the_standard),
+    TEXT("name", 0, name, "For reports; made of kind and ambient unless it is given."),
+    {"bound", RECORD_CHOICE, .read = read_bound, .words = BOUNDS},
+    FLAG("advice", 0, is_advice, "Preferred, not required: shown, and never fails."),
+    PART("slope", slope, slope.has_slope, slope_format, NULL),
     {0}};
+#undef OWNER
 
 /* "contrast ratio, day, sun" or "stroke ratio at most". */
 static const char *usual_name(const ProfileLimit *limit, Arena *arena)
@@ -157,19 +155,23 @@ static bool check_limit(const JsonView *view, void *item, Error *err)
 
 static const RecordFormat limit_format = {
     "limit", sizeof(ProfileLimit), LIMIT, .check = check_limit,
-    .rules = "{\"if\": {\"properties\": {\"kind\": {\"const\": \"character_height\"}}}, "
-             "\"then\": {\"properties\": {\"unit\": {\"const\": \"arcmin\"}}}, "
-             "\"else\": {\"properties\": {\"unit\": {\"const\": \"1\"}}}}"};
+    .rules = "{'if': {'properties': {'kind': {'const': 'character_height'}}}, "
+             "'then': {'properties': {'unit': {'const': 'arcmin'}}}, "
+             "'else': {'properties': {'unit': {'const': '1'}}}}"};
 
 /* ---- facts ------------------------------------------------------------------------------- */
 
+#define OWNER ProfileFact
+
 static const RecordRow FACT[] = {
-    {"name", RECORD_TEXT, MUST | RECORD_FILLED, RECORD_AT(ProfileFact, name)},
-    {"text", RECORD_TEXT, RECORD_AT(ProfileFact, text)},
-    {"value", RECORD_NUMBER, RECORD_AT(ProfileFact, value), RECORD_RANGE(-LARGEST, LARGEST)},
-    {"unit", RECORD_TEXT, RECORD_AT(ProfileFact, unit)},
-    SOURCE(ProfileFact, source, read_in_the_standard),
+    TEXT("name", MUST | RECORD_FILLED, name, NULL),
+    TEXT("text", 0, text, NULL),
+    NUMBER("value", 0, value, -LARGEST, LARGEST, NULL),
+    TEXT("unit", 0, unit, NULL),
+    SOURCE(source, read_in_the_standard),
     {0}};
+
+#undef OWNER
 
 static void start_fact(void *item)
 {
@@ -187,18 +189,19 @@ static bool check_fact(const JsonView *view, void *item, Error *err)
 
 static const RecordFormat fact_format = {
     "fact", sizeof(ProfileFact), FACT, .start = start_fact, .check = check_fact,
-    .rules = "{\"dependentRequired\": {\"value\": [\"unit\"], \"unit\": [\"value\"]}, "
-             "\"anyOf\": [{\"required\": [\"text\"]}, {\"required\": [\"value\"]}]}"};
+    .rules = "{'dependentRequired': {'value': ['unit'], 'unit': ['value']}, "
+             "'anyOf': [{'required': ['text']}, {'required': ['value']}]}"};
 
 /* ---- the whole --------------------------------------------------------------------------- */
 
+#define OWNER Profile
+
 static const RecordRow AMBIENT[] = {
-    {"night_below_lx", RECORD_NUMBER, MUST | RECORD_ABOVE, RECORD_AT(Profile, night_below_lx),
-     RECORD_RANGE(0, LARGEST), .doc = "Of the display's face."},
-    {"twilight_below_lx", RECORD_NUMBER, MUST | RECORD_ABOVE,
-     RECORD_AT(Profile, twilight_below_lx), RECORD_RANGE(0, LARGEST),
-     .doc = "More than night_below_lx."},
-    SOURCE(Profile, ambient_source, ambient_read_in_the_standard),
+    NUMBER("night_below_lx", MUST | RECORD_ABOVE, night_below_lx, 0, LARGEST,
+           "Of the display's face."),
+    NUMBER("twilight_below_lx", MUST | RECORD_ABOVE, twilight_below_lx, 0, LARGEST,
+           "More than night_below_lx."),
+    SOURCE(ambient_source, ambient_read_in_the_standard),
     {0}};
 
 static bool check_ambient(const JsonView *view, void *item, Error *err)
@@ -214,17 +217,14 @@ static const RecordFormat ambient_format = {"ambient", sizeof(Profile), AMBIENT,
                                             .check = check_ambient};
 
 static const RecordRow PROFILE[] = {
-    {"title", RECORD_TEXT, MUST | RECORD_FILLED, RECORD_AT(Profile, title),
-     .doc = "The standard's, as a report prints it."},
-    {"edition", RECORD_TEXT, MUST | RECORD_FILLED, RECORD_AT(Profile, edition)},
-    {"veil", RECORD_FLAG, RECORD_AT(Profile, uses_veil),
-     .doc = "Contrast counts with the veil that stray light in the eye lays over it."},
+    TEXT("title", MUST | RECORD_FILLED, title, "The standard's, as a report prints it."),
+    TEXT("edition", MUST | RECORD_FILLED, edition, NULL),
+    FLAG("veil", 0, uses_veil,
+         "Contrast counts with the veil that stray light in the eye lays over it."),
     {"ambient", RECORD_OBJECT, MUST, .of = &ambient_format,
      .doc = "Which illuminance of a display's face is night, and which is twilight."},
-    {"limits", RECORD_LIST, MUST, RECORD_AT(Profile, limits), .of = &limit_format,
-     .count = offsetof(Profile, limit_count)},
-    {"facts", RECORD_LIST, RECORD_AT(Profile, facts), .of = &fact_format,
-     .count = offsetof(Profile, fact_count), .doc = "What readers should know."},
+    LIST("limits", MUST, limits, limit_count, 0, 0, limit_format, NULL),
+    LIST("facts", 0, facts, fact_count, 0, 0, fact_format, "What readers should know."),
     {0}};
 
 const RecordFormat profile_format = {"profile", sizeof(Profile), PROFILE,
@@ -250,7 +250,7 @@ static bool open_shipped(const char *name, Arena *arena, JsonView *out, Error *e
         const char *file = arena_format(arena, "assets/profiles/%s.json", name);
         if (!root)
             return error_at(err, ERROR_INPUT, file, "", "not valid JSON: %s", fault.text);
-        *out = (JsonView){root, file, "", arena, NULL, NULL, 0};
+        *out = (JsonView){.object = root, .file = file, .path = "", .arena = arena};
         return true;
     }
     return error_set(err, ERROR_INPUT, "there is no profile \"%s\"; required: %s, or a file by "

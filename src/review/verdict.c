@@ -3,20 +3,21 @@
 
 #include <math.h>
 
-const char *const verdict_names[4] = {"pass", "fail", "too close", "cannot be judged"};
-const char *const open_names[OPEN_COUNT] = {
+const char *const verdict_names[5] = {"pass", "fail", "too close", "cannot be judged"};
+const char *const open_names[OPEN_COUNT + 1] = {
     [OPEN_BY_PATHS] = "paths", [OPEN_BY_PANEL] = "panel error", [OPEN_BY_SUN] = "sun's image"};
 
-const char *const unjudged_names[UNJUDGED_COUNT] = {
+const char *const unjudged_names[UNJUDGED_COUNT + 1] = {
     [UNJUDGED_HIDDEN] = "hidden", [UNJUDGED_PANEL] = "panel not usable",
     [UNJUDGED_DATA] = "no optical data", [UNJUDGED_LIMIT] = "no limit",
     [UNJUDGED_FIGURE] = "no figure"};
-const char *const ambient_names[4] = {"night", "twilight", "day", "sun"};
+const char *const ambient_names[5] = {"night", "twilight", "day", "sun"};
 
-const char *const remedy_kinds[REMEDY_KINDS] = {"brightness", "tilt",  "hood",
-                                                "coating",    "panel", "trim"};
-const char *const rest_kinds[REST_KINDS] = {"panel", "material", "eye", "occupant", "limits"};
-const char *const rest_bases[REST_BASES] = {
+const char *const remedy_kinds[REMEDY_KINDS + 1] = {"brightness", "tilt",  "hood",
+                                                    "coating",    "panel", "trim"};
+const char *const rest_kinds[REST_KINDS + 1] = {"panel", "material", "eye", "occupant",
+                                                "limits"};
+const char *const rest_bases[REST_BASES + 1] = {
     "measured", "synthetic", "not stated", "guessed", "without data", "given",
     "proposed", "present", "nobody", "read in the standard", "quoted"};
 

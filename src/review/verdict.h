@@ -20,7 +20,8 @@
 typedef enum Verdict {
     VERDICT_PASS, VERDICT_FAIL, VERDICT_TOO_CLOSE, VERDICT_UNJUDGED
 } Verdict;
-extern const char *const verdict_names[4]; /* "pass", "fail", "too close", "cannot be judged" */
+/* Here and below NULL ends the words. "pass", "fail", "too close", "cannot be judged". */
+extern const char *const verdict_names[5];
 
 /* How bad it is: pass 0, too close 1, cannot be judged 2, fail 3. */
 int verdict_rank(Verdict verdict);
@@ -35,7 +36,7 @@ typedef enum Unjudged {
     UNJUDGED_FIGURE,  /* a figure that a limit is about could not be found out */
     UNJUDGED_COUNT
 } Unjudged;
-extern const char *const unjudged_names[UNJUDGED_COUNT]; /* NULL, "hidden", "panel", ... */
+extern const char *const unjudged_names[UNJUDGED_COUNT + 1]; /* NULL, "hidden", "panel", ... */
 
 /* Share of the reflected light above which materials without data decide the contrast: a limit
  * of 2 : 1 is then missed or met by what nobody measured. */
@@ -47,7 +48,7 @@ extern const char *const unjudged_names[UNJUDGED_COUNT]; /* NULL, "hidden", "pan
 typedef enum OpenBy {
     OPEN_NOT, OPEN_BY_PATHS, OPEN_BY_PANEL, OPEN_BY_SUN, OPEN_COUNT
 } OpenBy;
-extern const char *const open_names[OPEN_COUNT]; /* NULL, "paths", "panel error", ... */
+extern const char *const open_names[OPEN_COUNT + 1]; /* NULL, "paths", "panel error", ... */
 
 /* The least share of the box about a symbol's foreground that an eye must see: of a half or
  * less, what is seen may be another symbol, such as 3 for 38 or for 8. */
@@ -55,7 +56,7 @@ extern const char *const open_names[OPEN_COUNT]; /* NULL, "paths", "panel error"
 bool review_is_seen(double visible_share);
 
 typedef enum Ambient { AMBIENT_NIGHT, AMBIENT_TWILIGHT, AMBIENT_DAY, AMBIENT_SUN } Ambient;
-extern const char *const ambient_names[4]; /* "night", "twilight", "day", "sun" */
+extern const char *const ambient_names[5]; /* "night", "twilight", "day", "sun" */
 
 /* Half a 95 % interval, in standard errors. */
 #define INTERVAL_SIGMAS 1.959964
@@ -157,7 +158,7 @@ typedef enum RemedyKind {
     REMEDY_BRIGHTNESS, REMEDY_TILT, REMEDY_HOOD, REMEDY_COATING, REMEDY_PANEL, REMEDY_TRIM,
     REMEDY_KINDS
 } RemedyKind;
-extern const char *const remedy_kinds[REMEDY_KINDS]; /* "brightness", "tilt", ... */
+extern const char *const remedy_kinds[REMEDY_KINDS + 1]; /* "brightness", "tilt", ... */
 
 /* A change that would mend the case, or help. */
 typedef struct CaseRemedy {
@@ -403,7 +404,7 @@ typedef enum RestKind {
     REST_LIMITS,   /* so many of the profile's */
     REST_KINDS
 } RestKind;
-extern const char *const rest_kinds[REST_KINDS]; /* "panel", "material", ... */
+extern const char *const rest_kinds[REST_KINDS + 1]; /* "panel", "material", ... */
 
 typedef enum RestBasis {
     REST_MEASURED, REST_SYNTHETIC, REST_NOT_STATED, /* panels */
@@ -413,7 +414,7 @@ typedef enum RestBasis {
     REST_READ, REST_QUOTED,                         /* limits, in the standard */
     REST_BASES
 } RestBasis;
-extern const char *const rest_bases[REST_BASES]; /* "measured", "synthetic", ... */
+extern const char *const rest_bases[REST_BASES + 1]; /* "measured", "synthetic", ... */
 
 typedef struct ReviewRest {
     RestKind    kind;

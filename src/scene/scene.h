@@ -331,9 +331,9 @@ typedef struct SceneHinge {
 } SceneHinge;
 
 typedef struct SceneChange {
-    SceneChangeKind kind;
     const char *name;        /* of a node, a material; hood, finish: of a display (its material
                                 or node:NAME) */
+    SceneChangeKind kind;
     const char *const *with; /* nodes: more of the same file, which move along */
     int   with_count;
     float tilt, turn, roll;  /* nodes: radians, about the middle of the named one's surface

@@ -16,7 +16,7 @@ import sys
 import tempfile
 import time
 
-from jobs import ISA, PATIENCE_S, Report, ROOT, Work, contents
+from jobs import ISA, PATIENCE_S, Report, Work, contents
 
 # Without guiding but for one job of check_cuts: its lesson takes longer than such a frame.
 FRAME = ("--size", "52x36", "--no-guiding", "--layers", "all", *ISA)
@@ -221,10 +221,10 @@ def check_failures(work):
     shutil.rmtree(work.path(job))
 
 
-WRONG = [("format", "panel", "is 'panel'"), ("version", 2, "version 1"),
-         ("parts", [], "has 0 items"), ("parts", {}, "required: a list"),
-         ("parts", [7], "required: a list of objects"), ("words", ["a", 1], "only texts"),
-         ("words", "a", "required: a list"), ("program", "bin/a", "required: a path from the "
+WRONG = [("format", "panel", "is 'panel'"), ("version", 2, "is 2, required: 1"),
+         ("parts", [], "has 0 values"), ("parts", {}, "required: an array"),
+         ("parts", [7], "required: an object"), ("words", ["a", 1], "required: a text"),
+         ("words", "a", "required: an array"), ("program", "bin/a", "required: a path from the "
                                                                   "root"),
          ("folder", "here", "required: a path from the root"), ("size", [4], "required: 2"),
          ("size", [52.5, 36], "whole"), ("keeps_sums", 1, "true or false"),
@@ -338,8 +338,7 @@ def check_schema(work):
         work.report.skip("a manifest against its schema: python3-jsonschema is not installed")
         return
     job = work.share(3, *SMALL, job="schema")
-    with open(os.path.join(ROOT, "assets/schemas/job.schema.json"), encoding="utf-8") as file:
-        schema = json.load(file)
+    schema = json.loads(work.run("schema", "job").stdout)
     check = jsonschema.validators.validator_for(schema)(schema)
     sound = json.loads(contents(work.path(job, "manifest.json")))
     work.report.claim_none("a manifest", [error.message for error in check.iter_errors(sound)])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""schemas.py PARHELION -- files hold to the schemas of assets/schemas, and wrong ones do not.
+"""schemas.py PARHELION -- files hold to the schemas that it writes, and wrong ones do not.
 
 Shipped scenes against those of our glTF extensions; shipped recipes and reviews, and with the
 program the manifest that it writes, against those of the formats. Program and schema refuse
@@ -26,14 +26,8 @@ def load(path):
         return json.load(file)
 
 
-def schemas():
-    """Extension name -> schema of the object that carries it."""
-    found = {}
-    for path in sorted(glob.glob(os.path.join(ROOT, "assets/schemas/*.json"))):
-        match = NAME.search(os.path.basename(path))
-        if match:
-            found[match[1]] = load(path)
-    return found
+EXTENSIONS = ["PARHELION_display", "PARHELION_glazing", "PARHELION_spectrum",
+              "PARHELION_coating", "PARHELION_environment"]
 
 
 def extension_objects(node, path=""):
@@ -47,6 +41,12 @@ def extension_objects(node, path=""):
                 yield f"{path}/extensions/{name}", name, value
         for key, value in node.items():
             yield from extension_objects(value, f"{path}/{key}")
+
+
+def written(program, name):
+    """The schema that the program writes from the rows that it reads a format by."""
+    return json.loads(subprocess.run([program, "schema", name], capture_output=True,
+                                     check=True).stdout)
 
 
 def check_scene(report, known, scene):
@@ -71,6 +71,23 @@ def check_can_fail(report, known):
                      f"the schema of {name} takes an unknown key")
 
 
+def check_misspelt(report, program, folder):
+    """A key of an extension with a letter too many names the right one, at its place."""
+    for name in EXTENSIONS:
+        keys = [key for key in written(program, name)["properties"]
+                if key not in ("extensions", "extras")]
+        wrong = {"extensions": {name: {f"{key}x": 1 for key in keys}}}
+        scene = {"asset": {"version": "2.0"}, "extensionsUsed": [name],
+                 **({"scenes": [wrong]} if name == "PARHELION_environment"
+                    else {"materials": [wrong]})}
+        found = refuses(program, ("check", "DOCUMENT"), folder, scene).stdout.splitlines()
+        report.claim_none(f"misspelt keys of {name}", [
+            key for key in keys
+            if not any(line.endswith(f"/{key}x)") and
+                       f"unknown key; the nearest known one is '{key}'" in line
+                       for line in found)])
+
+
 # ---- formats ---------------------------------------------------------------------------------
 
 SPECTRUM = {"peaks_nm": [550], "fwhm_nm": [30], "weights": [1]}
@@ -85,12 +102,7 @@ WRONG_SUBPIXELS = [("subpixels", "stripe"), ("subpixels", {}), ("subpixels", {"f
                    ("subpixels", {"layout": "stripe", "columns": 9.5, "rows": 4}),
                    ("subpixels", {"layout": "stripe", "columns": 0, "rows": 4}),
                    ("subpixels", {"layout": "stripe", "shape": "round"})]
-DECLARATION = {"delimiter": "semicolon", "decimal": "comma", "azimuth_zero": "top",
-               "azimuth_sense": "cw", "mask": [-999], "level_max": 255, "skip": ["log_*"],
-               "columns": ["theta", "phi", "X", "Y", "Z"], "roles": {"m01*.txt": "black"},
-               "isotropic": True, "symmetry": "both", "area_mm": [10, 20], "instrument": "C",
-               "date": "2026-03-14", "operator": "A", "conditions": "23 C",
-               "levels": "levels.csv", "specular_aperture_deg": 0}
+DECLARATION = load(os.path.join(ROOT, "tests/unit/records/import.json"))
 WRONG_RECIPES = [("emission/red/peaks_nm", []), ("emission/red/peaks_nm", None),
                  ("emission/green", None), ("emission/gama", 2.2), ("emission/gamma", 9),
                  ("instrument/theta_step_deg", 20), ("reflection/haze_share", 1.5),
@@ -280,19 +292,6 @@ def check_equips(report, program, folder, validator):
                   "FOLDER/equipped.gltf", "--overwrite"), folder, document) or None)
 
 
-def with_references(node):
-    """The schema with those of other files in their place."""
-    if isinstance(node, list):
-        return [with_references(item) for item in node]
-    if not isinstance(node, dict):
-        return node
-    name = node.get("$ref", "#")
-    if name.startswith("#"):
-        return {key: with_references(value) for key, value in node.items()}
-    found = load(os.path.join(ROOT, "assets/schemas", name))
-    return {key: value for key, value in found.items() if not key.startswith("$")}
-
-
 def check_reviews(report, validator):
     reviews = sorted(glob.glob(os.path.join(ROOT, "scenes/*.review.json")))
     report.claim(bool(reviews), "scenes holds no .review.json")
@@ -312,27 +311,22 @@ def main():
         report.skip("scenes against schemas: python3-jsonschema is not installed")
         report.finish()
     known = {}
-    for name, schema in schemas().items():
+    for name in EXTENSIONS:
+        schema = written(program, name)
         validator = jsonschema.validators.validator_for(schema)
         try:
             validator.check_schema(schema)
             known[name] = validator(schema)
         except jsonschema.SchemaError as error:
             report.claim(False, f"schema of {name}: {error.message}")
-    for name in ("PARHELION_display", "PARHELION_environment"):
-        report.claim(name in known, f"assets/schemas holds no valid schema of {name}")
     check_can_fail(report, known)
     def schema_of(name):
-        if name in ("profile", "recipe", "equip"): # from the rows that the program reads by
-            schema = json.loads(subprocess.run([program, "schema", name], capture_output=True,
-                                               check=True).stdout)
-        else:
-            schema = load(os.path.join(ROOT, f"assets/schemas/{name}.schema.json"))
-        schema = with_references(schema)
+        schema = written(program, name)
         validator = jsonschema.validators.validator_for(schema)
         validator.check_schema(schema)
         return validator(schema)
     with tempfile.TemporaryDirectory(prefix="schemas-") as folder:
+        check_misspelt(report, program, folder)
         check_formats(report, program, folder, schema_of)
         check_equips(report, program, folder, schema_of("equip"))
     check_reviews(report, schema_of("review"))

@@ -90,8 +90,8 @@ static bool try_manifest(const char *text, const char *panel, Panel **out, FileB
 TEST(what_is_wrong_with_places_is_named)
 {
     static const struct { const char *text, *parts[3]; } cases[] = {
-        {"{\"spots\": 3}", {"/spots", "is a number", "a list"}},
-        {"{\"spots\": []}", {"/spots", "0 spots", "1 to 49"}},
+        {"{\"spots\": 3}", {"/spots", "is a number", "an array"}},
+        {"{\"spots\": []}", {"/spots", "0 values", "1 to 49"}},
         {"{\"spots\": [5]}", {"/spots/0", "required: an object", ""}},
         {"{\"spots\": [{" WHITE("a.csv") "}]}", {"/spots/0", "'position' is missing", ""}},
         {"{\"spots\": [{\"position\": [0.5, 0.5]}]}",
@@ -159,7 +159,7 @@ TEST(what_is_wrong_with_places_is_named)
         {"{" REFLECTION ", \"polarisation\": {\"degree\": 1, \"azimuth_deg\": 0}}",
          {"/polarisation", "no 'emission'", ""}},
         {"{\"polarisation\": {\"degree\": 1, \"azimuth_deg\": 0}, \"spots\": {}}",
-         {"/spots", "is an object", "a list"}},
+         {"/spots", "is an object", "an array"}},
         {"{\"size_mm\": [100], " WHITE("a.csv") "}", {"/size_mm", "1 values", "required: 2"}},
     };
     write_tables();

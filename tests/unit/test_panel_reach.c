@@ -253,7 +253,7 @@ static const Wrong wrongs[] = {
      "incidence,wavelength,reflectance\n10,550,0.1\n20,450,0.2\n", "", "no reflectance at 10"},
     {", \"specular\": \"s.csv\", \"gloss\": [{\"geometry_deg\": 60, \"gu\": 1}]", NULL,
      "/reflection", "required: one of them"},
-    {", \"gloss\": 60", NULL, "/reflection/gloss", "required: a list"},
+    {", \"gloss\": 60", NULL, "/reflection/gloss", "required: an array"},
     {", \"gloss\": []", NULL, "/reflection/gloss", "required: 1 to 3"},
     {", \"gloss\": [60]", NULL, "/reflection/gloss/0", "required: an object"},
     {", \"gloss\": [{\"geometry_deg\": 60}]", NULL, "/reflection/gloss/0", "'gu' is missing"},

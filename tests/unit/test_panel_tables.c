@@ -83,6 +83,9 @@ TEST(rows_at_the_normal_are_averaged_and_equal_doubles_pass)
     assert_close(sum, 101, 1e-4);
 }
 
+#define BRDF_ONLY                                                                              \
+    "\"reflection\": {\"wavelengths_nm\": [500], \"incidence_deg\": [0], "                     \
+    "\"files\": \"{incidence}.csv\"}"
 #define POLARISED(text)                                                                        \
     "{\"emission\": {\"white\": \"good.csv\"}, \"polarisation\": " text "}"
 
@@ -98,7 +101,7 @@ TEST(manifests_name_the_key)
         {"{\"panel\": \"x\", \"emision\": {}}", {"/emision", "unknown key", "'emission'"}},
         {"{\"panel\": \"x\"}", {"MANIFEST.json", "'emission' is missing", ""}},
         {"{\"emission\": {\"red\": {}}}", {"/emission", "'black' is missing", ""}},
-        {"{\"emission\": {\"black\": \"no.csv\"}}", {"no.csv", "", ""}},
+        {"{\"emission\": {\"white\": \"no.csv\"}}", {"no.csv", "", ""}},
         {"{\"emission\": {\"white\": 3}}", {"/emission/white", "a table's path", ""}},
         {"{\"emission\": {\"white\": \"t.csv\", \"red\": {}}}",
          {"both 'white' and 'red'", "", ""}},
@@ -127,7 +130,7 @@ TEST(manifests_name_the_key)
          {"/polarisation/azimuth_deg", "361", "-360 to 360"}},
         {POLARISED("{\"degree\": 1, \"azimuth\": 45}"),
          {"/polarisation/azimuth", "unknown key", "'azimuth_deg'"}},
-        {"{\"polarisation\": {\"degree\": 1, \"azimuth_deg\": 45}, \"reflection\": {}}",
+        {"{\"polarisation\": {\"degree\": 1, \"azimuth_deg\": 45}, " BRDF_ONLY "}",
          {"/polarisation", "no 'emission'", ""}},
         {DIVIDED("\"stripe\""), {"/subpixels", "is a text", "required: an object"}},
         {DIVIDED("{}"), {"/subpixels", "'layout' is missing", ""}},
@@ -154,7 +157,7 @@ TEST(manifests_name_the_key)
          {"/pixels", "holds 9.5", "whole numbers"}},
         {DIVIDED_OF("[9]", "{\"layout\": \"stripe\"}"),
          {"/pixels", "has 1 values", "required: 2"}},
-        {"{\"subpixels\": {\"layout\": \"stripe\"}, \"reflection\": {}}",
+        {"{\"subpixels\": {\"layout\": \"stripe\"}, " BRDF_ONLY "}",
          {"/subpixels", "no 'emission'", ""}},
         {"{\"a\": 1,\n \"a\": 2}", {"MANIFEST.json: line 2", "not valid JSON", "duplicate"}},
         {"[1]", {"MANIFEST.json", "is an array", "required: an object"}},

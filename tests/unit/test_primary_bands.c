@@ -148,8 +148,9 @@ TEST(a_panel_without_spectra_has_its_colours_and_says_what_was_assumed)
 TEST(stated_bands_are_held_against_the_colours)
 {
     static const struct { const char *more, *words; } bad[] = {
-        {", \"backlight\": \"tube\"", "is \"tube\", required: one of wled-ysf, wled-ksf"},
-        {", \"peaks_nm\": [620, 530]", "three wavelengths that fall"},
+        {", \"backlight\": \"tube\"", "is 'tube', required: another word: there are "
+                                   "wled-ysf, wled-ksf"},
+        {", \"peaks_nm\": [620, 530]", "has 2 values, required: 3"},
         {", \"peaks_nm\": [450, 530, 620]", "three wavelengths that fall"},
     };
     ENDS_BY(fixture_end) Fixture f;

@@ -53,7 +53,7 @@ TEST(unknown_keys_are_refused_with_the_nearest_known_one)
         {"'step_minutes'", "'step_minute'", "/conditions/4/sweep/step_minute",
          "'step_minutes'"},
         {"'turbidity'", "'turbidty'", "/conditions/4/environment/turbidty",
-         "is \"turbidity\" meant?"},
+         "nearest known one is 'turbidity'"},
     };
     CHECK_ALL(wrong);
 }
@@ -87,8 +87,9 @@ TEST(eyes_are_checked)
         "number"},
         {"'camera':1", "'camera':-1", "/eyes/second/camera", "required: a number from 0"},
         {"'camera':1", "'camera':null", "/eyes/second/camera",
-         "is null, required: a camera's name or index"},
-        {"'camera':'eye'", "'camera':''", "/eyes/driver/camera", "is empty, required: a name"},
+         "is null, required: a camera's name or its index"},
+        {"'camera':'eye'", "'camera':''", "/eyes/driver/camera",
+         "is an empty text, required: some words"},
         {"'camera':1", "'camera':1,'position_m':[0,0,0]", "/eyes/second",
          "is said in several ways, required: one of 'camera'"},
         {"'camera':1", "", "/eyes/second", "is nowhere, required: one of 'camera'"},
@@ -102,7 +103,7 @@ TEST(eyes_are_checked)
          "is a number, required: an array of numbers"},
         {"[2,3,1]", "[2,3,2]", "/eyes/box/grid",
          "has 2 points along an axis without length, required: 1 there"},
-        {"[2,3,1]", "[2,3.5,1]", "/eyes/box/grid", "holds 3.5, required: whole numbers"},
+        {"[2,3,1]", "[2,3.5,1]", "/eyes/box/grid", "is 3.5, required: whole numbers"},
         {"[2,3,1]", "[2,99,1]", "/eyes/box/grid", "is 99, required: a number from 1 to 33"},
         {"[0.1,0.2,0]", "[-0.1,0.2,0]", "/eyes/box/half_size_m", "is -0.1, required:"},
         {"'grid':[2,3,1]", "'ellipse_m':[1,1,1]", "/eyes/box/ellipse_m",
@@ -120,13 +121,13 @@ TEST(eyes_are_checked)
          "is the zero vector, required: a direction"},
         {"'age_years':60", "'age_years':200", "/observer/age_years",
          "is 200, required: a number from 10 to 100"},
-        {"'at':'symbols'", "'at':'symbol'", "/gaze/0/at", "did you mean symbols?"},
+        {"'at':'symbols'", "'at':'symbol'", "/gaze/0/at", "is 'symbol', required: 'symbols'"},
         {"'at':'symbols'", "'at':'symbols','direction':[0,0,1]", "/gaze/0", "has both, "
         "required:"},
         {"'at':'symbols'", "'name':'x'", "/gaze/0", "has neither, required: one of 'at'"},
         {"'tall','driver'", "'tal','driver'", "/gaze/1/eyes/0",
          "is 'tal', required: a name of 'eyes': did you mean tall?"},
-        {"'tall','driver'", "7", "/gaze/1/eyes/0", "is a number, required: an eye's name"},
+        {"'tall','driver'", "7", "/gaze/1/eyes/0", "is a number, required: a text"},
         {"'name':'road'", "'name':'symbols'", "/gaze/1", "is the second gaze named 'symbols'"},
     };
     CHECK_ALL(wrong);
@@ -161,14 +162,14 @@ TEST(files_are_checked)
         {"'a.gltf','b", "'none.gltf','b", "/scene/0",
          "none.gltf', which cannot be read; required: a file"},
         {"'a.gltf','b%20c.gltf'", "7", "/scene/0", "is a number, required: a file's path"},
-        {"['a.gltf','b%20c.gltf']", "'a.gltf'", "/scene", "is a text, required: a list"},
-        {"'a.gltf','b%20c.gltf'", "", "/scene", "has 0 entries, required: 1 to 256"},
+        {"['a.gltf','b%20c.gltf']", "'a.gltf'", "/scene", "is a text, required: an array"},
+        {"'a.gltf','b%20c.gltf'", "", "/scene", "has 0 values, required: 1 to 256"},
         {"'a.gltf','b", "'http:a.gltf','b", "/scene/0",
          "has the scheme 'http:', required: a relative path"},
         {"'a.gltf','b", "'/etc/passwd','b", "/scene/0", "a path relative to the file"},
         {"'a.gltf','b", "'../../a.gltf','b", "/scene/0", "leaves the parent of the folder"},
         {"'a.gltf','b", "'a%2.gltf','b", "/scene/0", "%2"},
-        {"'somebody':['a.gltf']", "'somebody':[]", "/with/somebody", "has 0 entries"},
+        {"'somebody':['a.gltf']", "'somebody':[]", "/with/somebody", "has 0 values"},
         {"'route':'r.csv'", "'route':'none.csv'", "/conditions/2/route", "cannot be read"},
         {"'route':'r.csv'", "'route':'bad.csv'", "line 1", "has no column 'lon', required:"},
     };
@@ -192,12 +193,13 @@ TEST(levels_are_checked)
         {"[100,0.1]", "[100,0.01]", "/levels/auto/table_lx/1",
          "falls from level 0.02 to 0.01, required: one that does not fall"},
         {"[100,0.1]", "[100]", "/levels/auto/table_lx/1",
-         "is an array, required: a pair [illuminance in lx, level]"},
-        {"[100,0.1]", "[100,'x']", "/levels/auto/table_lx/1", "required: a pair"},
-        {"[100,0.1]", "7", "/levels/auto/table_lx/1", "is a number, required: a pair"},
+         "has 1 values, required: 2"},
+        {"[100,0.1]", "[100,'x']", "/levels/auto/table_lx/1", "required: only numbers"},
+        {"[100,0.1]", "7", "/levels/auto/table_lx/1",
+         "is a number, required: an array of numbers"},
         {"[10000,1]", "[1e9,1]", "/levels/auto/table_lx/2",
-         "holds 1e+09, required: an illuminance from 0 to 1e+07"},
-        {"[[0,0.02],[100,0.1],[10000,1]]", "[]", "/levels/auto/table_lx", "has 0 entries"},
+         "is 1e+09, required: a number from 0 to 1e+07"},
+        {"[[0,0.02],[100,0.1],[10000,1]]", "[]", "/levels/auto/table_lx", "has 0 values"},
     };
     CHECK_ALL(wrong);
 }
@@ -205,7 +207,8 @@ TEST(levels_are_checked)
 TEST(the_rest_is_checked)
 {
     static const Wrong wrong[] = {
-        {"'profile':'iso-15008'", "'profile':''", "/profile", "is empty, required: a name"},
+        {"'profile':'iso-15008'", "'profile':''", "/profile",
+         "is an empty text, required: some words"},
         {"'contrast':0.02", "'contrast':0", "/precision/contrast", "is 0, required:"},
         {"'contrast':0.02", "'contrast':0.02,'clear':0.01", "/precision/clear",
          "is 0.01, required: at least 'contrast', 0.02"},
@@ -214,7 +217,7 @@ TEST(the_rest_is_checked)
         {"'seed':7", "'seed':1.5", "/precision/seed", "is 1.5, required: a whole number"},
         {"'seed':7", "'seed':'x'", "/precision/seed", "is a text, required: a number"},
         {"[640,360]", "[640,0]", "/frames/size", "is 0, required: a number from 1 to 16384"},
-        {"[640,360]", "[640.5,360]", "/frames/size", "required: whole numbers of pixels"},
+        {"[640,360]", "[640.5,360]", "/frames/size", "required: whole numbers"},
         {"'worst':2", "'worst':2.5", "/frames/worst", "is 2.5, required: a whole number"},
         {"'title':'All of it'", "'title':7", "/title", "is a number, required: a text"},
     };
@@ -246,7 +249,8 @@ TEST(conditions_are_checked)
          "stands without 'route'"},
         {"'route':'r.csv'", "'route':'r.csv','heading_deg':7", "/conditions/2/heading_deg",
          "stands beside 'route', required: the route's own headings alone"},
-        {"'route':'r.csv'", "'route':'r.csv','sweep':{}", "/conditions/2",
+        {"'route':'r.csv'", "'route':'r.csv','sweep':{'year':2026,'where':[0,0]}",
+         "/conditions/2",
          "has both 'route' and 'sweep', required: one of them"},
         {"2028-02-28T23:59:59+01:00", "2028-02-28T23:59:59", "/conditions/2/when",
          "is no moment, required: a date, time and zone"},
@@ -311,7 +315,8 @@ TEST(sweeps_are_checked)
         "number"},
         {"'year':2026", "'year':26", "/conditions/4/sweep/year", "is 26, required:"},
         {"'where':[48,11]", "'where':[480,11]", "/conditions/4/sweep/where", "is no place"},
-        {"'where':[48,11]", "'where':[48]", "/conditions/4/sweep/where", "is no place"},
+        {"'where':[48,11]", "'where':[48]", "/conditions/4/sweep/where",
+         "has 1 values, required: 2 to 3"},
         {"'step_minutes':30", "'step_minutes':0", "/conditions/4/sweep/step_minutes",
          "is 0, required: a number from 0.5 to 1440"},
         {"[0,90],'weather'", "[0,360],'weather'", "/conditions/4/sweep/headings_deg",

@@ -211,14 +211,13 @@ TEST(every_prefix_is_read_or_refused)
 
 /* ---- levels ------------------------------------------------------------------------------ */
 
-static double lux_of[] = {0, 50, 1000, 20000}, level_of[] = {0.02, 0.08, 0.4, 1};
-static const ReviewLevel curve = {.is_curve = true, .lux = lux_of, .level = level_of,
-                                  .point_count = 4};
+static const ReviewLevelPoint points[] = {{0, 0.02}, {50, 0.08}, {1000, 0.4}, {20000, 1}};
+static const ReviewLevel curve = {.is_curve = true, .points = points, .point_count = 4};
 
 TEST(a_level_curve_goes_through_its_points)
 {
     for (int i = 0; i < 4; i++)
-        assert_close(review_level_of_lux(&curve, lux_of[i]), level_of[i], 1e-12);
+        assert_close(review_level_of_lux(&curve, points[i].lux), points[i].level, 1e-12);
     assert_near(review_level_of_lux(&curve, -5), 0.02, 0);
     assert_near(review_level_of_lux(&curve, 1e6), 1, 0); /* the end's beyond the ends */
 }

@@ -165,7 +165,7 @@ static const FaultCase FAULTS[] = {
     {SHOWN("'name':'cluster',", "'panel':'none.panel','level':-1"), SHOWN_PLACE "/level",
      "is -1, a number of at least 0"},
     {SHOWN("", "'panell':'x'"), SHOWN_PLACE "/panell",
-     "is no member of PARHELION_display; is \"panel\" meant?"},
+     "unknown key; the nearest known one is 'panel'"},
     {SHOWN("'name':'cluster',", "'panel':'none.panel'"), SHOWN_PLACE "/panel",
      "display \"cluster\": "},
     {SHOWN("", ""), SHOWN_PLACE, "\"panel\" is missing, and --panel names none"},

@@ -22,7 +22,7 @@ static const FaultCase FAULTS[] = {
     {MARKED("{'panel':'none.panel','level':'high'}"), PLACE "/level",
      "is \"high\", a number of at least 0"},
     {MARKED("{'panell':'none.panel'}"), PLACE "/panell",
-     "is no member of PARHELION_display; is \"panel\" meant?"},
+     "unknown key; the nearest known one is 'panel'"},
     {MARKED("{'panel':'none.panel','content':{'index':0}}"), PLACE "/content/index",
      "is 0, but there are 0 in textures"},
     {MARKED("{'panel':'none.panel','content':3}"), PLACE "/content", "is 3, an object"},
@@ -36,7 +36,7 @@ static const FaultCase FAULTS[] = {
     /* as texts */
     {MARKED(IN_TEXT("")), PLACE "/panel", "display \"cluster\": "},
     {MARKED(IN_TEXT("," Q "level" Q ":-1")), PLACE "/level", "is -1, a number of at least 0"},
-    {MARKED(IN_TEXT("," Q "levl" Q ":1")), PLACE "/levl", "is \"level\" meant?"},
+    {MARKED(IN_TEXT("," Q "levl" Q ":1")), PLACE "/levl", "nearest known one is 'level'"},
     {MARKED(IN_TEXT("," Q "subpixels" Q ":{" Q "layout" Q ":3}")), PLACE "/subpixels/layout",
      "is 3, one of stripe|pentile|none"},
     {MARKED("'none.panel'"), PLACE, "is a text that is no JSON object: not valid JSON"},

@@ -35,7 +35,8 @@ static const FaultCase FAULTS[] = {
      "is there beside the layout \"none\""},
     {DIVIDED("{'layout':'none','columns':9,'rows':4}"), PLACE "/subpixels/rows",
      "is there beside the layout \"none\""},
-    {DIVIDED("{'layout':'pentile','fil':1}"), PLACE "/subpixels/fil", "is \"fill\" meant?"},
+    {DIVIDED("{'layout':'pentile','fil':1}"), PLACE "/subpixels/fil",
+     "nearest known one is 'fill'"},
     {DIVIDED("{'layout':'stripe'}"), PLACE "/panel",
      "its \"subpixels\" need \"columns\" and \"rows\" where neither panel nor content tells "
      "them"},

@@ -16,7 +16,6 @@
 #include "review/output/review_link.h"
 #include "review/export/review_csv.h"
 #include "review/output/review_json.h"
-#include "review/export/review_json_read.h"
 #include "review/export/review_junit.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"

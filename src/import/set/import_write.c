@@ -163,8 +163,8 @@ static void add_specular(const ImportSet *set, json_t *object)
     json_t *list = json_array();
     for (int i = 0; set->gloss && i < set->gloss->count; i++)
         json_array_append_new(list, json_pack("{s:o, s:o}", "geometry_deg",
-                                              number(set->gloss->geometry_deg[i]), "gu",
-                                              number(set->gloss->gu[i])));
+                                              number(set->gloss->reading[i].geometry_deg), "gu",
+                                              number(set->gloss->reading[i].gu)));
     if (set->gloss) json_object_set(object, "gloss", list);
     json_decref(list);
     if (set->specular)

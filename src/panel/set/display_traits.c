@@ -3,29 +3,21 @@
 
 #include <math.h>
 
-#include "base/count.h"
+#include "record/rows.h"
 
-static const char *const KEYS[] = {"polarisation", "subpixels"};
 static const char *const LAYOUTS[] = {"stripe", "pentile", NULL};
-
-const char *display_traits_key(const JsonView *root)
-{
-    for (int i = 0; i < COUNT_OF(KEYS); i++)
-        if (json_object_get(root->object, KEYS[i])) return KEYS[i];
-    return NULL;
-}
 
 const char *display_traits_layout(SubpixelLayout layout)
 {
     return LAYOUTS[layout - SUBPIXELS_STRIPE];
 }
 
+#define OWNER DisplayTraits
+
 static const RecordRow POLARISATION[] = {
-    {"degree", RECORD_NUMBER, RECORD_REQUIRED, RECORD_AT(DisplayTraits, polarisation_degree),
-     RECORD_RANGE(0, 1), .doc = "The linearly polarised share."},
-    {"azimuth_deg", RECORD_NUMBER, RECORD_REQUIRED,
-     RECORD_AT(DisplayTraits, polarisation_azimuth_deg), RECORD_RANGE(-360, 360),
-     .doc = "Along which its electric field swings: 0 right, 90 up."},
+    NUMBER("degree", MUST, polarisation_degree, 0, 1, "The linearly polarised share."),
+    NUMBER("azimuth_deg", MUST, polarisation_azimuth_deg, -360, 360,
+           "Along which its electric field swings: 0 right, 90 up."),
     {0}};
 const RecordFormat polarisation_format = {"polarisation", sizeof(DisplayTraits), POLARISATION,
                                          .doc = NULL};
@@ -34,11 +26,9 @@ static const RecordRow SUBPIXELS[] = {
     {"layout", RECORD_CHOICE, RECORD_REQUIRED, RECORD_AT(DisplayTraits, layout),
      .words = LAYOUTS, .doc = "stripe: red, green and blue from left to right. pentile: "
                               "diamonds, a green and a red or blue one for each pixel."},
-    RECORD_NUMBER_ROW("fill", DisplayTraits, fill, 0.01, 1, "Share of the area that emits."),
-    {"columns", RECORD_NUMBER, RECORD_WHOLE, RECORD_AT(DisplayTraits, columns),
-     RECORD_RANGE(1, 65536), .doc = "With rows; another way to say pixels."},
-    {"rows", RECORD_NUMBER, RECORD_WHOLE, RECORD_AT(DisplayTraits, rows),
-     RECORD_RANGE(1, 65536), .doc = "With columns."},
+    NUMBER("fill", 0, fill, 0.01, 1, "Share of the area that emits."),
+    NUMBER("columns", RECORD_WHOLE, columns, 1, 65536, "With rows; another way to say pixels."),
+    NUMBER("rows", RECORD_WHOLE, rows, 1, 65536, "With columns."),
     {0}};
 
 static bool check_subpixels(const JsonView *view, void *item, Error *err)
@@ -80,19 +70,4 @@ bool display_traits_check(const JsonView *root, double pixels[2], DisplayTraits 
     traits->subpixels.layout = (SubpixelLayout)(SUBPIXELS_STRIPE + traits->layout);
     traits->subpixels.fill = (float)traits->fill;
     return true;
-}
-
-bool display_traits_read(const JsonView *root, double pixels[2], DisplayTraits *out,
-                         Error *err)
-{
-    typedef struct Alone {
-        DisplayTraits traits;
-    } Alone;
-    static const RecordRow rows[] = {DISPLAY_TRAITS_ROWS(Alone, traits)};
-    out->fill = 1;
-    for (int i = 0; i < COUNT_OF(rows); i++)
-        if (json_object_get(root->object, rows[i].key) &&
-            !record_read_value(root, &rows[i], out, err))
-            return false;
-    return display_traits_check(root, pixels, out, err);
 }

@@ -33,12 +33,5 @@ extern const RecordFormat polarisation_format, subpixels_format; /* of a Display
 bool display_traits_check(const JsonView *root, double pixels[2], DisplayTraits *traits,
                           Error *err);
 
-/* Both rows of a document, and what they cannot say. */
-bool display_traits_read(const JsonView *root, double pixels[2], DisplayTraits *out,
-                         Error *err);
-
-/* The first of these keys that is there; NULL: none. */
-const char *display_traits_key(const JsonView *root);
-
 /* "stripe" or "pentile", as in files. */
 const char *display_traits_layout(SubpixelLayout layout);

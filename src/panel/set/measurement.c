@@ -8,89 +8,28 @@
 #include "base/count.h"
 #include "base/file.h"
 #include "base/units.h"
-#include "panel/set/primary_bands.h"
+#include "panel/set/manifest.h"
 #include "panel/set/primary_spectra.h"
 #include "panel/set/white_split.h"
-#include "text/json_view.h"
 
-/* Reads the table that `value` names: a CSV's path, or {"X": ..., "Y": ..., "Z": ...}. */
-static bool read_emission_table(const JsonView *view, const char *key, const char *name,
-                                AngleTable *out, Error *err)
+static bool read_table(const ManifestTable *from, const char *name, Arena *arena,
+                       AngleTable *out, Error *err)
 {
-    static const char *const components[3] = {"X", "Y", "Z"};
-    json_t *value = json_object_get(view->object, key);
-    const char *file[3];
-    if (json_is_string(value))
-        return json_view_file(view, key, json_string_value(value), &file[0], err) &&
-               angle_table_read_xyz(file[0], name, view->arena, out, err);
-    if (!json_is_object(value))
-        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                        "required: a table's path, or an object with X, Y and Z paths");
-    JsonView grid;
-    if (!json_view_child(view, key, true, &grid, err) ||
-        !json_view_check_keys(&grid, components, 3, err))
-        return false;
-    for (int j = 0; j < 3; j++) {
-        json_t *text = json_object_get(grid.object, components[j]);
-        if (!json_is_string(text))
-            return error_at(err, ERROR_INPUT, view->file, grid.path,
-                            "key '%s' is missing or no text", components[j]);
-        if (!json_view_file(&grid, components[j], json_string_value(text), &file[j], err))
-            return false;
-    }
-    return angle_table_read_grid(file, name, view->arena, out, err);
+    return from->file[1] ? angle_table_read_grid(from->file, name, arena, out, err)
+                         : angle_table_read_xyz(from->file[0], name, arena, out, err);
 }
 
-typedef struct LevelKey {
-    double      level;
-    const char *key;
-} LevelKey;
-
-static int by_level(const void *a, const void *b)
+static bool read_primary(const ManifestEmission *from, int index, Arena *arena,
+                         MeasuredPrimary *out, Error *err)
 {
-    double p = ((const LevelKey *)a)->level, q = ((const LevelKey *)b)->level;
-    return p < q ? -1 : p > q;
-}
-
-static bool read_level_keys(const JsonView *view, LevelKey *keys, int *count, Error *err)
-{
-    const char *key;
-    json_t     *value;
-    *count = 0;
-    json_object_foreach(view->object, key, value) {
-        char  *after;
-        double level = strtod(key, &after);
-        if (after == key || *after || !(level > 0 && level <= 255))
-            return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                            "is no grey level, required: a number above 0 and up to 255");
-        if (*count == MEASUREMENT_LEVELS_MAX)
-            return error_at(err, ERROR_INPUT, view->file, view->path,
-                            "has more than %d levels", MEASUREMENT_LEVELS_MAX);
-        keys[(*count)++] = (LevelKey){level, key};
+    const ManifestLevel *levels = from->primary[index];
+    out->level_count = from->level_count[index];
+    for (int i = 0; i < out->level_count; i++) {
+        const char *name = arena_format(arena, "%s %03g", primary_names[index],
+                                        levels[i].level);
+        if (!read_table(&levels[i].table, name, arena, &out->table[i], err)) return false;
+        out->level[i] = levels[i].level;
     }
-    qsort(keys, (size_t)*count, sizeof *keys, by_level);
-    return *count || error_at(err, ERROR_INPUT, view->file, view->path,
-                              "has no grey levels, required: at least \"255\"");
-}
-
-static bool read_primary(const JsonView *emission, int index, MeasuredPrimary *out, Error *err)
-{
-    JsonView view;
-    LevelKey keys[MEASUREMENT_LEVELS_MAX];
-    int      count;
-    if (!json_view_child(emission, primary_names[index], true, &view, err) ||
-        !read_level_keys(&view, keys, &count, err))
-        return false;
-    for (int i = 0; i < count; i++) {
-        const char *name = arena_format(view.arena, "%s %03g", primary_names[index],
-                                        keys[i].level);
-        if (i && keys[i].level == keys[i - 1].level)
-            return error_at(err, ERROR_INPUT, view.file, json_view_path(&view, keys[i].key),
-                            "is the same grey level as '%s'", keys[i - 1].key);
-        if (!read_emission_table(&view, keys[i].key, name, &out->table[i], err)) return false;
-        out->level[i] = keys[i].level;
-    }
-    out->level_count = count;
     return true;
 }
 
@@ -137,46 +76,19 @@ bool measurement_read_levels(Measurement *set, const char *file, double level_ma
     return true;
 }
 
-static bool read_white(const JsonView *emission, Measurement *out, Error *err)
+static bool read_emission(const ManifestEmission *from, Arena *arena, Measurement *out,
+                          Error *err)
 {
-    const char *levels = NULL;
-    for (int p = 0; p < 3; p++)
-        if (json_object_get(emission->object, primary_names[p]))
-            return error_at(err, ERROR_INPUT, emission->file, emission->path,
-                            "has both 'white' and '%s', required: either the white table or "
-                            "the three primaries", primary_names[p]);
-    if (json_object_get(emission->object, "black"))
-        return error_at(err, ERROR_INPUT, emission->file, emission->path,
-                        "has both 'white' and 'black'; a white-only set has a black of 0, or "
-                        "that of its 'levels'");
-    if (!read_emission_table(emission, "white", "white", &out->white, err)) return false;
-    split_white(NULL, emission->arena, out);
-    if (!json_view_text(emission, "levels", &levels, err)) return false;
-    if (!levels) return true;
-    return json_view_file(emission, "levels", levels, &levels, err) &&
-           measurement_read_levels(out, levels, 0, emission->arena, err);
-}
-
-static bool read_emission(const JsonView *root, Measurement *out, Error *err)
-{
-    static const char *const keys[] = {"black", "red", "green", "blue", "white", "levels"};
-    JsonView view;
-    bool needed = !json_object_get(root->object, "reflection") &&
-                  !json_object_get(root->object, "spots");
-    if (!json_view_child(root, "emission", needed, &view, err)) return false;
-    if (!view.object) return true; /* a surface that only reflects */
-    if (!json_view_check_keys(&view, keys, COUNT_OF(keys), err)) return false;
-    if (json_object_get(view.object, "white")) return read_white(&view, out, err);
-    if (json_object_get(view.object, "levels"))
-        return error_at(err, ERROR_INPUT, view.file, json_view_path(&view, "levels"),
-                        "is for a set of 'white' alone; these primaries' levels are measured");
-    if (!json_object_get(view.object, "black"))
-        return error_at(err, ERROR_INPUT, view.file, view.path,
-                        "key 'black' is missing: the black pattern's table");
-    if (!read_emission_table(&view, "black", "black", &out->black, err)) return false;
+    if (!from->is_there) return true; /* a surface that only reflects */
+    if (from->white.file[0]) {
+        if (!read_table(&from->white, "white", arena, &out->white, err)) return false;
+        split_white(NULL, arena, out);
+        return !from->levels || measurement_read_levels(out, from->levels, 0, arena, err);
+    }
+    if (!read_table(&from->black, "black", arena, &out->black, err)) return false;
     out->has_black = true;
     for (int p = 0; p < 3; p++)
-        if (!read_primary(&view, p, &out->primary[p], err)) return false;
+        if (!read_primary(from, p, arena, &out->primary[p], err)) return false;
     return true;
 }
 
@@ -280,182 +192,57 @@ static bool read_slices(const JsonView *view, const char *pattern, Measurement *
     return true;
 }
 
-static bool check_rising(const JsonView *view, const char *key, const double *value, int count,
-                         Error *err)
+static bool read_mirror(const ManifestReflection *from, const JsonView *view,
+                        const SpecularTable **out, Error *err)
 {
-    for (int i = 1; i < count; i++)
-        if (!(value[i] > value[i - 1]))
-            return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                            "%g follows %g, required: rising values", value[i], value[i - 1]);
-    return count > 0 || error_at(err, ERROR_INPUT, view->file, view->path,
-                                 "key '%s' is missing", key);
-}
-
-/* Azimuths of the light of an anisotropic panel, all around it; absent: isotropic. */
-static bool read_azimuths(const JsonView *view, const char *pattern, Measurement *out,
-                          Error *err)
-{
-    double degrees[MEASUREMENT_AZIMUTHS_MAX];
-    int    count = 0;
-    out->azimuth_count = 1;
-    out->azimuth[0] = 0;
-    if (!json_view_numbers(view, "incidence_phi_deg",
-                           (JsonRange){0, 359.999, COUNT_OF(degrees)}, degrees, &count, err))
+    Gloss gloss;
+    if (!from->specular.file && !from->gloss_count) return true;
+    SpecularTable *table = ARENA_NEW(view->arena, SpecularTable, 1);
+    *out = table;
+    if (from->specular.file)
+        return specular_table_read_file(from->specular.file, from->specular.aperture_deg,
+                                        view->arena, table, err);
+    if (!specular_gloss_collect(view, from->gloss, from->gloss_count, &gloss, err))
         return false;
-    if (!count) return true;
-    if (!check_rising(view, "incidence_phi_deg", degrees, count, err)) return false;
-    if (count < 2)
-        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "incidence_phi_deg"),
-                        "holds one azimuth, required: several, or none for an isotropic panel");
-    if (!strstr(pattern, "{azimuth}"))
-        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "files"),
-                        "required: a pattern that holds {azimuth}, because incidence_phi_deg "
-                        "is there");
-    out->azimuth_count = count;
-    for (int i = 0; i < count; i++) out->azimuth[i] = radians_from_degrees(degrees[i]);
+    specular_table_from_gloss(&gloss, view->file, view->arena, table);
     return true;
 }
 
-static bool read_reflection(const JsonView *root, Measurement *out, Error *err)
+static bool read_reflection(const ManifestReflection *from, const JsonView *root,
+                            Measurement *out, Error *err)
 {
-    static const char *const keys[] = {"wavelengths_nm", "incidence_deg", "incidence_phi_deg",
-                                       "files", "specular", "gloss"};
-    JsonView    view;
-    const char *pattern = NULL;
-    double      nm[MEASUREMENT_WAVELENGTHS_MAX], degrees[MEASUREMENT_INCIDENCES_MAX];
-    int         nm_count = 0, count = 0;
-    if (!json_view_child(root, "reflection", false, &view, err)) return false;
-    if (!view.object) return true;
-    if (!json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
-        !json_view_numbers(&view, "wavelengths_nm", (JsonRange){360, 830, COUNT_OF(nm)},
-                           nm, &nm_count, err) ||
-        !json_view_numbers(&view, "incidence_deg", (JsonRange){0, 89, COUNT_OF(degrees)},
-                           degrees, &count, err) ||
-        !json_view_text(&view, "files", &pattern, err) ||
-        !check_rising(&view, "wavelengths_nm", nm, nm_count, err) ||
-        !check_rising(&view, "incidence_deg", degrees, count, err))
-        return false;
-    if (!pattern || !strstr(pattern, "{incidence}"))
-        return error_at(err, ERROR_INPUT, view.file, json_view_path(&view, "files"),
-                        "required: a pattern that holds {incidence}");
-    out->incidence_count = count;
-    out->wavelength_count = nm_count;
-    for (int i = 0; i < nm_count; i++) out->wavelength_nm[i] = (float)nm[i];
-    for (int i = 0; i < count; i++) out->incidence[i] = radians_from_degrees(degrees[i]);
-    return read_azimuths(&view, pattern, out, err) &&
-           specular_table_read(&view, view.arena, &out->specular, err) &&
-           read_slices(&view, pattern, out, err);
+    JsonView view = *root;
+    if (!from->is_there) return true;
+    view.path = from->path;
+    out->incidence_count = from->incidence_count;
+    out->wavelength_count = from->wavelength_count;
+    out->azimuth_count = from->azimuth_count ? from->azimuth_count : 1;
+    for (int i = 0; i < from->wavelength_count; i++)
+        out->wavelength_nm[i] = (float)from->wavelength_nm[i];
+    for (int i = 0; i < from->incidence_count; i++)
+        out->incidence[i] = radians_from_degrees(from->incidence_deg[i]);
+    for (int i = 0; i < from->azimuth_count; i++)
+        out->azimuth[i] = radians_from_degrees(from->azimuth_deg[i]);
+    return read_mirror(from, &view, &out->specular, err) &&
+           read_slices(&view, from->files, out, err);
 }
 
-/* ---- spots ------------------------------------------------------------------------------- */
-
-static bool missing_position(const JsonView *view, Error *err)
-{
-    bool has_both = json_object_get(view->object, "position") != NULL;
-    return error_at(err, ERROR_INPUT, view->file, view->path, has_both
-        ? "has both 'position' and 'position_mm', required: one of them"
-        : "key 'position' is missing (or 'position_mm')");
-}
-
-/* From the upper left corner of the active area, right and down; shares of its size. */
-static bool read_position(const JsonView *view, const double size_mm[2], double at[2],
-                          Error *err)
-{
-    bool        is_mm = json_object_get(view->object, "position_mm") != NULL;
-    const char *key = is_mm ? "position_mm" : "position";
-    if (is_mm == (json_object_get(view->object, "position") != NULL))
-        return missing_position(view, err);
-    if (is_mm && !(size_mm[0] > 0 && size_mm[1] > 0))
-        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                        "is there, but the manifest has no 'size_mm'");
-    if (!json_view_pair(view, key, 0, is_mm ? 1e5 : 1, at, err)) return false;
-    for (int k = 0; k < 2 && is_mm; k++) {
-        if (at[k] > size_mm[k])
-            return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                            "is %g, required: 0 to %g mm, the active area", at[k], size_mm[k]);
-        at[k] /= size_mm[k];
-    }
-    return true;
-}
-
-static bool has_part(const JsonView *view, const char *key)
-{
-    return json_object_get(view->object, key) != NULL;
-}
+/* ---- the whole --------------------------------------------------------------------------- */
 
 /* A spot with what the manifest has for it. */
-static bool read_spot(const JsonView *root, const JsonView *view, const Measurement *whole,
+static bool read_spot(const ManifestSpot *from, const JsonView *root, const Measurement *whole,
                       MeasuredSpot *out, Error *err)
 {
-    static const char *const keys[] = {"position", "position_mm", "emission", "reflection"};
-    if (!json_view_check_keys(view, keys, COUNT_OF(keys), err) ||
-        !read_position(view, whole->size_mm, out->at, err))
-        return false;
-    out->has_emission = has_part(view, "emission");
-    out->has_reflection = has_part(view, "reflection");
-    if (!out->has_emission && !out->has_reflection)
-        return error_at(err, ERROR_INPUT, view->file, view->path,
-                        "has neither 'emission' nor 'reflection'");
-    for (int k = 0; k < 2; k++) {
-        const char *key = k ? "reflection" : "emission";
-        bool is_elsewhere = k ? whole->spots_reflect : whole->spots_emit;
-        if (!has_part(view, key) && is_elsewhere && !has_part(root, key))
-            return error_at(err, ERROR_INPUT, view->file, view->path, "has no '%s' as other "
-                            "spots have, and the manifest has none that would serve", key);
-    }
-    out->set = ARENA_NEW(view->arena, Measurement, 1);
+    *out = (MeasuredSpot){.at = {from->position[0], from->position[1]},
+                          .has_emission = from->emission.is_there,
+                          .has_reflection = from->reflection.is_there,
+                          .set = ARENA_NEW(root->arena, Measurement, 1)};
     *out->set = (Measurement){.file = whole->file, .panel = whole->panel,
         .instrument = whole->instrument, .note = "", .pixels = {whole->pixels[0],
         whole->pixels[1]}, .size_mm = {whole->size_mm[0], whole->size_mm[1]},
         .instrument_fwhm_deg = whole->instrument_fwhm_deg};
-    return read_emission(view, out->set, err) && read_reflection(view, out->set, err);
-}
-
-static bool check_apart(const JsonView *view, const MeasuredSpot *spot, int index, Error *err)
-{
-    for (int k = 0; k < index; k++)
-        if ((float)spot[k].at[0] == (float)spot[index].at[0] &&
-            (float)spot[k].at[1] == (float)spot[index].at[1])
-            return error_at(err, ERROR_INPUT, view->file, view->path,
-                            "is at the same place as spot %d: %g, %g", k, spot[k].at[0],
-                            spot[k].at[1]);
-    return true;
-}
-
-/* Does any of the manifest's spots have this part? */
-static bool spots_have(const JsonView *root, const char *key)
-{
-    size_t  i;
-    json_t *spot;
-    json_array_foreach(json_object_get(root->object, "spots"), i, spot)
-        if (json_object_get(spot, key)) return true;
-    return false;
-}
-
-static bool read_spots(const JsonView *root, Measurement *out, Error *err)
-{
-    json_t *list = json_object_get(root->object, "spots"), *spot;
-    size_t  i, count = json_array_size(list);
-    if (!list) return true;
-    if (!json_is_array(list)) return json_view_wrong_kind(root, "spots", list, "a list", err);
-    if (count < 1 || count > MEASUREMENT_SPOTS_MAX)
-        return error_at(err, ERROR_INPUT, root->file, json_view_path(root, "spots"),
-                        "holds %zu spots, required: 1 to %d", count, MEASUREMENT_SPOTS_MAX);
-    out->spot = ARENA_NEW(root->arena, MeasuredSpot, count);
-    out->spots_emit = spots_have(root, "emission");
-    out->spots_reflect = spots_have(root, "reflection");
-    json_array_foreach(list, i, spot) {
-        JsonView view = *root;
-        view.object = spot;
-        view.path = arena_format(root->arena, "%s/spots/%zu", root->path, i);
-        if (!json_is_object(spot))
-            return error_at(err, ERROR_INPUT, view.file, view.path, "required: an object");
-        if (!read_spot(root, &view, out, &out->spot[i], err) ||
-            !check_apart(&view, out->spot, (int)i, err))
-            return false;
-    }
-    out->spot_count = (int)count;
-    return true;
+    return read_emission(&from->emission, root->arena, out->set, err) &&
+           read_reflection(&from->reflection, root, out->set, err);
 }
 
 /* Spots have the spectra of the one panel, or what is known in their place. */
@@ -470,96 +257,26 @@ static void share_spectra(Measurement *out)
     }
 }
 
-static bool needless_key(const JsonView *root, const char *key, const char *why, Error *err)
+/* The tables that the manifest names. */
+static bool read_tables(const JsonView *root, Manifest *from, Error *err)
 {
-    return !json_object_get(root->object, key) ||
-           error_at(err, ERROR_INPUT, root->file, json_view_path(root, key), "%s", why);
-}
-
-/* What is known of primaries without spectra. */
-static bool read_backlight(const JsonView *root, Measurement *out, Error *err)
-{
-    static const char *const keys[] = {"backlight", "peaks_nm"};
-    const char *name = NULL;
-    int         count = 0;
-    for (int i = 0; i < COUNT_OF(keys); i++)
-        if ((json_object_get(root->object, "primaries") &&
-             !needless_key(root, keys[i], "is for a set without 'primaries': their spectra are "
-                           "measured", err)) ||
-            (!json_object_get(root->object, "emission") && !out->spots_emit &&
-             !needless_key(root, keys[i], "tells of the emitted light, but the set has no "
-                           "'emission'", err)))
-            return false;
-    if (!json_view_text(root, "backlight", &name, err) ||
-        !json_view_numbers(root, "peaks_nm", (JsonRange){380, 780, 3}, out->peaks_nm, &count,
-                           err))
+    Measurement *out = &from->set;
+    if (!read_emission(&from->emission, root->arena, out, err) ||
+        !read_reflection(&from->reflection, root, out, err))
         return false;
-    if (count && (count < 3 || out->peaks_nm[0] <= out->peaks_nm[1] ||
-                  out->peaks_nm[1] <= out->peaks_nm[2]))
-        return error_at(err, ERROR_INPUT, root->file, json_view_path(root, "peaks_nm"),
-                        "required are three wavelengths that fall: of red, green and blue");
-    if (name && !(out->backlight = primary_backlight_named(name)))
-        return error_at(err, ERROR_INPUT, root->file, json_view_path(root, "backlight"),
-                        "is \"%.40s\", required: one of %s", name,
-                        primary_backlight_names(root->arena));
+    out->spot = ARENA_NEW(root->arena, MeasuredSpot, from->spot_count);
+    out->spot_count = from->spot_count;
+    for (int i = 0; i < from->spot_count; i++)
+        if (!read_spot(&from->spot[i], root, out, &out->spot[i], err)) return false;
+    if (!uniformity_map_read(&from->uniformity, root->file, root->arena, &out->map, err))
+        return false;
+    if (from->primaries &&
+        !primary_spectra_read(from->primaries, root->arena, out->spectrum,
+                              &out->spectra_beyond, err))
+        return false;
+    out->has_spectra = from->primaries != NULL;
     share_spectra(out);
     return true;
-}
-
-static bool read_map(const JsonView *root, Measurement *out, Error *err)
-{
-    JsonView view;
-    if (!json_view_child(root, "uniformity", false, &view, err)) return false;
-    if (view.object && !json_object_get(root->object, "emission") && !out->spots_emit)
-        return error_at(err, ERROR_INPUT, view.file, view.path, "says how even the emission "
-                        "is, but the set has none");
-    return uniformity_map_read(&view, out->size_mm, &out->map, err);
-}
-
-static bool check_traits(const JsonView *root, const Measurement *out, Error *err)
-{
-    const char *key = display_traits_key(root);
-    if (!key || has_part(root, "emission") || out->spots_emit) return true;
-    return error_at(err, ERROR_INPUT, root->file, json_view_path(root, key),
-                    "tells of the emitted light, but the set has no 'emission'");
-}
-
-/* Read before the tables, which take a while; that spots emit is known after them. */
-static bool read_traits(const JsonView *root, Measurement *out, Error *err)
-{
-    return display_traits_read(root, out->pixels, &out->traits, err) &&
-           (has_part(root, "spots") || check_traits(root, out, err));
-}
-
-static bool read_members(const JsonView *root, Measurement *out, Error *err)
-{
-    static const char *const keys[] = {"panel", "instrument", "date", "operator", "conditions",
-        "note", "pixels", "size_mm",
-        "instrument_fwhm_deg", "emission", "primaries", "reflection", "polarisation",
-        "subpixels", "spots", "uniformity", "backlight", "peaks_nm"};
-    const char *primaries = NULL;
-    bool ok = json_view_check_keys(root, keys, COUNT_OF(keys), err) &&
-        json_view_text(root, "panel", &out->panel, err) &&
-        json_view_text(root, "instrument", &out->instrument, err) &&
-        json_view_text(root, "date", &out->date, err) &&
-        json_view_text(root, "operator", &out->operator_name, err) &&
-        json_view_text(root, "conditions", &out->conditions, err) &&
-        json_view_text(root, "note", &out->note, err) &&
-        json_view_text(root, "primaries", &primaries, err) &&
-        json_view_pair(root, "pixels", 1, 65536, out->pixels, err) &&
-        json_view_pair(root, "size_mm", 1, 1e5, out->size_mm, err) &&
-        json_view_number(root, "instrument_fwhm_deg", 0.05, 15, &out->instrument_fwhm_deg,
-                         err) &&
-        read_traits(root, out, err) && read_emission(root, out, err) &&
-        read_reflection(root, out, err) && read_spots(root, out, err) &&
-         check_traits(root, out, err) &&
-        read_map(root, out, err) && read_backlight(root, out, err);
-    if (!ok || !primaries) return ok;
-    out->has_spectra = json_view_file(root, "primaries", primaries, &primaries, err) &&
-                       primary_spectra_read(primaries, root->arena, out->spectrum,
-                                            &out->spectra_beyond, err);
-    share_spectra(out);
-    return out->has_spectra;
 }
 
 /* A lone CSV: white only. */
@@ -580,11 +297,12 @@ bool measurement_read_below(const char *path, const char *folder, Arena *arena,
                             Measurement *out, Error *err)
 {
     JsonView     root;
-    Measurement *set = ARENA_NEW(arena, Measurement, 1);
-    *set = (Measurement){.file = arena_string(arena, path, strlen(path)), .panel = "",
-                         .instrument = "", .date = "", .operator_name = "",
-                         .conditions = "", .note = "", .inputs = {.arena = arena}};
-    bool ok;
+    Manifest    *manifest = ARENA_NEW(arena, Manifest, 1);
+    Measurement *set = &manifest->set;
+    bool         ok;
+    manifest_format.start(manifest);
+    set->file = arena_string(arena, path, strlen(path));
+    set->inputs.arena = arena;
     lines_put(&set->inputs, set->file);
     if (!strcmp(path_ending(path), ".csv")) {
         ok = read_lone_table(path, arena, set, err);
@@ -592,7 +310,8 @@ bool measurement_read_below(const char *path, const char *folder, Arena *arena,
         if (!json_view_open(path, arena, &root, err)) return false;
         root.root = folder;
         root.named = &set->inputs;
-        ok = read_members(&root, set, err);
+        ok = record_read(&root, &manifest_format, manifest, err) &&
+             read_tables(&root, manifest, err);
         json_view_close(&root);
     }
     if (ok) *out = *set;

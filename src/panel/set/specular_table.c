@@ -8,6 +8,7 @@
 #include "base/mathd.h"
 #include "base/sort.h"
 #include "base/units.h"
+#include "record/rows.h"
 #include "spectrum/fresnel.h"
 #include "text/csv_table.h"
 #include "text/text.h"
@@ -172,11 +173,11 @@ void specular_table_from_gloss(const Gloss *gloss, const char *file, Arena *aren
     int     rows = 0;
     for (int m = 0; m < GLOSS_METERS; m++)
         for (int i = 0; i < gloss->count; i++) {
-            if (gloss->geometry_deg[i] != meters[m].geometry_deg) continue;
+            if (gloss->reading[i].geometry_deg != meters[m].geometry_deg) continue;
             const double *width = meters[m].width_deg;
             incidence[rows] = radians_from_degrees(meters[m].geometry_deg);
             aperture[rows] = radians_from_degrees(2 * sqrt(width[0] * width[1] / PI));
-            value[rows] = gloss->gu[i] / 100 * glass(incidence[rows]);
+            value[rows] = gloss->reading[i].gu / 100 * glass(incidence[rows]);
             rows++;
         }
     nm[0] = ANY_NM;
@@ -198,108 +199,54 @@ bool specular_gloss_add(Gloss *gloss, double geometry_deg, double gu, Error *err
         return error_set(err, ERROR_INPUT, "gloss is %g at %g degrees, where a perfect mirror "
                          "has %.4g gloss units", gu, geometry_deg, mirror);
     for (int i = 0; i < gloss->count; i++)
-        if (gloss->geometry_deg[i] == geometry_deg)
+        if (gloss->reading[i].geometry_deg == geometry_deg)
             return error_set(err, ERROR_INPUT, "gloss at %g degrees is stated twice, required: "
                                                "it once", geometry_deg);
-    gloss->geometry_deg[gloss->count] = geometry_deg;
-    gloss->gu[gloss->count++] = gu;
+    gloss->reading[gloss->count++] = (GlossReading){geometry_deg, gu};
     return true;
 }
 
-static bool read_gloss_row(const JsonView *view, Gloss *gloss, Error *err)
-{
-    static const char *const keys[] = {"geometry_deg", "gu"};
-    double value[2] = {0, 0};
-    if (!json_view_check_keys(view, keys, 2, err)) return false;
-    for (int k = 0; k < 2; k++) {
-        if (!json_object_get(view->object, keys[k]))
-            return error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing",
-                            keys[k]);
-        if (!json_view_number(view, keys[k], k ? 0 : 20, k ? GLOSS_MOST : 85, &value[k], err))
-            return false;
-    }
-    Error why;
-    return specular_gloss_add(gloss, value[0], value[1], &why) ||
-           error_at(err, ERROR_INPUT, view->file, view->path, "%s", why.text);
-}
+/* ---- a manifest's ------------------------------------------------------------------------ */
 
-bool specular_gloss_read(const JsonView *view, Gloss *out, Error *err)
+#define OWNER GlossReading
+static const RecordRow GLOSS[] = {
+    NUMBER("geometry_deg", MUST, geometry_deg, 20, 85, "Of the meter: 20, 60 or 85."),
+    NUMBER("gu", MUST, gu, 0, GLOSS_MOST, "Gloss units."),
+    {0}};
+#undef OWNER
+
+const RecordFormat gloss_format = {
+    "gloss", sizeof(GlossReading), GLOSS,
+    .rules = "{'allOf': [{'properties': {'geometry_deg': {'enum': [20, 60, 85]}}}]}"};
+
+bool specular_gloss_collect(const JsonView *view, const GlossReading *list, int count,
+                            Gloss *out, Error *err)
 {
-    json_t *list = json_object_get(view->object, "gloss"), *one;
-    size_t  i, count = json_array_size(list);
     *out = (Gloss){0};
-    if (!json_is_array(list))
-        return json_view_wrong_kind(view, "gloss", list, "a list of {geometry_deg, gu}", err);
-    if (count < 1 || count > GLOSS_METERS)
-        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "gloss"),
-                        "holds %zu values, required: 1 to %d", count, GLOSS_METERS);
-    json_array_foreach(list, i, one) {
-        JsonView row = *view;
-        row.object = one;
-        row.path = arena_format(view->arena, "%s/gloss/%zu", view->path, i);
-        if (!json_is_object(one))
-            return error_at(err, ERROR_INPUT, row.file, row.path, "required: an object with "
-                            "geometry_deg and gu");
-        if (!read_gloss_row(&row, out, err)) return false;
+    for (int i = 0; i < count; i++) {
+        Error why;
+        if (!specular_gloss_add(out, list[i].geometry_deg, list[i].gu, &why))
+            return record_fails(view, arena_format(view->arena, "gloss/%d", i), err, "%s",
+                                why.text);
     }
     return true;
 }
 
-static bool read_gloss(const JsonView *reflection, Arena *arena, SpecularTable *out, Error *err)
-{
-    Gloss gloss;
-    if (!specular_gloss_read(reflection, &gloss, err)) return false;
-    specular_table_from_gloss(&gloss, reflection->file, arena, out);
-    return true;
-}
+#define OWNER SpecularFile
+#define FILE_ROW(key, flag) {key, RECORD_PATH, (flag) | RECORD_FILLED, RECORD_AT(OWNER, file)}
 
-/* ---- the manifest ------------------------------------------------------------------------ */
+static const RecordRow SPECULAR[] = {
+    FILE_ROW("file", MUST),
+    NUMBER("aperture_deg", 0, aperture_deg, 0, SPECULAR_APERTURE_MOST_DEG,
+           "Full angle around the mirror direction that was measured; 0: the mirror alone."),
+    {0}};
+static const RecordFormat specular_format = {"specular", sizeof(OWNER), SPECULAR, .doc = NULL};
 
-/* A file's path, or that with the aperture. */
-static bool read_specular(const JsonView *reflection, Arena *arena, SpecularTable *out,
-                          Error *err)
-{
-    static const char *const keys[] = {"file", "aperture_deg"};
-    json_t     *value = json_object_get(reflection->object, "specular");
-    const char *text = json_string_value(value), *file = NULL;
-    double      aperture = 0;
-    JsonView    view = *reflection;
-    const char *key = "specular";
-    if (!text) {
-        if (!json_is_object(value))
-            return json_view_wrong_kind(reflection, key, value,
-                                        "a table's path, or an object with 'file'", err);
-        if (!json_view_child(reflection, key, true, &view, err) ||
-            !json_view_check_keys(&view, keys, 2, err) ||
-            !json_view_text(&view, "file", &text, err) ||
-            !json_view_number(&view, "aperture_deg", 0, SPECULAR_APERTURE_MOST_DEG, &aperture,
-                              err))
-            return false;
-        if (!text)
-            return error_at(err, ERROR_INPUT, view.file, view.path, "key 'file' is missing");
-        key = "file";
-    }
-    return json_view_file(&view, key, text, &file, err) &&
-           specular_table_read_file(file, aperture, arena, out, err);
-}
-
-bool specular_table_read(const JsonView *reflection, Arena *arena, const SpecularTable **out,
-                         Error *err)
-{
-    bool has_table = json_object_get(reflection->object, "specular") != NULL;
-    bool has_gloss = json_object_get(reflection->object, "gloss") != NULL;
-    if (!has_table && !has_gloss) return true;
-    if (has_table && has_gloss)
-        return error_at(err, ERROR_INPUT, reflection->file, reflection->path,
-                        "has both 'specular' and 'gloss', required: one of them: a specular "
-                        "table says more");
-    SpecularTable *table = ARENA_NEW(arena, SpecularTable, 1);
-    if (has_table ? !read_specular(reflection, arena, table, err)
-                  : !read_gloss(reflection, arena, table, err))
-        return false;
-    *out = table;
-    return true;
-}
+const RecordRow specular_forms[] = {
+    FILE_ROW("a table's path", 0),
+    {"an object with 'file'", RECORD_OBJECT, .of = &specular_format},
+    {0}};
+#undef OWNER
 
 /* ---- reading ----------------------------------------------------------------------------- */
 

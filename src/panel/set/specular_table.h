@@ -13,7 +13,7 @@
  * Fails     with file, line or JSON path, found and wanted.
  */
 #pragma once
-#include "text/json_view.h"
+#include "record/record.h"
 
 #define SPECULAR_APERTURE_MOST_DEG 30.0
 
@@ -34,25 +34,35 @@ bool specular_table_read_file(const char *file, double aperture_deg, Arena *aren
 
 #define GLOSS_METERS 3 /* 20, 60 and 85 degrees */
 
-/* Readings of gloss meters. */
+typedef struct GlossReading {
+    double geometry_deg, gu;
+} GlossReading;
+
+/* Readings of gloss meters, each geometry once. */
 typedef struct Gloss {
-    int    count;
-    double geometry_deg[GLOSS_METERS], gu[GLOSS_METERS];
+    int          count;
+    GlossReading reading[GLOSS_METERS];
 } Gloss;
 
 /* Adds one; the error's text follows the name of the reading's source. */
 bool specular_gloss_add(Gloss *gloss, double geometry_deg, double gu, Error *err);
 
-/* The key `gloss` of an object: a list of {geometry_deg, gu}. */
-bool specular_gloss_read(const JsonView *view, Gloss *out, Error *err);
+/* The key `gloss` of a document, a list of GlossReading; and what its rows cannot say. */
+extern const RecordFormat gloss_format;
+bool specular_gloss_collect(const JsonView *view, const GlossReading *list, int count,
+                            Gloss *out, Error *err);
 
 /* file: for messages later. */
 void specular_table_from_gloss(const Gloss *gloss, const char *file, Arena *arena,
                                SpecularTable *out);
 
-/* The keys `specular` and `gloss` of a manifest's reflection; neither: *out stays. */
-bool specular_table_read(const JsonView *reflection, Arena *arena, const SpecularTable **out,
-                         Error *err);
+/* The key `specular` of a manifest: a table's path, or that with the aperture. */
+typedef struct SpecularFile {
+    const char *file; /* NULL: there is none */
+    double      aperture_deg;
+} SpecularFile;
+
+extern const RecordRow specular_forms[];
 
 /* The file again, as specular_table_read_file reads it. */
 const char *specular_table_text(const SpecularTable *table, Arena *arena);

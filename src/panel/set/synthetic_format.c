@@ -7,18 +7,11 @@
 #include "base/count.h"
 #include "base/mathd.h"
 #include "base/units.h"
+#include "record/rows.h"
 #include "spectrum/spectral_table.h"
 
-#define MUST RECORD_REQUIRED
-#define NUMBER(key, member, least, most, words)                                                \
-    RECORD_NUMBER_ROW(key, OWNER, member, least, most, words)
 #define DEGREES(key, member, least, most, words)                                               \
-    {key, RECORD_NUMBER, RECORD_RADIANS, RECORD_AT(OWNER, member), RECORD_RANGE(least, most),  \
-     .doc = words}
-/* Up to so many numbers in place; counted: where it is kept how many. */
-#define NUMBERS(key, member, counted, size, least_value, most_value, words)                    \
-    {key, RECORD_NUMBERS, RECORD_AT(OWNER, member), RECORD_RANGE(least_value, most_value),     \
-     .least = 1, .most = size, .count = offsetof(OWNER, counted), .doc = words}
+    NUMBER(key, RECORD_RADIANS, member, least, most, words)
 
 /* ---- emission ---------------------------------------------------------------------------- */
 
@@ -26,17 +19,13 @@
 #define PEAKS SYNTHETIC_PEAKS_MAX
 
 static const RecordRow PRIMARY[] = {
-    NUMBER("luminance_cd_m2", luminance_cd_m2, 1e-3, 1e5,
+    NUMBER("luminance_cd_m2", 0, luminance_cd_m2, 1e-3, 1e5,
            "Of this primary at code 255 on the axis."),
-    {"peaks_nm", RECORD_NUMBERS, MUST, RECORD_AT(OWNER, peak_nm), RECORD_RANGE(360, 830),
-     .least = 1, .most = PEAKS, .count = offsetof(OWNER, peak_count),
-     .doc = "Centres of the spectrum's Gaussians, nm."},
-    {"fwhm_nm", RECORD_NUMBERS, MUST, RECORD_AT(OWNER, fwhm_nm), RECORD_RANGE(2, 400),
-     .least = 1, .most = PEAKS, .count = offsetof(OWNER, fwhm_count),
-     .doc = "Their widths, nm."},
-    {"weights", RECORD_NUMBERS, MUST, RECORD_AT(OWNER, weight), RECORD_RANGE(1e-6, 1e6),
-     .least = 1, .most = PEAKS, .count = offsetof(OWNER, weight_count),
-     .doc = "Their heights, relative."},
+    NUMBERS("peaks_nm", MUST, peak_nm, peak_count, PEAKS, 360, 830,
+            "Centres of the spectrum's Gaussians, nm."),
+    NUMBERS("fwhm_nm", MUST, fwhm_nm, fwhm_count, PEAKS, 2, 400, "Their widths, nm."),
+    NUMBERS("weights", MUST, weight, weight_count, PEAKS, 1e-6, 1e6,
+            "Their heights, relative."),
     {"shift", RECORD_NUMBERS, RECORD_AT(OWNER, shift), RECORD_RANGE(-5, 5), .least = 1,
      .most = 3, .doc = "Exponents of X, Y, Z over the square of theta's sine: the colour's "
                        "change with the angle."},
@@ -76,7 +65,7 @@ static const RecordRow LOBE[] = {
     DEGREES("theta_deg", lobe_theta, 0, 90, "Where it points."),
     DEGREES("phi_deg", lobe_phi, -360, 360, "Where it points."),
     DEGREES("width_deg", lobe_width, 0.5, 90, "Standard deviation."),
-    NUMBER("gain", lobe_gain, 0, 1000, "Height; 0: none."),
+    NUMBER("gain", 0, lobe_gain, 0, 1000, "Height; 0: none."),
     {0}};
 
 static const RecordFormat lobe_format = {"lobe", sizeof(OWNER), LOBE, .doc = NULL};
@@ -86,16 +75,16 @@ static const RecordFormat lobe_format = {"lobe", sizeof(OWNER), LOBE, .doc = NUL
 
 static const RecordRow EMISSION[] = {
     PRIMARY_ROW("red", 0), PRIMARY_ROW("green", 1), PRIMARY_ROW("blue", 2),
-    NUMBER("gamma", gamma, 0.3, 5, "Of the grey levels."),
-    NUMBER("gamma_drop", gamma_drop, -1, 1,
+    NUMBER("gamma", 0, gamma, 0.3, 5, "Of the grey levels."),
+    NUMBER("gamma_drop", 0, gamma_drop, -1, 1,
            "Loss of gamma at an angle, times the square of theta's sine."),
     {"cosine_power", RECORD_NUMBERS, RECORD_AT(OWNER, cosine_power), RECORD_RANGE(0, 20),
      .least = 1, .most = 2,
      .doc = "How fast luminance falls to the sides, and up and down."},
-    NUMBER("black_cd_m2", black_cd_m2, 0, 1000, "Of black on the axis."),
-    NUMBER("leak", leak, 0, 1000, "More black at 45 degrees of azimuth."),
+    NUMBER("black_cd_m2", 0, black_cd_m2, 0, 1000, "Of black on the axis."),
+    NUMBER("leak", 0, leak, 0, 1000, "More black at 45 degrees of azimuth."),
     {"lobe", RECORD_OBJECT, .of = &lobe_format, .doc = "A broad extra peak of the emission."},
-    NUMBERS("levels", level, level_count, SYNTHETIC_LEVELS_MAX, 1, 255,
+    NUMBERS("levels", 0, level, level_count, SYNTHETIC_LEVELS_MAX, 1, 255,
             "Codes that are measured, rising."),
     {0}};
 
@@ -118,17 +107,18 @@ static const RecordFormat emission_format = {"emission", sizeof(OWNER), EMISSION
 #define OWNER SyntheticReflection
 
 static const RecordRow REFLECTION[] = {
-    NUMBER("coating", coating, 0.01, 1,
+    NUMBER("coating", 0, coating, 0.01, 1,
            "Share of Fresnel's reflectance that the coating leaves."),
-    NUMBER("coating_blue", coating_blue, 0, 1, "Its rise towards both ends of the spectrum."),
-    NUMBER("haze_share", haze_share, 0, 1, "Share of haze; the rest is mirror."),
-    NUMBER("haze_width", haze_width, 1e-3, 1, "In direction cosines."),
-    NUMBER("haze_power", haze_power, 1.1, 10, "How steeply haze falls."),
-    NUMBER("floor_albedo", lambertian_albedo, 0, 0.5, "Albedo of the lambertian part."),
-    NUMBERS("incidence_deg", incidence_deg, incidence_count, SYNTHETIC_INCIDENCES_MAX, 0, 85,
+    NUMBER("coating_blue", 0, coating_blue, 0, 1,
+           "Its rise towards both ends of the spectrum."),
+    NUMBER("haze_share", 0, haze_share, 0, 1, "Share of haze; the rest is mirror."),
+    NUMBER("haze_width", 0, haze_width, 1e-3, 1, "In direction cosines."),
+    NUMBER("haze_power", 0, haze_power, 1.1, 10, "How steeply haze falls."),
+    NUMBER("floor_albedo", 0, lambertian_albedo, 0, 0.5, "Albedo of the lambertian part."),
+    NUMBERS("incidence_deg", 0, incidence_deg, incidence_count, SYNTHETIC_INCIDENCES_MAX, 0, 85,
             "Angles of the light, degrees."),
-    NUMBERS("wavelengths_nm", wavelength_nm, wavelength_count, SYNTHETIC_WAVELENGTHS_MAX, 360,
-            830, "At which it is measured."),
+    NUMBERS("wavelengths_nm", 0, wavelength_nm, wavelength_count, SYNTHETIC_WAVELENGTHS_MAX,
+            360, 830, "At which it is measured."),
     {0}};
 
 static const RecordFormat reflection_format = {"reflection", sizeof(OWNER), REFLECTION,
@@ -140,19 +130,19 @@ static const RecordFormat reflection_format = {"reflection", sizeof(OWNER), REFL
 #define OWNER SyntheticInstrument
 
 static const RecordRow INSTRUMENT[] = {
-    NUMBER("theta_max_deg", theta_max_deg, 10, 89.5, "Its cone."),
-    NUMBER("theta_step_deg", theta_step_deg, 0.05, 10, "Between rings."),
-    NUMBER("phi_step_deg", phi_step_deg, 0.05, 30, "Between azimuths."),
-    NUMBER("brdf_theta_step_deg", brdf_theta_step_deg, 0.05, 10,
+    NUMBER("theta_max_deg", 0, theta_max_deg, 10, 89.5, "Its cone."),
+    NUMBER("theta_step_deg", 0, theta_step_deg, 0.05, 10, "Between rings."),
+    NUMBER("phi_step_deg", 0, phi_step_deg, 0.05, 30, "Between azimuths."),
+    NUMBER("brdf_theta_step_deg", 0, brdf_theta_step_deg, 0.05, 10,
            "Of reflection; default: as emission."),
-    NUMBER("brdf_phi_step_deg", brdf_phi_step_deg, 0.05, 30,
+    NUMBER("brdf_phi_step_deg", 0, brdf_phi_step_deg, 0.05, 30,
            "Of reflection; default: as emission."),
-    NUMBER("fwhm_deg", fwhm_deg, 0.05, 10, "How wide the mirror image of a point looks."),
-    NUMBER("noise_relative", noise_relative, 0, 0.5,
+    NUMBER("fwhm_deg", 0, fwhm_deg, 0.05, 10, "How wide the mirror image of a point looks."),
+    NUMBER("noise_relative", 0, noise_relative, 0, 0.5,
            "Standard deviation, share of the value."),
-    NUMBER("noise_cd_m2", noise_cd_m2, 0, 10, "Added to emission."),
-    NUMBER("noise_brdf_sr", noise_brdf_sr, 0, 10, "Added to reflection."),
-    NUMBER("seed", seed, 0, 4294967295.0, "Of the noise."),
+    NUMBER("noise_cd_m2", 0, noise_cd_m2, 0, 10, "Added to emission."),
+    NUMBER("noise_brdf_sr", 0, noise_brdf_sr, 0, 10, "Added to reflection."),
+    NUMBER("seed", 0, seed, 0, 4294967295.0, "Of the noise."),
     {0}};
 
 static const RecordFormat instrument_format = {"instrument", sizeof(OWNER), INSTRUMENT,
@@ -165,24 +155,24 @@ static const RecordFormat instrument_format = {"instrument", sizeof(OWNER), INST
 #define SPOTS SYNTHETIC_SPOTS_MAX
 
 static const RecordRow PLACES[] = {
-    NUMBERS("u", u, spots, SPOTS, 0, 1,
+    NUMBERS("u", 0, u, spots, SPOTS, 0, 1,
             "Of the spots that are measured: to the right, from the upper left corner."),
-    NUMBERS("v", v, rows, SPOTS, 0, 1, "Down; as many as of u."),
-    {"map", RECORD_NUMBERS, RECORD_WHOLE, RECORD_AT(OWNER, map), RECORD_RANGE(1, 2048),
-     .least = 2, .most = 2,
-     .doc = "Pixels of the uniformity map, width and height; absent: none is made."},
+    NUMBERS("v", 0, v, rows, SPOTS, 0, 1, "Down; as many as of u."),
+    VECTOR("map", RECORD_WHOLE, map, 2, 1, 2048,
+           "Pixels of the uniformity map, width and height; absent: none is made."),
     {"slope", RECORD_NUMBERS, RECORD_AT(OWNER, slope), RECORD_RANGE(-0.9, 0.9), .least = 1,
      .most = 2, .doc = "How the light rises over the width, and over the height downwards."},
-    NUMBER("mura", mura, -0.5, 0.5, "Height of the waves in the backlight."),
+    NUMBER("mura", 0, mura, -0.5, 0.5, "Height of the waves in the backlight."),
     {"mura_cycles", RECORD_NUMBERS, RECORD_AT(OWNER, mura_cycles), RECORD_RANGE(0, 100),
      .least = 1, .most = 2, .doc = "How many of them, across and down."},
-    NUMBER("tint", tint, -0.5, 0.5, "How X rises and Z falls over the width."),
-    NUMBER("clouding", clouding, 0, 100,
+    NUMBER("tint", 0, tint, -0.5, 0.5, "How X rises and Z falls over the width."),
+    NUMBER("clouding", 0, clouding, 0, 100,
            "How much brighter than in the middle black is in the corners."),
-    NUMBER("lobe_slope", lobe_slope, -1.9, 1.9,
+    NUMBER("lobe_slope", 0, lobe_slope, -1.9, 1.9,
            "How the lobe's gain rises over the width: the viewing angle by place."),
-    NUMBER("haze_slope", haze_slope, -1.9, 1.9, "How the share of haze rises over the width, "
-           "to 1 at most; then spots have a reflection each."),
+    NUMBER("haze_slope", 0, haze_slope, -1.9, 1.9,
+           "How the share of haze rises over the width, to 1 at most; then spots have a "
+           "reflection each."),
     DEGREES("bend_deg", bend, -150, 150,
             "Angle between the normals of the left and the right edge; above 0: concave."),
     {0}};
@@ -205,8 +195,8 @@ static bool check_places(const JsonView *view, void *item, Error *err)
 
 static const RecordFormat places_format = {
     "places", sizeof(OWNER), PLACES, .check = check_places,
-    .rules = "{\"dependentRequired\": {\"u\": [\"v\"], \"v\": [\"u\"]}, "
-             "\"anyOf\": [{\"required\": [\"u\"]}, {\"required\": [\"map\"]}]}",
+    .rules = "{'dependentRequired': {'u': ['v'], 'v': ['u']}, "
+             "'anyOf': [{'required': ['u']}, {'required': ['map']}]}",
     .doc = "What changes over the active area (x and y: from the middle, -0.5 to 0.5, right "
            "and down), and what is measured of it."};
 #undef OWNER
@@ -216,16 +206,15 @@ static const RecordFormat places_format = {
 #define OWNER SyntheticPanel
 
 static const RecordRow PANEL[] = {
-    RECORD_TEXT_ROW("panel", OWNER, name, "Name of the panel."),
-    RECORD_TEXT_ROW("note", OWNER, note, "Anything else."),
-    RECORD_PAIR_ROW("pixels", OWNER, pixels, 1, 65536, "Width and height."),
-    RECORD_PAIR_ROW("size_mm", OWNER, size_mm, 1, 1e5, "Width and height, mm."),
-    NUMBER("refractive_index", refractive_index, 1, 3, "Of the cover."),
-    {"emission", RECORD_OBJECT, MUST, RECORD_AT(OWNER, emission), .of = &emission_format},
-    {"reflection", RECORD_OBJECT, RECORD_AT(OWNER, reflection), .of = &reflection_format,
-     .count = offsetof(OWNER, reflection.exists)},
-    {"instrument", RECORD_OBJECT, RECORD_AT(OWNER, instrument), .of = &instrument_format},
-    {"places", RECORD_OBJECT, RECORD_AT(OWNER, places), .of = &places_format},
+    TEXT("panel", 0, name, "Name of the panel."),
+    TEXT("note", 0, note, "Anything else."),
+    VECTOR("pixels", 0, pixels, 2, 1, 65536, "Width and height."),
+    VECTOR("size_mm", 0, size_mm, 2, 1, 1e5, "Width and height, mm."),
+    NUMBER("refractive_index", 0, refractive_index, 1, 3, "Of the cover."),
+    OBJECT("emission", MUST, emission, emission_format, NULL),
+    PART("reflection", reflection, reflection.exists, reflection_format, NULL),
+    OBJECT("instrument", 0, instrument, instrument_format, NULL),
+    OBJECT("places", 0, places, places_format, NULL),
     DISPLAY_TRAITS_ROWS(OWNER, traits),
     {0}};
 

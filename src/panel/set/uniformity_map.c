@@ -7,9 +7,9 @@
 
 #include "base/count.h"
 #include "base/file.h"
-#include "base/units.h"
 #include "image/image.h"
 #include "openexr/exr_file.h"
+#include "record/rows.h"
 #include "text/csv_table.h"
 
 /* Planes as a file has them; channels 0: none. */
@@ -268,21 +268,30 @@ static bool read_file(MapFile *file, Arena *arena, Error *err)
 
 /* ---- the key ----------------------------------------------------------------------------- */
 
-static bool read_named(const JsonView *view, const char *key, MapFile *out, Error *err)
-{
-    const char *name = NULL;
-    *out = (MapFile){0};
-    if (!json_view_text(view, key, &name, err)) return false;
-    if (!name) return true;
-    return json_view_file(view, key, name, &out->path, err) &&
-           read_file(out, view->arena, err);
-}
+#define OWNER UniformityFiles
+static const RecordRow UNIFORMITY[] = {
+    {"file", RECORD_PATH, MUST | RECORD_FILLED, RECORD_AT(OWNER, file),
+     .doc = "EXR (X, Y, Z or Y; black.X ...), CSV (column, row, X, Y, Z or Y; black_X ...) or "
+            "a 16-bit PNG or TIFF (linear)."},
+    {"black", RECORD_PATH, RECORD_FILLED, RECORD_AT(OWNER, black),
+     .doc = "Black's own file, of as many pixels. Without any black, black goes with white."},
+    NUMBER("camera_mm", 0, camera_mm, 10, 1e6,
+           "Distance of the camera before the middle, where it saw all places from one point; "
+           "needs size_mm."),
+    NUMBER("bend_deg", RECORD_RADIANS, bend, -170, 170,
+           "Of a display bent about its vertical axis: the angle between the normals of its "
+           "left and right edge; above 0: concave."),
+    {0}};
+#undef OWNER
 
-static bool join_black(const JsonView *view, MapFile *white, const MapFile *black, Error *err)
+const RecordFormat uniformity_format = {"uniformity", sizeof(UniformityFiles), UNIFORMITY,
+                                        .doc = NULL};
+
+static bool join_black(const char *manifest, MapFile *white, const MapFile *black, Error *err)
 {
     if (!black->path) return true;
     if (white->black.channels)
-        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "black"),
+        return error_at(err, ERROR_INPUT, manifest, "/uniformity/black",
                         "names a file, but '%s' holds black too: required: one of them",
                         white->path);
     if (black->black.channels)
@@ -297,39 +306,20 @@ static bool join_black(const JsonView *view, MapFile *white, const MapFile *blac
     return true;
 }
 
-static bool read_camera(const JsonView *view, const double size_mm[2], UniformityMap *map,
-                        Error *err)
-{
-    double bend = 0;
-    if (!json_view_number(view, "camera_mm", 10, 1e6, &map->camera_mm, err) ||
-        !json_view_number(view, "bend_deg", -170, 170, &bend, err))
-        return false;
-    map->bend = radians_from_degrees(bend);
-    map->is_seen = map->camera_mm > 0 || bend != 0;
-    if (map->camera_mm > 0 && !(size_mm[0] > 0))
-        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "camera_mm"),
-                        "is there, but the manifest has no 'size_mm' to compare it with");
-    return true;
-}
-
-bool uniformity_map_read(const JsonView *view, const double size_mm[2],
+bool uniformity_map_read(const UniformityFiles *files, const char *manifest, Arena *arena,
                          const UniformityMap **out, Error *err)
 {
-    static const char *const keys[] = {"file", "black", "camera_mm", "bend_deg"};
-    MapFile white, black;
-    if (!view->object) return true;
-    if (!json_view_check_keys(view, keys, COUNT_OF(keys), err)) return false;
-    if (!json_object_get(view->object, "file"))
-        return error_at(err, ERROR_INPUT, view->file, view->path, "key 'file' is missing");
-    UniformityMap *map = ARENA_NEW(view->arena, UniformityMap, 1);
-    if (!read_named(view, "file", &white, err) || !read_named(view, "black", &black, err) ||
-        !join_black(view, &white, &black, err) || !read_camera(view, size_mm, map, err))
+    MapFile white = {.path = files->file}, black = {.path = files->black};
+    if (!files->file) return true;
+    if (!read_file(&white, arena, err) || (black.path && !read_file(&black, arena, err)) ||
+        !join_black(manifest, &white, &black, err))
         return false;
-    map->file = white.path;
-    map->width = white.width;
-    map->height = white.height;
-    map->white_channels = white.white.channels;
-    map->black_channels = white.black.channels;
+    UniformityMap *map = ARENA_NEW(arena, UniformityMap, 1);
+    *map = (UniformityMap){.file = white.path, .width = white.width, .height = white.height,
+                           .white_channels = white.white.channels,
+                           .black_channels = white.black.channels,
+                           .is_seen = files->camera_mm > 0 || files->bend != 0,
+                           .camera_mm = files->camera_mm, .bend = files->bend};
     int planes = 0;
     for (int k = 0; k < white.white.channels; k++) map->value[planes++] = white.white.value[k];
     for (int k = 0; k < white.black.channels; k++) map->value[planes++] = white.black.value[k];

@@ -15,7 +15,7 @@
  * Fails    with file, place, found and wanted.
  */
 #pragma once
-#include "text/json_view.h"
+#include "record/record.h"
 
 #define UNIFORMITY_SIDE_MAX 8192
 #define UNIFORMITY_PIXELS_MAX (1 << 23)
@@ -33,7 +33,15 @@ typedef struct UniformityMap {
                          (concave) */
 } UniformityMap;
 
-/* view->object NULL: there is none and *out stays NULL. size_mm: of the active area, 0 where
- * the manifest has none. */
-bool uniformity_map_read(const JsonView *view, const double size_mm[2],
+/* The key as it stands. */
+typedef struct UniformityFiles {
+    const char *file, *black; /* NULL: none */
+    double      camera_mm;    /* 0: it saw each place along its own normal */
+    double      bend;         /* radians */
+} UniformityFiles;
+
+extern const RecordFormat uniformity_format;
+
+/* Without a file *out stays NULL. manifest: for messages. */
+bool uniformity_map_read(const UniformityFiles *files, const char *manifest, Arena *arena,
                          const UniformityMap **out, Error *err);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/count.h"
-#include "review/output/review_members.h"
+#include "record/record_write.h"
 #include "review/output/review_rests.h"
 #include "review/review_decide.h"
 #include "text/json_text.h"
@@ -16,61 +16,108 @@
 
 /* ---- which keys hold which members ------------------------------------------------------- */
 
-static const Member LIMIT[] = {
+#define MUST RECORD_REQUIRED /* else older reviews may lack it */
+
+/* A member under a key, and under its own name; one that older reviews may lack. */
+#define AS_FIGURE(key, flag, Type, member)                                                     \
+    {key, RECORD_NUMBER, RECORD_NULL | (flag), RECORD_AT(Type, member),                        \
+     RECORD_RANGE(-HUGE_VAL, HUGE_VAL)}
+#define AS_TEXT(key, flag, Type, member)                                                       \
+    {key, RECORD_TEXT, RECORD_NULL | (flag), RECORD_AT(Type, member)}
+#define AS_RANGE(key, flag, Type, member)                                                      \
+    {key, RECORD_NUMBERS, RECORD_NULL | (flag), RECORD_AT(Type, member),                       \
+     RECORD_RANGE(-HUGE_VAL, HUGE_VAL), RECORD_COUNT(2, 2)}
+#define AS_FLAG(key, flag, Type, member) {key, RECORD_FLAG, flag, RECORD_AT(Type, member)}
+#define AS_COUNT(key, flag, Type, member)                                                      \
+    {key, RECORD_INTEGER, RECORD_LONG | (flag), RECORD_AT(Type, member), RECORD_RANGE(0, 1e18)}
+#define AS_WORD(key, flag, Type, member, list)                                                 \
+    {key, RECORD_CHOICE, flag, RECORD_AT(Type, member), .words = list}
+#define AS_AMBIENT(key, flag, Type, member) AS_WORD(key, flag, Type, member, ambient_names)
+#define AS_REASON(key, flag, Type, member)                                                     \
+    AS_WORD(key, RECORD_NULL | (flag), Type, member, unjudged_names + 1)
+#define AS_OPEN(key, flag, Type, member)                                                       \
+    AS_WORD(key, RECORD_NULL | (flag), Type, member, open_names + 1)
+#define AS_VERDICT(key, flag, Type, member)                                                    \
+    {key, RECORD_CHOICE, flag, RECORD_AT(Type, member), .words = verdict_names,                \
+     .read = read_verdict}
+#define AS(key, KIND, Type, member) AS_##KIND(key, MUST, Type, member)
+#define LATER(key, KIND, Type, member) AS_##KIND(key, 0, Type, member)
+#define OWN(KIND, Type, member) AS(#member, KIND, Type, member)
+#define LIST(key, flag, Type, member, number, table)                                           \
+    {key, RECORD_LIST, flag, RECORD_MANY(Type, member, number), .of = &table}
+#define PART(key, flag, Type, member, table)                                                   \
+    {key, RECORD_OBJECT, flag, RECORD_AT(Type, member), .of = &table}
+#define TOLD(key, flag, function) {key, RECORD_OWN, RECORD_WRITTEN | (flag), .write = function}
+
+/* The rows of a struct, and what reads and writes them. */
+#define TABLE(name, Type, ...)                                                                 \
+    static const RecordRow    name##_rows[] = {__VA_ARGS__, {0}};                              \
+    static const RecordFormat name = {#name, sizeof(Type), name##_rows, .takes_more = true}
+
+/* Reviews before there were four outcomes call one of them otherwise. */
+static bool read_verdict(const JsonView *view, const RecordRow *row, void *item, Error *err)
+{
+    const char *word = json_string_value(json_object_get(view->object, row->key));
+    if (!word || strcmp(word, "not visible") != 0)
+        return record_read_kind(view, row, item, err);
+    *(Verdict *)(void *)((char *)item + row->offset) = VERDICT_UNJUDGED;
+    return true;
+}
+
+TABLE(limit_json, LimitVerdict,
     OWN(TEXT, LimitVerdict, name), OWN(TEXT, LimitVerdict, kind),
     OWN(FIGURE, LimitVerdict, value), OWN(TEXT, LimitVerdict, unit),
     OWN(TEXT, LimitVerdict, source), OWN(FLAG, LimitVerdict, read_in_the_standard),
     AS("upper", FLAG, LimitVerdict, is_upper), AS("advice", FLAG, LimitVerdict, is_advice),
     OWN(FIGURE, LimitVerdict, found), AS("interval", RANGE, LimitVerdict, low),
-    OWN(FIGURE, LimitVerdict, margin), OWN(VERDICT, LimitVerdict, verdict), {0}};
+    OWN(FIGURE, LimitVerdict, margin), OWN(VERDICT, LimitVerdict, verdict));
 
-static const Member CAUSE[] = {
-    {"chain", MEMBER_TEXTS, offsetof(CaseCause, chain), .count = offsetof(CaseCause, links)},
+TABLE(cause_json, CaseCause,
+    {"chain", RECORD_TEXTS, MUST, RECORD_MANY(CaseCause, chain, links)},
     OWN(FIGURE, CaseCause, share), OWN(FIGURE, CaseCause, cd_m2),
-    AS("interval", RANGE, CaseCause, low), OWN(FIGURE, CaseCause, contrast_without), {0}};
+    AS("interval", RANGE, CaseCause, low), OWN(FIGURE, CaseCause, contrast_without));
 
-static const Member SHARE[] = {OWN(TEXT, CaseShare, what), OWN(FIGURE, CaseShare, share),
-                               OWN(FIGURE, CaseShare, cd_m2), {0}};
+TABLE(share_json, CaseShare,
+    OWN(TEXT, CaseShare, what), OWN(FIGURE, CaseShare, share),
+    OWN(FIGURE, CaseShare, cd_m2));
 
-static const Member GROUPS[] = {
-    LIST("light", ReviewCase, groups[GROUP_LIGHT].list, groups[GROUP_LIGHT].count, SHARE,
-         CaseShare),
-    LIST("opening", ReviewCase, groups[GROUP_OPENING].list, groups[GROUP_OPENING].count, SHARE,
-         CaseShare),
-    LIST("surface", ReviewCase, groups[GROUP_SURFACE].list, groups[GROUP_SURFACE].count, SHARE,
-         CaseShare), {0}};
+#define GROUP(key, id)                                                                         \
+    LIST(key, MUST, ReviewCase, groups[id].list, groups[id].count, share_json)
+TABLE(groups_json, ReviewCase,
+    GROUP("light", GROUP_LIGHT), GROUP("opening", GROUP_OPENING),
+    GROUP("surface", GROUP_SURFACE));
 
-static const Member HIDER[] = {OWN(TEXT, CaseHider, what), OWN(FIGURE, CaseHider, share),
-                               {0}};
+TABLE(hider_json, CaseHider,
+    OWN(TEXT, CaseHider, what), OWN(FIGURE, CaseHider, share));
 
-static const Member REMEDY[] = {
-    {"kind", MEMBER_WORD, offsetof(CaseRemedy, kind), .use = SINCE, .size = REMEDY_KINDS,
-     .words = remedy_kinds},
+TABLE(remedy_json, CaseRemedy,
+    {"kind", RECORD_CHOICE, RECORD_AT(CaseRemedy, kind), .words = remedy_kinds},
     OWN(TEXT, CaseRemedy, what), OWN(FIGURE, CaseRemedy, contrast_ratio),
     OWN(FIGURE, CaseRemedy, level),
-    {"then", MEMBER_OBJECT, offsetof(CaseRemedy, then), .use = SINCE, .of = LIMIT},
-    LATER("verdict", VERDICT, CaseRemedy, verdict), {0}};
+    PART("then", 0, CaseRemedy, then, limit_json),
+    LATER("verdict", VERDICT, CaseRemedy, verdict));
 
-static const Member PANEL[] = {
+TABLE(panel_json, CasePanel,
     OWN(TEXT, CasePanel, verdict), OWN(TEXT, CasePanel, reason),
     AS("coarse", FLAG, CasePanel, is_coarse), AS("not_usable", FLAG, CasePanel, is_unusable),
     OWN(FIGURE, CasePanel, emission_error), OWN(FIGURE, CasePanel, reflection_error),
-    LATER("spectra_assumed", TEXT, CasePanel, assumed), {0}};
+    LATER("spectra_assumed", TEXT, CasePanel, assumed));
 
-static const Member LUMINANCE[] = {
+TABLE(luminance_json, CaseLuminances,
     OWN(FIGURE, CaseLuminances, foreground), OWN(FIGURE, CaseLuminances, background),
     OWN(FIGURE, CaseLuminances, reflected), OWN(FIGURE, CaseLuminances, mirror),
-    OWN(FIGURE, CaseLuminances, scattered), OWN(FIGURE, CaseLuminances, veil), {0}};
+    OWN(FIGURE, CaseLuminances, scattered), OWN(FIGURE, CaseLuminances, veil));
 
-static const Member BOX[] = {OWN(FIGURE, CaseBox, left), OWN(FIGURE, CaseBox, top),
-                             OWN(FIGURE, CaseBox, right), OWN(FIGURE, CaseBox, bottom), {0}};
+TABLE(box_json, CaseBox,
+    OWN(FIGURE, CaseBox, left), OWN(FIGURE, CaseBox, top),
+    OWN(FIGURE, CaseBox, right), OWN(FIGURE, CaseBox, bottom));
 
-static const Member MEAN[] = {
+TABLE(mean_json, CaseWhole,
     OWN(FIGURE, CaseWhole, reflected),
     AS("reflected_interval", RANGE, CaseWhole, reflected_range),
-    OWN(FIGURE, CaseWhole, contrast_ratio), {0}};
+    OWN(FIGURE, CaseWhole, contrast_ratio));
 
-static const Member GLARE[] = {
+TABLE(glare_json, CaseGlare,
     OWN(FIGURE, CaseGlare, threshold_cd_m2), OWN(FIGURE, CaseGlare, background_cd_m2),
     AS("sources", COUNT, CaseGlare, source_count),
     AS("sources_lx", FIGURE, CaseGlare, source_lx),
@@ -78,7 +125,7 @@ static const Member GLARE[] = {
     AS("largest_source_sr", FIGURE, CaseGlare, largest_sr),
     AS("low_light_factor", FLAG, CaseGlare, low_light),
     AS("small_source_rule", FLAG, CaseGlare, small_sources),
-    AS("no_ugr_because", TEXT, CaseGlare, none), {0}};
+    AS("no_ugr_because", TEXT, CaseGlare, none));
 
 /* Of what has a CaseGlare. */
 #define GLARE_MEMBERS(Type)                                                                    \
@@ -87,59 +134,89 @@ static const Member GLARE[] = {
     LATER("dgp_interval", RANGE, Type, glare.dgp_range),                                       \
     LATER("ugr_interval", RANGE, Type, glare.ugr_range),                                       \
     LATER("dgi_interval", RANGE, Type, glare.dgi_range),                                       \
-    {"glare", MEMBER_OBJECT, offsetof(Type, glare), .use = SINCE, .of = GLARE}
+    PART("glare", 0, Type, glare, glare_json)
 
 /* Of a case, and of a false sun. */
-static const Member SUN[] = {{"azimuth_deg", MEMBER_FIGURE, .offset = 0},
-                             {"elevation_deg", MEMBER_FIGURE, .offset = sizeof(double)}, {0}};
+typedef struct SunAt {
+    double azimuth_deg, elevation_deg;
+} SunAt;
 
-static const Member CASE[] = {
+TABLE(sun_json, SunAt,
+    OWN(FIGURE, SunAt, azimuth_deg),
+    OWN(FIGURE, SunAt, elevation_deg));
+
+/* "limit" repeats one of "limits": the first that is equal. */
+static bool read_limit_id(const JsonView *view, const RecordRow *row, void *item, Error *err)
+{
+    ReviewCase   *c = item;
+    const json_t *limit = json_object_get(view->object, row->key);
+    const json_t *limits = json_object_get(view->object, "limits");
+    c->limit_id = -1;
+    if (json_is_null(limit) || !json_is_array(limits)) return true; /* limits are read, too */
+    for (size_t i = 0; i < json_array_size(limits) && c->limit_id < 0; i++)
+        if (json_equal(limit, json_array_get(limits, i))) c->limit_id = (int)i;
+    return c->limit_id >= 0 ||
+           record_fails(view, row->key, err, "required: one of 'limits', or null");
+}
+
+static json_t *write_limit(const void *item)
+{
+    const ReviewCase *c = item;
+    bool              has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
+    return has_limit ? record_write(&limit_json, &c->limits[c->limit_id]) : json_null();
+}
+
+/* The limit that made the case's verdict, or null. */
+static json_t *write_judged(const void *item)
+{
+    const LimitVerdict *limit = case_worst_limit(item);
+    return limit ? record_write(&limit_json, limit) : json_null();
+}
+
+TABLE(case_json, ReviewCase,
     OWN(TEXT, ReviewCase, condition), OWN(TEXT, ReviewCase, eye), OWN(TEXT, ReviewCase, symbol),
     OWN(TEXT, ReviewCase, display), OWN(AMBIENT, ReviewCase, ambient),
-    {"sun", MEMBER_IF, offsetof(ReviewCase, sun_azimuth_deg), .of = SUN,
-     .count = offsetof(ReviewCase, has_sun)},
-    {"luminance_cd_m2", MEMBER_OBJECT, offsetof(ReviewCase, luminance_cd_m2), .of = LUMINANCE},
-    {"symbol_mean", MEMBER_OBJECT, offsetof(ReviewCase, whole), .use = SINCE, .of = MEAN},
+    {"sun", RECORD_OBJECT, MUST | RECORD_NULL, .of = &sun_json,
+     RECORD_MANY(ReviewCase, sun_azimuth_deg, has_sun)},
+    PART("luminance_cd_m2", MUST, ReviewCase, luminance_cd_m2, luminance_json),
+    PART("symbol_mean", 0, ReviewCase, whole, mean_json),
     LATER("lit_share", FIGURE, ReviewCase, whole.lit_share),
-    {"judged_part_uv", MEMBER_OBJECT, offsetof(ReviewCase, whole.part), .use = SINCE,
-     .of = BOX},
+    PART("judged_part_uv", 0, ReviewCase, whole.part, box_json),
     OWN(FIGURE, ReviewCase, contrast_ratio),
     AS("contrast_interval", RANGE, ReviewCase, contrast_low),
-    {"reflected_interval", MEMBER_RANGE, offsetof(ReviewCase, reflected_range), .use = SINCE},
+    LATER("reflected_interval", RANGE, ReviewCase, reflected_range),
     OWN(COUNT, ReviewCase, paths),
-    {"precision_asked", MEMBER_FIGURE, offsetof(ReviewCase, precision_asked), .use = SINCE},
-    {"precision_reached", MEMBER_FIGURE, offsetof(ReviewCase, precision_reached), .use = SINCE},
-    {"open_by", MEMBER_OPEN, offsetof(ReviewCase, open_by), .use = SINCE},
-    {"paths_to_decide", MEMBER_FIGURE, offsetof(ReviewCase, paths_to_decide), .use = SINCE},
-    {"decide_times", MEMBER_FIGURE, offsetof(ReviewCase, decide_times), .use = SINCE},
+    LATER("precision_asked", FIGURE, ReviewCase, precision_asked),
+    LATER("precision_reached", FIGURE, ReviewCase, precision_reached),
+    LATER("open_by", OPEN, ReviewCase, open_by),
+    LATER("paths_to_decide", FIGURE, ReviewCase, paths_to_decide),
+    LATER("decide_times", FIGURE, ReviewCase, decide_times),
     OWN(FIGURE, ReviewCase, contrast_with_veil), OWN(FIGURE, ReviewCase, height_arcmin),
     LATER("stroke_ratio", FIGURE, ReviewCase, stroke_ratio),
     OWN(FIGURE, ReviewCase, jnd), OWN(FIGURE, ReviewCase, visibility),
     GLARE_MEMBERS(ReviewCase),
     OWN(FIGURE, ReviewCase, eye_failed_share), OWN(FIGURE, ReviewCase, visible_share),
-    LIST_SINCE("hidden_by", ReviewCase, hiders, hider_count, HIDER, CaseHider),
+    LIST("hidden_by", 0, ReviewCase, hiders, hider_count, hider_json),
     OWN(FIGURE, ReviewCase, level), OWN(FIGURE, ReviewCase, display_lux),
-    {"glasses_transmittance", MEMBER_FIGURE, offsetof(ReviewCase, glasses_transmittance),
-     .use = SINCE},
+    LATER("glasses_transmittance", FIGURE, ReviewCase, glasses_transmittance),
     LATER("glasses", TEXT, ReviewCase, glasses),
     LATER("glasses_display_loss", FIGURE, ReviewCase, glasses_display_loss),
-    {"limit", MEMBER_LIMIT, .of = LIMIT},
-    LIST("limits", ReviewCase, limits, limit_count, LIMIT, LimitVerdict),
-    {"judged", MEMBER_JUDGED, .use = WRITTEN, .of = LIMIT},
+    {"limit", RECORD_OWN, MUST, .read = read_limit_id, .write = write_limit},
+    LIST("limits", MUST, ReviewCase, limits, limit_count, limit_json),
+    {"judged", RECORD_OWN, RECORD_WRITTEN, .write = write_judged},
     OWN(FIGURE, ReviewCase, margin), OWN(VERDICT, ReviewCase, verdict),
     LATER("reason", REASON, ReviewCase, unjudged),
     LATER("optional", FLAG, ReviewCase, is_optional),
-    {"panel", MEMBER_OBJECT, offsetof(ReviewCase, panel), .use = SINCE, .of = PANEL},
-    LIST("causes", ReviewCase, causes, cause_count, CAUSE, CaseCause),
-    {"cause_groups", MEMBER_OBJECT, .use = WRITTEN, .of = GROUPS},
+    PART("panel", 0, ReviewCase, panel, panel_json),
+    LIST("causes", MUST, ReviewCase, causes, cause_count, cause_json),
+    {"cause_groups", RECORD_OBJECT, RECORD_WRITTEN, .of = &groups_json},
     LATER("without_data_share", FIGURE, ReviewCase, without_data_share),
     LATER("guessed_share", FIGURE, ReviewCase, guessed_share),
     LATER("extrapolated_share", FIGURE, ReviewCase, extrapolated_share),
     LATER("empty_seat", TEXT, ReviewCase, empty_seat),
     LATER("empty_seat_share", FIGURE, ReviewCase, empty_seat_share),
-    LIST("remedies", ReviewCase, remedies, remedy_count, REMEDY, CaseRemedy),
-    OWN(TEXT, ReviewCase, frame), OWN(TEXT, ReviewCase, outlook), OWN(TEXT, ReviewCase, when),
-    {0}};
+    LIST("remedies", MUST, ReviewCase, remedies, remedy_count, remedy_json),
+    OWN(TEXT, ReviewCase, frame), OWN(TEXT, ReviewCase, outlook), OWN(TEXT, ReviewCase, when));
 
 #define FOLLOWS(Type, second, first)                                                           \
     _Static_assert(offsetof(Type, second) == offsetof(Type, first) + sizeof(double), "a pair")
@@ -149,27 +226,27 @@ FOLLOWS(ReviewFalseSun, sun_elevation_deg, sun_azimuth_deg);
 FOLLOWS(LimitVerdict, high, low);
 FOLLOWS(CaseCause, high, low);
 
-static const Member SWEEP[] = {
+TABLE(sweep_json, ReviewSweep,
     OWN(TEXT, ReviewSweep, condition), OWN(TEXT, ReviewSweep, eye),
     OWN(TEXT, ReviewSweep, symbol),
-    {"verdict", MEMBER_VERDICT, offsetof(ReviewSweep, worst.verdict), .use = WRITTEN},
+    AS_VERDICT("verdict", RECORD_WRITTEN, ReviewSweep, worst.verdict),
     OWN(COUNT, ReviewSweep, cases), OWN(FIGURE, ReviewSweep, failed_share),
     OWN(FIGURE, ReviewSweep, longest_failure_minutes),
     LATER("middle_eye_contrast_ratio", FIGURE, ReviewSweep, middle_contrast),
-    {"worst", MEMBER_OBJECT, offsetof(ReviewSweep, worst), .of = CASE},
-    OWN(TEXT, ReviewSweep, table), {0}};
+    PART("worst", MUST, ReviewSweep, worst, case_json),
+    OWN(TEXT, ReviewSweep, table));
 
-static const Member VEIL[] = {OWN(FIGURE, GazeVeil, sun), OWN(FIGURE, GazeVeil, sky),
-                              OWN(FIGURE, GazeVeil, lamps), OWN(FIGURE, GazeVeil, glints),
-                              OWN(FIGURE, GazeVeil, surfaces), OWN(FIGURE, GazeVeil, near),
-                              {0}};
+TABLE(veil_json, GazeVeil,
+    OWN(FIGURE, GazeVeil, sun), OWN(FIGURE, GazeVeil, sky),
+    OWN(FIGURE, GazeVeil, lamps), OWN(FIGURE, GazeVeil, glints),
+    OWN(FIGURE, GazeVeil, surfaces), OWN(FIGURE, GazeVeil, near));
 
-static const Member GAZE[] = {
+TABLE(gaze_json, GazeFinding,
     OWN(TEXT, GazeFinding, condition), OWN(TEXT, GazeFinding, eye),
     OWN(TEXT, GazeFinding, gaze), AS("sun_from_gaze_deg", FIGURE, GazeFinding, sun_deg),
     AS("veil_cd_m2", FIGURE, GazeFinding, veil),
     AS("veil_interval", RANGE, GazeFinding, veil_range),
-    {"veil_parts_cd_m2", MEMBER_OBJECT, offsetof(GazeFinding, veil_parts), .of = VEIL},
+    PART("veil_parts_cd_m2", MUST, GazeFinding, veil_parts, veil_json),
     AS("cornea_lx", FIGURE, GazeFinding, cornea_lux),
     AS("through_cd_m2", FIGURE, GazeFinding, through),
     AS("mirrored_cd_m2", FIGURE, GazeFinding, mirrored),
@@ -177,54 +254,43 @@ static const Member GAZE[] = {
     OWN(TEXT, GazeFinding, mirrored_by), OWN(TEXT, GazeFinding, mirrored_from),
     OWN(FIGURE, GazeFinding, contrast_behind_glass), OWN(FIGURE, GazeFinding, contrast_left),
     AS("contrast_interval", RANGE, GazeFinding, contrast_range),
-    GLARE_MEMBERS(GazeFinding), {0}};
+    GLARE_MEMBERS(GazeFinding));
 
-static const Member RESPONSE[] = {
+TABLE(response_json, ReviewResponse,
     OWN(TEXT, ReviewResponse, probe), OWN(TEXT, ReviewResponse, file),
     OWN(COUNT, ReviewResponse, paths), OWN(COUNT, ReviewResponse, bytes),
-    OWN(FIGURE, ReviewResponse, relative_error), {0}};
+    OWN(FIGURE, ReviewResponse, relative_error));
 
-static const Member FALSE_SUN[] = {
+TABLE(false_sun_json, ReviewFalseSun,
     OWN(TEXT, ReviewFalseSun, condition), OWN(TEXT, ReviewFalseSun, eye),
     OWN(TEXT, ReviewFalseSun, mirror), OWN(FIGURE, ReviewFalseSun, share),
     OWN(FIGURE, ReviewFalseSun, minutes), OWN(FIGURE, ReviewFalseSun, longest_minutes),
     OWN(TEXT, ReviewFalseSun, when),
-    {"sun", MEMBER_OBJECT, offsetof(ReviewFalseSun, sun_azimuth_deg), .of = SUN},
+    PART("sun", MUST, ReviewFalseSun, sun_azimuth_deg, sun_json),
     OWN(FIGURE, ReviewFalseSun, lux), OWN(TEXT, ReviewFalseSun, gaze),
-    OWN(FIGURE, ReviewFalseSun, angle_deg), OWN(FIGURE, ReviewFalseSun, veil_cd_m2), {0}};
+    OWN(FIGURE, ReviewFalseSun, angle_deg), OWN(FIGURE, ReviewFalseSun, veil_cd_m2));
 
-static const Member REST[] = {
-    {"kind", MEMBER_WORD, offsetof(ReviewRest, kind), .size = REST_KINDS, .words = rest_kinds},
-    {"basis", MEMBER_WORD, offsetof(ReviewRest, basis), .size = REST_BASES,
-     .words = rest_bases},
+TABLE(rest_json, ReviewRest,
+    {"kind", RECORD_CHOICE, MUST, RECORD_AT(ReviewRest, kind), .words = rest_kinds},
+    {"basis", RECORD_CHOICE, MUST, RECORD_AT(ReviewRest, basis), .words = rest_bases},
     OWN(TEXT, ReviewRest, name), OWN(TEXT, ReviewRest, words), OWN(COUNT, ReviewRest, count),
-    OWN(COUNT, ReviewRest, of), {0}};
+    OWN(COUNT, ReviewRest, of));
 
-static const Member FILES[] = {OWN(TEXT, ReviewFile, path), OWN(TEXT, ReviewFile, xxh3), {0}};
+TABLE(files_json, ReviewFile,
+    OWN(TEXT, ReviewFile, path), OWN(TEXT, ReviewFile, xxh3));
 
-static const Member TRIAL[] = {
+TABLE(trial_json, ReviewTrial,
     OWN(FIGURE, ReviewTrial, value), OWN(VERDICT, ReviewTrial, verdict),
     AS("least_margin", FIGURE, ReviewTrial, margin), AS("of", TEXT, ReviewTrial, worst),
-    AS("fresh", FLAG, ReviewTrial, is_fresh), {0}};
+    AS("fresh", FLAG, ReviewTrial, is_fresh));
 
-static const Member MEND[] = {
+TABLE(mend_json, ReviewMend,
     OWN(TEXT, ReviewMend, name), OWN(TEXT, ReviewMend, unit), OWN(FIGURE, ReviewMend, at),
     AS("found", FLAG, ReviewMend, is_found), OWN(FIGURE, ReviewMend, value),
     OWN(FIGURE, ReviewMend, outside),
-    LIST("trials", ReviewMend, trials, trial_count, TRIAL, ReviewTrial), {0}};
+    LIST("trials", MUST, ReviewMend, trials, trial_count, trial_json));
 
-const Member review_members[] = {
-    OWN(FLAG, Review, pass), AS("strict", FLAG, Review, is_strict), OWN(TEXT, Review, title),
-    OWN(TEXT, Review, profile), LIST("cases", Review, cases, case_count, CASE, ReviewCase),
-    LIST("sweeps", Review, sweeps, sweep_count, SWEEP, ReviewSweep),
-    LIST("gazes", Review, gazes, gaze_count, GAZE, GazeFinding),
-    LIST("responses", Review, responses, response_count, RESPONSE, ReviewResponse),
-    LIST("false_suns", Review, false_suns, false_sun_count, FALSE_SUN, ReviewFalseSun),
-    {"notes", MEMBER_TEXTS, offsetof(Review, notes), .count = offsetof(Review, note_count)},
-    LIST_SINCE("rests_on", Review, rests_on, rests_on_count, REST, ReviewRest),
-    LIST_SINCE("inputs", Review, inputs, input_count, FILES, ReviewFile), {0}};
-
-/* ---- writing ----------------------------------------------------------------------------- */
+/* ---- parts that others show -------------------------------------------------------------- */
 
 static json_t *pair(double low, double high)
 {
@@ -236,79 +302,19 @@ static json_t *text(const char *string)
     return string ? json_text(string) : json_null();
 }
 
-static json_t *object_json(const Member *table, const void *item);
-
-static json_t *list_json(const Member *table, size_t size, const void *items, int count)
-{
-    json_t     *list = json_array();
-    const char *item = items;
-    for (int i = 0; i < count; i++, item += size)
-        json_array_append_new(list, object_json(table, item));
-    return list;
-}
-
-static json_t *limit_json(const ReviewCase *c)
-{
-    bool has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
-    return has_limit ? object_json(LIMIT, &c->limits[c->limit_id]) : json_null();
-}
-
-static json_t *judged_json(const ReviewCase *c)
-{
-    const LimitVerdict *limit = case_worst_limit(c);
-    return limit ? object_json(LIMIT, limit) : json_null();
-}
-
-/* Pointers of any kind are copied as what they are to. */
-static json_t *member_json(const Member *member, const void *item)
-{
-    const void   *at = (const char *)item + member->offset, *pointer;
-    const void   *count = (const char *)item + member->count;
-    const double *figure = at;
-    memcpy(&pointer, at, sizeof pointer);
-    switch (member->kind) {
-    case MEMBER_FIGURE: return json_figure(*figure);
-    case MEMBER_TEXT: return text(pointer);
-    case MEMBER_RANGE: return pair(figure[0], figure[1]);
-    case MEMBER_FLAG: return json_boolean(*(const bool *)at);
-    case MEMBER_COUNT: return json_integer(*(const long *)at);
-    case MEMBER_JUDGED: return judged_json(item);
-    case MEMBER_REASON: return text(unjudged_names[*(const Unjudged *)at]);
-    case MEMBER_OPEN: return text(open_names[*(const OpenBy *)at]);
-    case MEMBER_VERDICT: return json_string(verdict_names[*(const Verdict *)at]);
-    case MEMBER_AMBIENT: return json_string(ambient_names[*(const Ambient *)at]);
-    case MEMBER_WORD: return json_string(member->words[*(const int *)at]);
-    case MEMBER_IF: return *(const bool *)count ? object_json(member->of, at) : json_null();
-    case MEMBER_OBJECT: return object_json(member->of, at);
-    case MEMBER_TEXTS: return json_texts(pointer, *(const int *)count);
-    case MEMBER_LIST: return list_json(member->of, member->size, pointer, *(const int *)count);
-    default: return limit_json(item);
-    }
-}
-
-static json_t *object_json(const Member *table, const void *item)
-{
-    json_t *object = json_object();
-    for (const Member *member = table; member->key; member++)
-        json_object_set_new(object, member->key, member_json(member, item));
-    return object;
-}
-
-#define LIST_OF(table, items, count) list_json(table, sizeof *(items), items, count)
-
 json_t *review_groups_json(const ReviewCase *c)
 {
-    return object_json(GROUPS, c);
+    return record_write(&groups_json, c);
 }
 
 json_t *review_remedies_json(const ReviewCase *c)
 {
-    return LIST_OF(REMEDY, c->remedies, c->remedy_count);
+    return record_write_list(&remedy_json, c->remedies, c->remedy_count);
 }
 
 json_t *review_hiders_json(const ReviewCase *c)
 {
-    return LIST_OF(HIDER, c->hiders, c->hider_count);
+    return record_write_list(&hider_json, c->hiders, c->hider_count);
 }
 
 static void set(json_t *object, const char *key, json_t *value)
@@ -320,8 +326,8 @@ static void set(json_t *object, const char *key, json_t *value)
 static void set_members(json_t *object, const ReviewCase *c, const char *const *keys)
 {
     for (; *keys; keys++)
-        for (const Member *member = CASE; member->key; member++)
-            if (!strcmp(member->key, *keys)) set(object, *keys, member_json(member, c));
+        for (const RecordRow *row = case_json.rows; row->key; row++)
+            if (!strcmp(row->key, *keys)) set(object, *keys, record_write_value(row, c));
 }
 
 void review_whole_json(const ReviewCase *c, json_t *to)
@@ -381,32 +387,41 @@ static json_t *slope_json(const ReviewSlope *slope)
     return out;
 }
 
-static json_t *sensitivities_json(const Review *review)
+static json_t *write_slopes(const void *item)
 {
-    json_t *list = json_array();
-    for (int i = 0; i < review->sensitivity_count; i++) {
-        const ReviewSensitivity *s = &review->sensitivities[i];
-        json_t *slopes = json_array();
-        for (int k = 0; k < s->slope_count; k++)
-            json_array_append_new(slopes, slope_json(&s->slopes[k]));
-        json_array_append_new(
-            list, json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "name", text(s->name), "unit",
-                            text(s->unit), "at", json_figure(s->at), "step",
-                            json_figure(s->step), "compared", pair(s->low, s->high), "symbols",
-                            slopes));
-    }
-    return list;
+    const ReviewSensitivity *s = item;
+    json_t                  *slopes = json_array();
+    for (int i = 0; i < s->slope_count; i++)
+        json_array_append_new(slopes, slope_json(&s->slopes[i]));
+    return slopes;
+}
+
+FOLLOWS(ReviewSensitivity, high, low);
+TABLE(sensitivity_json, ReviewSensitivity,
+    OWN(TEXT, ReviewSensitivity, name), OWN(TEXT, ReviewSensitivity, unit),
+    OWN(FIGURE, ReviewSensitivity, at), OWN(FIGURE, ReviewSensitivity, step),
+    AS("compared", RANGE, ReviewSensitivity, low), TOLD("symbols", 0, write_slopes));
+
+/* ---- what is told of the whole ----------------------------------------------------------- */
+
+static json_t *write_variants(const void *item)
+{
+    const Review *review = item;
+    json_t       *variants = json_array();
+    for (int i = 0; i < review->variant_count; i++)
+        json_array_append_new(variants, variant_json(&review->variants[i]));
+    return variants;
 }
 
 /* What the displays' panels say of themselves. */
-static json_t *panels_json(const Review *review)
+static json_t *write_panels(const void *review)
 {
     Arena   scratch = arena_reserve(PLACES_BYTES);
     int     count;
     json_t *list = json_array();
     const ReviewCase **displays = review_displays(review, &count, &scratch);
     for (int i = 0; i < count; i++) {
-        json_t *panel = object_json(PANEL, &displays[i]->panel);
+        json_t *panel = record_write(&panel_json, &displays[i]->panel);
         set(panel, "display", text(displays[i]->display));
         json_array_append_new(list, panel);
     }
@@ -414,7 +429,7 @@ static json_t *panels_json(const Review *review)
     return list;
 }
 
-static json_t *places_json(const Review *review)
+static json_t *write_places(const void *review)
 {
     Arena         scratch = arena_reserve(PLACES_BYTES);
     int           count;
@@ -429,7 +444,7 @@ static json_t *places_json(const Review *review)
     return list;
 }
 
-static json_t *rests_line(const Review *review)
+static json_t *write_rests(const void *review)
 {
     Arena   scratch = arena_reserve(PLACES_BYTES);
     json_t *line = text(review_rests_words(review, &scratch));
@@ -437,39 +452,55 @@ static json_t *rests_line(const Review *review)
     return line;
 }
 
+static json_t *write_data_share(const void *review)
+{
+    (void)review;
+    return json_real(UNJUDGED_DATA_SHARE);
+}
+
+/* Nobody may take one that is not finished for one that passes. */
+static bool is_provisional(const Review *review)
+{
+    return review->is_partial && review->pass;
+}
+
+static json_t *write_pass(const void *review)
+{
+    return json_boolean(((const Review *)review)->pass && !is_provisional(review));
+}
+
+static json_t *write_verdict(const void *review)
+{
+    return json_string(is_provisional(review) ? "provisional"
+                                              : verdict_names[review_verdict(review)]);
+}
+
+TABLE(whole_json, Review,
+    {"pass", RECORD_FLAG, MUST, RECORD_AT(Review, pass), .write = write_pass},
+    TOLD("verdict", 0, write_verdict), AS("strict", FLAG, Review, is_strict),
+    OWN(TEXT, Review, title), OWN(TEXT, Review, profile),
+    AS_FLAG("provisional", RECORD_BRIEF, Review, is_partial),
+    AS_TEXT("to_come", RECORD_WRITTEN | RECORD_BRIEF, Review, to_come),
+    LIST("cases", MUST, Review, cases, case_count, case_json),
+    LIST("sweeps", MUST, Review, sweeps, sweep_count, sweep_json),
+    LIST("gazes", MUST, Review, gazes, gaze_count, gaze_json),
+    LIST("false_suns", MUST, Review, false_suns, false_sun_count, false_sun_json),
+    TOLD("variants", RECORD_BRIEF, write_variants),
+    LIST("sensitivity", RECORD_WRITTEN | RECORD_BRIEF, Review, sensitivities, sensitivity_count,
+         sensitivity_json),
+    LIST("mends", RECORD_WRITTEN | RECORD_BRIEF, Review, mends, mend_count, mend_json),
+    TOLD("eye_places", 0, write_places), TOLD("panels", 0, write_panels),
+    LIST("responses", MUST, Review, responses, response_count, response_json),
+    AS_TEXT("without_data", RECORD_WRITTEN, Review, without_data),
+    TOLD("without_data_share_most", 0, write_data_share),
+    LIST("rests_on", 0, Review, rests_on, rests_on_count, rest_json),
+    TOLD("rests_on_line", 0, write_rests),
+    LIST("inputs", 0, Review, inputs, input_count, files_json),
+    {"notes", RECORD_TEXTS, MUST, RECORD_MANY(Review, notes, note_count)});
+
 json_t *review_json(const Review *review)
 {
-    bool        is_open = review->is_partial && review->pass;
-    const char *verdict =
-        is_open ? "provisional" : verdict_names[review_verdict(review)];
-    json_t *out = json_pack("{s:b, s:s, s:b, s:o, s:o}", "pass", review->pass && !is_open,
-                            "verdict", verdict, "strict", review->is_strict, "title",
-                            text(review->title), "profile",
-                            text(review->profile));
-    if (review->is_partial) set(out, "provisional", json_true());
-    if (review->to_come) set(out, "to_come", text(review->to_come));
-    set(out, "cases", LIST_OF(CASE, review->cases, review->case_count));
-    set(out, "sweeps", LIST_OF(SWEEP, review->sweeps, review->sweep_count));
-    set(out, "gazes", LIST_OF(GAZE, review->gazes, review->gaze_count));
-    set(out, "false_suns",
-        LIST_OF(FALSE_SUN, review->false_suns, review->false_sun_count));
-    json_t *variants = review->variant_count ? json_array() : NULL;
-    for (int i = 0; i < review->variant_count; i++)
-        json_array_append_new(variants, variant_json(&review->variants[i]));
-    if (variants) set(out, "variants", variants);
-    if (review->sensitivity_count) set(out, "sensitivity", sensitivities_json(review));
-    if (review->mend_count)
-        set(out, "mends", LIST_OF(MEND, review->mends, review->mend_count));
-    set(out, "eye_places", places_json(review));
-    set(out, "panels", panels_json(review));
-    set(out, "responses", LIST_OF(RESPONSE, review->responses, review->response_count));
-    set(out, "without_data", text(review->without_data));
-    set(out, "without_data_share_most", json_real(UNJUDGED_DATA_SHARE));
-    set(out, "rests_on", LIST_OF(REST, review->rests_on, review->rests_on_count));
-    set(out, "rests_on_line", rests_line(review));
-    set(out, "inputs", LIST_OF(FILES, review->inputs, review->input_count));
-    set(out, "notes", json_texts(review->notes, review->note_count));
-    return out;
+    return record_write(&whole_json, review);
 }
 
 bool review_json_write(json_t *document, const char *path, Error *err)
@@ -482,5 +513,16 @@ bool review_json_write(json_t *document, const char *path, Error *err)
     text_add(&text, "\n");
     ok = ok && text_write(&text, path, err);
     arena_release(&arena);
+    return ok;
+}
+
+bool review_json_read(const char *file, Arena *arena, Review *out, Error *err)
+{
+    JsonView root;
+    Review   review = {0};
+    if (!json_view_open(file, arena, &root, err)) return false;
+    bool ok = record_read(&root, &whole_json, &review, err);
+    json_view_close(&root);
+    if (ok) *out = review;
     return ok;
 }

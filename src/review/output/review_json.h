@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* review_json.h -- a review as JSON; the keys are promised to scripts (and back:
- * review_json_read.h).
+/* review_json.h -- a review as JSON; the keys are promised to scripts, and back, to
+ * hold another one against it.
  *
  * Figures have six significant digits; what is not a finite number is null. The same review
  * gives the same bytes. Texts that are no UTF-8 lose what is not ASCII (text/json_text.h).
@@ -8,7 +8,8 @@
  * Units    as in verdict.h; keys name them.
  * Memory   documents are jansson's: whoever gets one releases it.
  * Threads  pure.
- * Fails    when the file cannot be written.
+ * Fails    when the file cannot be written; reading with the file, the JSON path, what was
+ *          found and what is required. Keys that a later version may add are passed over.
  */
 #pragma once
 #include <jansson.h>
@@ -34,3 +35,7 @@ json_t *review_json(const Review *review);
 
 /* A document becomes a file: review.json, diff.json. Takes the document. */
 bool review_json_write(json_t *document, const char *path, Error *err);
+
+/* Reads a file of review_json: every figure to its six digits, null as NaN. All lies in the
+ * arena. */
+bool review_json_read(const char *file, Arena *arena, Review *out, Error *err);

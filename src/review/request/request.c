@@ -10,12 +10,11 @@
 
 double review_level_of_lux(const ReviewLevel *level, double lux)
 {
-    int last = level->point_count - 1, i = 1;
-    if (!(lux > level->lux[0])) return level->level[0];
-    if (lux >= level->lux[last]) return level->level[last];
-    while (level->lux[i] < lux) i++;
-    double lux0 = level->lux[i - 1], lux1 = level->lux[i];
-    double level0 = level->level[i - 1], level1 = level->level[i];
+    const ReviewLevelPoint *p = level->points, *last = p + level->point_count - 1;
+    if (!(lux > p->lux)) return p->level;
+    if (lux >= last->lux) return last->level;
+    while (p[1].lux < lux) p++;
+    double lux0 = p[0].lux, lux1 = p[1].lux, level0 = p[0].level, level1 = p[1].level;
     if (!(lux0 > 0) || !(level0 > 0))
         return level0 + (level1 - level0) * (lux - lux0) / (lux1 - lux0);
     return level0 * pow_d(level1 / level0, log_d(lux / lux0) / log_d(lux1 / lux0));
@@ -151,7 +150,7 @@ const ReviewEye *review_eye_named(const ReviewRequest *request, const char *name
 
 bool review_is_optional(const ReviewRequest *request, int symbol_id, const ReviewEye *eye)
 {
-    const bool *optional_for = request->symbols[symbol_id].optional_for;
+    const int *optional_for = request->symbols[symbol_id].optional_for;
     for (int i = 0; i < request->eye_count; i++)
         if (optional_for && !strcmp(request->eyes[i].name, eye->name)) return optional_for[i];
     return false;

@@ -32,6 +32,11 @@ typedef struct ReviewFixedLevel {
     double      level;
 } ReviewFixedLevel;
 
+/* Of all displays, where the sensor has so many lx. */
+typedef struct ReviewLevelPoint {
+    double lux, level;
+} ReviewLevelPoint;
+
 typedef struct ReviewLevel {
     const char       *name;
     ReviewFixedLevel *fixed;
@@ -39,7 +44,7 @@ typedef struct ReviewLevel {
     /* or, of all displays, a curve: */
     bool    is_curve;
     double  position_m[3], normal[3]; /* the sensor's, scene's frame; normal is unit */
-    double *lux, *level;              /* [point_count]: lux rises, level does not fall */
+    const ReviewLevelPoint *points;   /* lux rises, level does not fall */
     int     point_count;
 } ReviewLevel;
 
@@ -129,8 +134,8 @@ typedef struct ReviewSymbol {
     double         uv[4];     /* left, top, right, bottom of the content; else all of it */
     bool           find_text; /* symbols are to be found inside uv */
     ReviewPolarity polarity;
-    bool          *optional_for; /* [eye_count]: whether that eye need not see it; what it does
-                                    see of it is judged all the same */
+    const int     *optional_for; /* [eye_count]: 1: that eye need not see it; what it does see
+                                    of it is judged all the same. NULL: all 0 */
 } ReviewSymbol;
 
 /* More files of a scene: occupants. */
@@ -198,7 +203,7 @@ typedef struct ReviewCondition {
     int          year;
     SkyPlace     where;          /* year; the weather file's where none is given */
     double       step_minutes;
-    double      *headings_deg;
+    const double *headings_deg;
     int          heading_count;
     bool         with_night;     /* hours without sun count too */
 } ReviewCondition;

@@ -1,77 +1,79 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/request/request_conditions.h"
-
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/file.h"
 #include "base/units.h"
-#include "review/request/request_eyes.h"
-#include "review/request/request_glasses.h"
+#include "record/rows.h"
+#include "review/request/request_format.h"
+#include "scene/check/our_extensions.h"
 #include "scene/load/environment.h"
+
+#define OWNER ReviewCondition
 
 /* ---- weather ----------------------------------------------------------------------------- */
 
-static bool add_weather(RequestReading *reading, const char *path, Error *err)
+static bool add_weather(const JsonView *view, const char *path, Error *err)
 {
-    ReviewRequest *request = reading->request;
-    Arena         *arena = reading->root.arena;
+    ReviewRequest *request = view->whole;
     ReviewWeather  found = {.path = path};
-    if (!weather_read(path, arena, &found.weather, err) ||
-        !request_note_file(reading, path, err))
+    int            count = request->weather_count;
+    if (!weather_read(path, view->arena, &found.weather, err) ||
+        !request_note_file(view, path, err))
         return false;
-    found.clock = weather_clock_find(&found.weather, NULL, *arena);
-    if (request->weather_count == reading->weather_capacity) {
-        reading->weather_capacity = 2 * reading->weather_capacity + 4;
-        request->weathers = ARENA_GROW(arena, ReviewWeather, request->weathers,
-                                       request->weather_count, reading->weather_capacity);
-    }
+    found.clock = weather_clock_find(&found.weather, NULL, *view->arena);
+    if (!(count & (count - 1))) /* full: it doubles */
+        request->weathers = ARENA_GROW(view->arena, ReviewWeather, request->weathers, count,
+                                       count ? 2 * count : 1);
     request->weathers[request->weather_count++] = found;
     return true;
 }
 
-/* "clear" or absent: NO_ID; else the file's place among the request's weathers. */
-static bool find_weather(RequestReading *reading, const JsonView *view, int *weather_id,
-                         Error *err)
+/* "clear": NO_ID; else the file's place among the request's weathers. */
+static bool read_weather(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
-    const ReviewRequest *request = reading->request;
-    const char          *text = "clear", *path = NULL;
-    *weather_id = NO_ID;
-    if (!json_view_text(view, "weather", &text, err)) return false;
+    const ReviewRequest *request = view->whole;
+    int                 *weather_id = &((ReviewCondition *)item)->weather_id;
+    RecordRow            word = {.key = row->key, .kind = RECORD_TEXT};
+    const char          *text, *path;
+    if (!record_read_kind(view, &word, &text, err)) return false;
     if (!strcmp(text, "clear")) return true;
     if (strcmp(path_ending(text), ".epw"))
-        return field_fails(view, "weather", err,
-                           "is '%.60s', required: 'clear' or a weather file .epw", text);
-    if (!field_file(view, "weather", &path, err)) return false;
+        return record_fails(view, row->key, err,
+                            "is '%.60s', required: 'clear' or a weather file .epw", text);
+    if (!record_read_kind(view, row, &path, err)) return false;
     for (int i = 0; i < request->weather_count; i++)
         if (!strcmp(request->weathers[i].path, path)) *weather_id = i;
     if (*weather_id != NO_ID) return true;
     *weather_id = request->weather_count;
-    return add_weather(reading, path, err);
+    return add_weather(view, path, err);
 }
 
-/* A weather file, and by what its lux are known. */
-static bool read_weather(RequestReading *reading, const JsonView *view,
-                         ReviewCondition *condition, Error *err)
+static bool check_weather(const JsonView *view, const ReviewCondition *condition, Error *err)
 {
-    static const char *const rules[] = {"perez", "file"};
-    int lux = WEATHER_LUX_PEREZ;
-    if (!find_weather(reading, view, &condition->weather_id, err) ||
-        !field_choice(view, "weather_lux", (FieldWords){rules, COUNT_OF(rules)}, &lux, err))
-        return false;
-    condition->weather_lux = (WeatherLux)lux;
-    return condition->weather_id != NO_ID || !json_object_get(view->object, "weather_lux") ||
-           field_fails(view, "weather_lux", err, "stands without a weather file, required: one "
-                       "in 'weather'");
+    return condition->weather_id != NO_ID || !record_has(view, "weather_lux") ||
+           record_fails(view, "weather_lux", err,
+                        "stands without a weather file, required: one in 'weather'");
 }
+
+static const char *const LUX[] = {[WEATHER_LUX_PEREZ] = "perez", [WEATHER_LUX_FILE] = "file",
+                                  NULL};
+
+#define WEATHER_ROWS                                                                           \
+    {"weather", RECORD_FILE, .read = read_weather,                                             \
+     .doc = "clear, or a weather file with a row for every step that counts; excludes "        \
+            "environment unless clear."},                                                      \
+    CHOICE("weather_lux", 0, weather_lux, LUX,                                                 \
+           "A weather file's lux: its irradiances times Perez 1990's luminous efficacies "     \
+           "with water by the dew point, or the file's own columns.")
+
+/* ---- over the sun's direction ------------------------------------------------------------ */
 
 #define RANGE_MAX 100000 /* values of one range */
 #define SUNS_MAX 10000000
 #define STEP_LEAST 1e-4 /* degrees */
-#define HEADINGS_MAX 3600
-#define WHOLE 1e-6 /* of a step: how much its multiples may miss the last value by */
-
-/* ---- over the sun's direction ------------------------------------------------------------ */
+#define STEP_SLACK 1e-6 /* of a step: how much its multiples may miss the last value by */
 
 /* The step nearest to the written one that divides first to last into whole steps. */
 static double fitting_step(const double value[3])
@@ -80,144 +82,172 @@ static double fitting_step(const double value[3])
     return length / fmax(1, round(length / value[2]));
 }
 
-static bool read_range(const JsonView *view, const char *key, JsonRange bounds,
-                       ReviewRange *out, Error *err)
+static bool read_range(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
-    double value[3];
-    if (!field_wanted(view, key, err)) return false;
+    double        value[3];
+    const char   *key = row->key;
+    RecordRow     own = *row;
     const json_t *step = json_array_get(json_object_get(view->object, key), 2);
     if (json_array_size(json_object_get(view->object, key)) == 3 && json_is_number(step) &&
         !(json_number_value(step) >= STEP_LEAST))
-        return field_fails(view, key, err, "has a step of %g, required: at least %g",
-                           json_number_value(step), STEP_LEAST);
-    if (!field_numbers(view, key, bounds, value, NULL, err)) return false;
+        return record_fails(view, key, err, "has a step of %g, required: at least %g",
+                            json_number_value(step), STEP_LEAST);
+    own.offset = 0;
+    if (!record_read_kind(view, &own, value, err)) return false;
     if (value[1] < value[0])
-        return field_fails(view, key, err,
-                           "goes from %g to %g, which is empty; required: [first, last, step] "
-                           "with last not below first", value[0], value[1]);
+        return record_fails(view, key, err,
+                            "goes from %g to %g, which is empty; required: [first, last, step] "
+                            "with last not below first", value[0], value[1]);
     double steps = (value[1] - value[0]) / value[2];
     if (steps > RANGE_MAX)
-        return field_fails(view, key, err, "has %.0f values, required: at most %d", steps + 1,
-                           RANGE_MAX);
-    if (fabs(steps - round(steps)) > WHOLE)
-        return field_fails(view, key, err,
-                           "does not come from %g to %g in steps of %g, required: a step such "
-                           "as %.6g", value[0], value[1], value[2], fitting_step(value));
-    *out = (ReviewRange){value[0], value[1], value[2], (int)round(steps) + 1};
+        return record_fails(view, key, err, "has %.0f values, required: at most %d", steps + 1,
+                            RANGE_MAX);
+    if (fabs(steps - round(steps)) > STEP_SLACK)
+        return record_fails(view, key, err,
+                            "does not come from %g to %g in steps of %g, required: a step such "
+                            "as %.6g", value[0], value[1], value[2], fitting_step(value));
+    *(ReviewRange *)(void *)((char *)item + row->offset) =
+        (ReviewRange){value[0], value[1], value[2], (int)round(steps) + 1};
     return true;
 }
 
-static bool read_suns(const JsonView *sweep, ReviewCondition *condition, Error *err)
+#define RANGE(key, member, low, high, words)                                                   \
+    {key, RECORD_NUMBERS, MUST, RECORD_AT(OWNER, member), RECORD_RANGE(low, high),             \
+     RECORD_COUNT(3, 3), .read = read_range, .doc = words}
+
+static const RecordRow SUN[] = {
+    RANGE("azimuth_deg", azimuth_deg, -360, 720,
+          "[first, last, step], both ends in. From north over east; without heading_deg from "
+          "ahead over right."),
+    RANGE("elevation_deg", elevation_deg, -18, 90, "[first, last, step], both ends in."),
+    {0}};
+
+static bool check_sun(const JsonView *view, void *item, Error *err)
 {
-    static const char *const keys[] = {"sun", "sky"}, *const skies[] = {"sky"};
-    static const char *const axes[] = {"azimuth_deg", "elevation_deg"};
-    JsonView sun;
-    int      sky = 0;
-    condition->kind = CONDITION_SUN_SWEEP;
-    if (!json_view_check_keys(sweep, keys, COUNT_OF(keys), err) ||
-        !json_view_child(sweep, "sun", true, &sun, err) ||
-        !json_view_check_keys(&sun, axes, COUNT_OF(axes), err) ||
-        !field_choice(sweep, "sky", (FieldWords){skies, 1}, &sky, err) ||
-        !read_range(&sun, axes[0], (JsonRange){-360, 720, 3}, &condition->azimuth_deg, err) ||
-        !read_range(&sun, axes[1], (JsonRange){-18, 90, 3}, &condition->elevation_deg, err))
-        return false;
-    if (condition->azimuth_deg.last - condition->azimuth_deg.first > 360)
-        return field_fails(&sun, axes[0], err, "spans %g degrees, required: at most 360",
-                           condition->azimuth_deg.last - condition->azimuth_deg.first);
-    double suns = (double)condition->azimuth_deg.count * condition->elevation_deg.count;
+    const ReviewCondition *condition = item;
+    const ReviewRange     *azimuth = &condition->azimuth_deg;
+    if (azimuth->last - azimuth->first > 360)
+        return record_fails(view, "azimuth_deg", err, "spans %g degrees, required: at most 360",
+                            azimuth->last - azimuth->first);
+    double suns = (double)azimuth->count * condition->elevation_deg.count;
     return suns <= SUNS_MAX ||
-           error_at(err, ERROR_INPUT, sun.file, sun.path, "has %.0f suns, required: at most %d",
-                    suns, SUNS_MAX);
+           error_at(err, ERROR_INPUT, view->file, view->path,
+                    "has %.0f suns, required: at most %d", suns, SUNS_MAX);
 }
+
+static const RecordFormat sun_format = {"sun", sizeof(OWNER), SUN, .check = check_sun};
 
 /* ---- over a year ------------------------------------------------------------------------- */
 
-/* [latitude, longitude] or with an altitude. */
-static bool read_place(const JsonView *view, SkyPlace *out, bool *found, Error *err)
+static bool read_place(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
-    double value[3] = {0, 0, 0};
-    int    count = 0;
-    if (!json_view_numbers(view, "where", (JsonRange){-500, 60000, 3}, value, &count, err))
-        return false;
-    *found = count > 0;
-    if (!count) return true;
-    if (count < 2 || fabs(value[0]) > 90 || fabs(value[1]) > 360)
-        return field_fails(view, "where", err,
-                           "is no place, required: [latitude -90 to 90, longitude -360 to "
-                           "360] in degrees north and east, and an altitude in m");
-    *out = (SkyPlace){value[0], value[1], value[2]};
+    double place[3] = {0, 0, 0};
+    if (!record_read_kind(view, row, place, err)) return false;
+    if (fabs(place[0]) > 90 || fabs(place[1]) > 360)
+        return record_fails(view, row->key, err,
+                            "is no place, required: [latitude -90 to 90, longitude -360 to "
+                            "360] in degrees north and east, and an altitude in m");
+    ((ReviewCondition *)item)->where = (SkyPlace){place[0], place[1], place[2]};
     return true;
-}
-
-static bool is_same_heading(double a, double b)
-{
-    return fabs(remainder(a - b, 360)) < 1e-9;
 }
 
 /* A heading that stands twice would count twice. */
 static bool check_headings(const JsonView *view, const ReviewCondition *condition, Error *err)
 {
+    const double *degrees = condition->headings_deg;
     for (int i = 0; i < condition->heading_count; i++)
         for (int k = 0; k < i; k++)
-            if (is_same_heading(condition->headings_deg[i], condition->headings_deg[k]))
-                return field_fails(view, "headings_deg", err,
-                                   "holds %g and %g, required: each heading once",
-                                   condition->headings_deg[k], condition->headings_deg[i]);
+            if (fabs(remainder(degrees[i] - degrees[k], 360)) < 1e-9)
+                return record_fails(view, "headings_deg", err,
+                                    "holds %g and %g, required: each heading once", degrees[k],
+                                    degrees[i]);
     return true;
 }
 
-static bool read_headings(const JsonView *view, ReviewCondition *condition, Error *err)
+/* What is not said: each hour, heading north, where the weather was measured. */
+static bool check_year(const JsonView *view, ReviewCondition *condition, Error *err)
 {
-    condition->headings_deg = ARENA_NEW(view->arena, double, HEADINGS_MAX);
-    condition->heading_count = 1; /* north */
-    return json_view_numbers(view, "headings_deg", (JsonRange){-360, 360, HEADINGS_MAX},
-                             condition->headings_deg, &condition->heading_count, err) &&
-           check_headings(view, condition, err);
-}
-
-static bool find_place(const RequestReading *reading, const JsonView *sweep,
-                       ReviewCondition *condition, Error *err)
-{
-    bool found;
-    if (!read_place(sweep, &condition->where, &found, err)) return false;
-    if (found) return true;
-    if (condition->weather_id == NO_ID) return field_wanted(sweep, "where", err);
-    condition->where = reading->request->weathers[condition->weather_id].weather.place;
+    static const double  NORTH[1];
+    const ReviewRequest *request = view->whole;
+    if (!check_weather(view, condition, err) || !check_headings(view, condition, err))
+        return false;
+    if (!record_has(view, "step_minutes")) condition->step_minutes = 60;
+    if (!record_has(view, "headings_deg")) {
+        condition->headings_deg = NORTH;
+        condition->heading_count = 1;
+    }
+    if (record_has(view, "where")) return true;
+    if (condition->weather_id == NO_ID)
+        return record_misses(view, "where", err);
+    condition->where = request->weathers[condition->weather_id].weather.place;
     return true;
 }
 
-static bool read_year(RequestReading *reading, const JsonView *sweep,
-                      ReviewCondition *condition, Error *err)
+/* ---- a sweep ----------------------------------------------------------------------------- */
+
+static const char *const SKY[] = {"sky", NULL};
+
+static const RecordRow SWEEP[] = {
+    {"sun", RECORD_OBJECT, .of = &sun_format, .doc = "Over its directions, in a clear sky."},
+    {"sky", RECORD_CONST, .words = SKY, .doc = "Beside sun: the clear atmosphere."},
+    WHOLE("year", RECORD_OPEN, year, 1900, 2100, "Over its hours; the rest stands beside it."),
+    {"where", RECORD_NUMBERS, RECORD_RANGE(-500, 60000), RECORD_COUNT(2, 3), .read = read_place,
+     .doc = "Latitude (degrees north), longitude (degrees east), altitude (m); default: the "
+            "weather file's."},
+    NUMBER("step_minutes", 0, step_minutes, 0.5, 1440, "Default: 60."),
+    FIGURES("headings_deg", 0, headings_deg, heading_count, 1, 3600, -360, 360,
+            "None twice; default: north."),
+    WEATHER_ROWS,
+    FLAG("night", 0, with_night, "Whether hours without sun count too."),
+    {0}};
+#define OF_SUN 2 /* rows */
+
+/* Sets the condition's kind and what belongs to it. */
+static bool check_sweep(const JsonView *view, void *item, Error *err)
 {
-    static const char *const keys[] = {"year",         "where",   "step_minutes",
-                                       "headings_deg", "weather", "weather_lux", "night"};
-    condition->kind = CONDITION_YEAR_SWEEP;
-    condition->step_minutes = 60;
-    return json_view_check_keys(sweep, keys, COUNT_OF(keys), err) &&
-           field_integer(sweep, "year", (FieldBounds){1900, 2100}, &condition->year, err) &&
-           json_view_number(sweep, "step_minutes", 0.5, 1440, &condition->step_minutes, err) &&
-           read_headings(sweep, condition, err) &&
-           field_boolean(sweep, "night", &condition->with_night, err) &&
-           read_weather(reading, sweep, condition, err) &&
-           find_place(reading, sweep, condition, err);
+    ReviewCondition *condition = item;
+    bool             has_sun = record_has(view, "sun");
+    if (!record_one_of(view, "sun", "year", err)) return false;
+    for (int i = 0; SWEEP[i].key; i++)
+        if (record_has(view, SWEEP[i].key) && (i < OF_SUN) != has_sun)
+            return record_fails(view, SWEEP[i].key, err, "stands beside '%s', required: '%s'",
+                                has_sun ? "sun" : "year", has_sun ? "year" : "sun");
+    condition->kind = has_sun ? CONDITION_SUN_SWEEP : CONDITION_YEAR_SWEEP;
+    return has_sun || check_year(view, condition, err);
 }
 
-/* view: of the sweep. Sets the condition's kind and what belongs to it. */
-static bool read_sweep(RequestReading *reading, const JsonView *view,
-                       ReviewCondition *condition, Error *err)
+static const RecordFormat sweep_format = {
+    "sweep", sizeof(OWNER), SWEEP, .check = check_sweep,
+    .rules = "{'oneOf': [{'required': ['sun']}, {'required': ['year'], "
+             "'anyOf': [{'required': ['where']}, {'required': ['weather']}]}], "
+             "'dependentRequired': {'sky': ['sun'], 'weather_lux': ['weather'], "
+             "'weather': ['year'], 'night': ['year']}}"};
+
+/* ---- a route ----------------------------------------------------------------------------- */
+
+static bool read_route(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
-    static const char *const keys[] = {"sun",   "sky",          "year",         "where",
-                                       "night", "step_minutes", "headings_deg", "weather",
-                                       "weather_lux"};
-    bool has_sun = json_object_get(view->object, "sun") != NULL;
-    bool has_year = json_object_get(view->object, "year") != NULL;
-    if (!json_view_check_keys(view, keys, COUNT_OF(keys), err)) return false;
-    if (has_sun == has_year)
-        return error_at(err, ERROR_INPUT, view->file, view->path,
-                        "has %s, required: one of 'sun' and 'year'",
-                        has_sun ? "both" : "neither");
-    return has_sun ? read_suns(view, condition, err)
-                   : read_year(reading, view, condition, err);
+    const char      *path;
+    ReviewCondition *condition = item;
+    condition->kind = CONDITION_ROUTE;
+    return record_read_kind(view, row, &path, err) &&
+           route_read(path, view->arena, &condition->route, err) &&
+           request_note_file(view, path, err);
+}
+
+static bool read_when(const JsonView *view, const RecordRow *row, void *item, Error *err)
+{
+    Error       why;
+    SkyTime     when;
+    const char *text;
+    if (!record_has(view, "route"))
+        return record_fails(view, row->key, err, "stands without 'route', required: beside a "
+                                                 "route or in 'environment'");
+    if (!record_read_kind(view, row, &text, err)) return false;
+    if (!sky_time_parse(text, "", &when, &why))
+        return record_fails(view, row->key, err, "%s", why.text);
+    route_start_at(&((ReviewCondition *)item)->route, &when);
+    return true;
 }
 
 /* ---- light ------------------------------------------------------------------------------- */
@@ -226,19 +256,17 @@ static bool read_sweep(RequestReading *reading, const JsonView *view,
 static bool check_directions(const JsonView *view, const JsonView *environment,
                              const ReviewCondition *condition, Error *err)
 {
-    bool has_heading = json_object_get(environment->object, "heading_deg") != NULL;
-    if (json_object_get(environment->object, "forward"))
-        return field_fails(environment, "forward", err,
-                           "stands in a condition, required: at the top of the file");
-    if (has_heading && condition->has_heading)
-        return field_fails(view, "heading_deg", err,
-                           "stands in 'environment' as well, required: once");
-    if (has_heading &&
-        (condition->kind == CONDITION_ROUTE || condition->kind == CONDITION_YEAR_SWEEP))
-        return field_fails(environment, "heading_deg", err,
-                           "stands in a condition that has headings of its own, required: "
-                           "none");
-    return true;
+    bool has_heading = record_has(environment, "heading_deg");
+    if (record_has(environment, "forward"))
+        return record_fails(environment, "forward", err,
+                            "stands in a condition, required: at the top of the file");
+    if (has_heading && record_has(view, "heading_deg"))
+        return record_fails(view, "heading_deg", err,
+                            "stands in 'environment' as well, required: once");
+    return !has_heading || (condition->kind != CONDITION_ROUTE &&
+                            condition->kind != CONDITION_YEAR_SWEEP) ||
+           record_fails(environment, "heading_deg", err,
+                        "stands in a condition that has headings of its own, required: none");
 }
 
 /* Beside a route or a sweep the environment gives a clear sky's air. */
@@ -250,201 +278,124 @@ static bool check_kind(const JsonView *environment, const ReviewCondition *condi
         return error_at(err, ERROR_INPUT, environment->file, environment->path,
                         "stands beside a weather file, required: one of them");
     return condition->environment.kind == ENVIRONMENT_SKY ||
-           field_fails(environment, "type", err,
-                       "is not 'sky', which is required: a route and a sweep move the "
-                       "sun of a clear sky");
+           record_fails(environment, "type", err, "is not 'sky', which is required: a route "
+                        "and a sweep move the sun of a clear sky");
 }
 
-/* view: of condition i, whose time and heading are read already. */
-static bool read_light(RequestReading *reading, const JsonView *view, int i,
-                       ReviewCondition *condition, Error *err)
+/* As in a scene; the condition's time and heading are read already. */
+static bool read_environment(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
-    EnvironmentFound found;
-    JsonView         environment;
-    if (!json_view_child(view, "environment", false, &environment, err)) return false;
-    if (!environment.object) return true;
-    const GltfValue *item = tree_item(tree_member(reading->tree, "conditions"), i);
-    EnvironmentText  text = {view->file, tree_member(item, "environment"), view->root};
-    if (!check_directions(view, &environment, condition, err) ||
-        !environment_text_read(&text, view->arena, reading->problems, &found, err))
+    EnvironmentFound     found;
+    JsonView             inside;
+    ReviewCondition     *condition = item;
+    const ReviewRequest *request = view->whole;
+    if (!json_view_child(view, row->key, &inside, err) ||
+        !check_directions(view, &inside, condition, err))
         return false;
+    char *text = json_dumps(inside.object, JSON_COMPACT);
+    bool  is_read = environment_text_read(
+        &(EnvironmentText){view->file, inside.path, text, view->root}, view->arena,
+        view->problems, &found, err);
+    free(text);
+    if (!is_read) return false;
     condition->has_environment = true;
     condition->environment = found.environment;
-    if (json_object_get(environment.object, "heading_deg")) {
+    if (record_has(&inside, "heading_deg")) {
         condition->has_heading = true;
-        condition->heading_deg = json_number_value(json_object_get(environment.object,
+        condition->heading_deg = json_number_value(json_object_get(inside.object,
                                                                    "heading_deg"));
     }
-    condition->environment.forward = vec3_from_doubles(reading->request->forward);
+    condition->environment.forward = vec3_from_doubles(request->forward);
     condition->environment.heading = (float)radians_from_degrees(condition->heading_deg);
-    if (found.picture) request_note_input(reading, found.picture, found.picture_hash);
-    return check_kind(&environment, condition, err);
-}
-
-#define CONDITIONS_MAX 10000
-
-static const char *const KEYS[] = {"name",     "environment", "lights", "heading_deg", "level",
-                                   "with",     "polarity",    "contents", "route",     "when",
-                                   "weather",  "weather_lux", "sweep",  "sunglasses"};
-
-static bool has(const JsonView *view, const char *key)
-{
-    return json_object_get(view->object, key) != NULL;
-}
-
-/* ---- displays and people ----------------------------------------------------------------- */
-
-static bool find_level(const RequestReading *reading, const JsonView *view,
-                       ReviewCondition *condition, Error *err)
-{
-    const ReviewRequest *request = reading->request;
-    return request_find_name(view, "level", request_level_names(request, view->arena), "levels",
-                             &condition->level_id, err);
-}
-
-static bool find_with(const RequestReading *reading, const JsonView *view,
-                      ReviewCondition *condition, Error *err)
-{
-    const ReviewRequest *request = reading->request;
-    FieldWords names = field_names_of(request->withs, sizeof *request->withs,
-                                      request->with_count, view->arena);
-    return request_find_name(view, "with", names, "with", &condition->with_id, err);
-}
-
-/* An object with symbols' names as keys. */
-static bool read_polarities(const RequestReading *reading, const JsonView *view,
-                            ReviewCondition *condition, Error *err)
-{
-    FieldMembers         members;
-    const ReviewRequest *request = reading->request;
-    FieldWords names = field_names_of(request->symbols, sizeof *request->symbols,
-                                      request->symbol_count, view->arena);
-    if (!field_named_members(view, "polarity", names, "symbol", &members, err)) return false;
-    for (int i = 0; i < names.count; i++)
-        if (!request_polarity_read(&members.view, names.word[i], &condition->polarity[i], err))
-            return false;
-    return true;
-}
-
-static bool read_polarity(const RequestReading *reading, const JsonView *view,
-                          ReviewCondition *condition, Error *err)
-{
-    const ReviewRequest *request = reading->request;
-    condition->polarity = ARENA_NEW(view->arena, ReviewPolarity, request->symbol_count);
-    for (int i = 0; i < request->symbol_count; i++)
-        condition->polarity[i] = request->symbols[i].polarity;
-    if (json_is_object(json_object_get(view->object, "polarity")))
-        return read_polarities(reading, view, condition, err);
-    for (int i = 0; i < request->symbol_count; i++)
-        if (!request_polarity_read(view, "polarity", &condition->polarity[i], err))
-            return false;
-    return true;
-}
-
-/* ---- time -------------------------------------------------------------------------------- */
-
-static bool read_start(const JsonView *view, Route *route, Error *err)
-{
-    Error       why;
-    SkyTime     when;
-    const char *text = NULL;
-    if (!json_view_text(view, "when", &text, err)) return false;
-    if (!text) return true;
-    if (!sky_time_parse(text, "", &when, &why))
-        return field_fails(view, "when", err, "%s", why.text);
-    route_start_at(route, &when);
-    return true;
-}
-
-static bool read_route(RequestReading *reading, const JsonView *view,
-                       ReviewCondition *condition, Error *err)
-{
-    const char *path = NULL;
-    condition->kind = CONDITION_ROUTE;
-    return field_file(view, "route", &path, err) &&
-           route_read(path, view->arena, &condition->route, err) &&
-           request_note_file(reading, path, err) &&
-           read_start(view, &condition->route, err) &&
-           read_weather(reading, view, condition, err);
-}
-
-/* Keys that mean nothing beside others are errors, not skipped. */
-static bool check_together(const JsonView *view, Error *err)
-{
-    if (has(view, "route") && has(view, "sweep"))
-        return error_at(err, ERROR_INPUT, view->file, view->path,
-                        "has both 'route' and 'sweep', required: one of them");
-    static const char *const of_routes[] = {"when", "weather", "weather_lux"};
-    for (int i = 0; i < COUNT_OF(of_routes) && !has(view, "route"); i++) {
-        const char *key = of_routes[i];
-        if (has(view, key))
-            return field_fails(view, key, err, "stands without 'route', required: %s",
-                               i ? "beside a route or in the year of a sweep"
-                                 : "beside a route or in 'environment'");
-    }
-    if (has(view, "heading_deg") && has(view, "route"))
-        return field_fails(view, "heading_deg", err,
-                           "stands beside 'route', required: the route's own headings alone");
-    return true;
-}
-
-static bool read_time(RequestReading *reading, const JsonView *view,
-                      ReviewCondition *condition, Error *err)
-{
-    JsonView sweep;
-    if (!check_together(view, err) || !json_view_child(view, "sweep", false, &sweep, err))
-        return false;
-    if (has(view, "route")) return read_route(reading, view, condition, err);
-    if (!sweep.object) return true;
-    return read_sweep(reading, &sweep, condition, err) &&
-           (condition->kind != CONDITION_YEAR_SWEEP || !has(view, "heading_deg") ||
-            field_fails(view, "heading_deg", err, "stands beside the sweep of a year, "
-                                                  "required: 'headings_deg' in it"));
+    if (found.picture) request_note_input(view, found.picture, found.picture_hash);
+    return check_kind(&inside, condition, err);
 }
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-static bool read_heading(const JsonView *view, ReviewCondition *condition, Error *err)
+static bool read_polarity(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
-    condition->has_heading = has(view, "heading_deg");
-    return json_view_number(view, "heading_deg", -360, 360, &condition->heading_deg, err);
+    ReviewCondition     *condition = item;
+    const ReviewRequest *request = view->whole;
+    if (!condition->polarity)
+        condition->polarity = ARENA_NEW(view->arena, ReviewPolarity, request->symbol_count);
+    for (int i = 0; i < request->symbol_count; i++)
+        condition->polarity[i] = request->symbols[i].polarity;
+    return !row || request_read_words(view, row, (int *)condition->polarity, err);
 }
 
-static bool read_condition(RequestReading *reading, int i, Error *err)
+static const RecordRow CONDITION[] = {
+    TEXT("name", MUST | RECORD_FILLED, name, "Each has its own."),
+    {"level", RECORD_REFER, RECORD_AT(OWNER, level_id), .among = &review_level_names,
+     .doc = "One of levels; default: as the scene says."},
+    {"with", RECORD_REFER, RECORD_AT(OWNER, with_id), .among = &review_with_names,
+     .doc = "One of with: who sits there."},
+    FILES("lights", 0, lights, light_count, 256, "More files of the scene, with lamps."),
+    {"polarity", RECORD_EITHER, .forms = review_polarity_forms, .read = read_polarity},
+    MAP("contents", 0, contents, content_count, 1000, review_content_format,
+        "What displays show instead."),
+    NUMBER("heading_deg", RECORD_OPEN, heading_deg, -360, 360,
+           "Where the vehicle heads to, from north over east."),
+    {"route", RECORD_FILE, .read = read_route,
+     .doc = "A drive or flight: .gpx, or .csv with time,lat,lon,heading."},
+    {"when", RECORD_TEXT, .read = read_when,
+     .doc = "When the route begins, with its zone; default: as its file says."},
+    WEATHER_ROWS,
+    {"sweep", RECORD_OBJECT, .of = &sweep_format},
+    OBJECT("sunglasses", RECORD_APART, glasses, review_glasses_format,
+           "What the observer wears; default: none."),
+    {"environment", RECORD_OWN, .read = read_environment,
+     .of = &environment_extension},
+    {0}};
+
+static void start_condition(void *item)
 {
-    JsonView         view;
-    ReviewRequest   *request = reading->request;
-    ReviewCondition *condition = &request->conditions[i];
-    *condition = (ReviewCondition){.level_id = NO_ID, .with_id = NO_ID, .weather_id = NO_ID};
-    if (!field_item(&reading->root, "conditions", i, (FieldWords){KEYS, COUNT_OF(KEYS)}, &view,
-                    err) ||
-        !field_name(&view, "name", &condition->name, err))
-        return false;
-    for (int k = 0; k < i; k++)
-        if (!strcmp(request->conditions[k].name, condition->name))
-            return field_fails(&view, "name", err, "is '%.60s' as that of condition %d, "
-                               "required: another name", condition->name, k);
-    return find_level(reading, &view, condition, err) &&
-           find_with(reading, &view, condition, err) &&
-           field_files(&view, "lights", &condition->lights, &condition->light_count, err) &&
-           read_polarity(reading, &view, condition, err) &&
-           request_contents_read(&view, &condition->contents, &condition->content_count, err) &&
-           read_heading(&view, condition, err) &&
-           read_time(reading, &view, condition, err) &&
-           request_glasses_read(reading, &view, condition, err) &&
-           read_light(reading, &view, i, condition, err);
+    *(ReviewCondition *)item = (ReviewCondition){.level_id = NO_ID, .with_id = NO_ID,
+                                                 .weather_id = NO_ID};
 }
 
-bool request_conditions_read(RequestReading *reading, Error *err)
+/* Keys that mean nothing beside others are errors, not skipped. */
+static bool check_together(const JsonView *view, const ReviewCondition *condition, Error *err)
 {
-    ReviewRequest *request = reading->request;
-    if (!field_wanted(&reading->root, "conditions", err) ||
-        !field_list(&reading->root, "conditions", CONDITIONS_MAX, &request->condition_count,
-                    err))
-        return false;
-    request->conditions = ARENA_NEW(reading->root.arena, ReviewCondition,
-                                    request->condition_count);
-    for (int i = 0; i < request->condition_count; i++)
-        if (!read_condition(reading, i, err)) return false;
+    static const char *const of_routes[] = {"weather", "weather_lux"};
+    const ReviewGlasses     *glasses = condition->glasses;
+    if (record_has(view, "route") && record_has(view, "sweep"))
+        return error_at(err, ERROR_INPUT, view->file, view->path,
+                        "has both 'route' and 'sweep', required: one of them");
+    for (int i = 0; i < 2 && !record_has(view, "route"); i++)
+        if (record_has(view, of_routes[i]))
+            return record_fails(view, of_routes[i], err, "stands without 'route', required: "
+                                "beside a route or in the year of a sweep");
+    if (record_has(view, "heading_deg") && record_has(view, "route"))
+        return record_fails(view, "heading_deg", err, "stands beside 'route', required: the "
+                            "route's own headings alone");
+    if (record_has(view, "heading_deg") && condition->kind == CONDITION_YEAR_SWEEP)
+        return record_fails(view, "heading_deg", err, "stands beside the sweep of a year, "
+                            "required: 'headings_deg' in it");
+    if (glasses && (glasses->curve || glasses->is_polarising) &&
+        condition->kind != CONDITION_MOMENT)
+        return record_fails(view, "sunglasses", err, "is coloured or polarising beside a sweep "
+                            "or a route, required: a grey one, or a moment");
     return true;
 }
+
+static bool check_condition(const JsonView *view, void *item, Error *err)
+{
+    ReviewCondition     *condition = item;
+    const ReviewRequest *request = view->whole;
+    for (const ReviewCondition *before = request->conditions; before < condition; before++)
+        if (!strcmp(before->name, condition->name))
+            return record_fails(view, "name", err, "is '%.60s' as that of condition %d, "
+                                "required: another name", condition->name,
+                                (int)(before - request->conditions));
+    condition->has_heading |= record_has(view, "heading_deg");
+    if (!condition->polarity) read_polarity(view, NULL, condition, err);
+    return check_together(view, condition, err) &&
+           (!record_has(view, "route") || check_weather(view, condition, err));
+}
+
+const RecordFormat review_condition_format = {
+    "condition", sizeof(OWNER), CONDITION, .start = start_condition, .check = check_condition,
+    .rules = "{'dependentRequired': {'when': ['route'], 'weather': ['route'], "
+             "'weather_lux': ['route', 'weather']}, 'not': {'anyOf': [{'required': "
+             "['route', 'sweep']}, {'required': ['route', 'heading_deg']}]}}"};

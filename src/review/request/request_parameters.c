@@ -5,35 +5,77 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "record/rows.h"
+#include "review/request/request_format.h"
 
 #define PARAMETERS_MAX 100
 #define GLASS 1.52
 #define QUARTER_WAVE_NM 137.5 /* 550 nm / 4, to be divided by the layer's index */
 
-/* Each kind by the key that holds its step. */
+#define OWNER ReviewParameter
+#define STEP(key, most, words) NUMBER(key, 0, step, 1e-6, most, words)
+#define TARGET(key) TEXT(key, RECORD_FILLED, target, "What is turned.")
+
+/* Each kind by the key that holds its step, the place of its row in PARAMETER. */
 static const struct {
-    const char *key, *target; /* the key that names what is changed */
-    double      at, low, high, step_most;
+    const char *target; /* the key that names what is changed */
+    double      at, low, high; /* where it stands; what is tried unless a range is given */
+    double      range[2];      /* what a range may hold */
     bool        has_direction, has_with;
 } KINDS[PARAMETER_KINDS] = {
-    [PARAMETER_TILT] = {"tilt_deg", "node", 0, -20, 20, 45, false, true},
-    [PARAMETER_TURN] = {"turn_deg", "node", 0, -20, 20, 45, false, true},
-    [PARAMETER_ROLL] = {"roll_deg", "node", 0, -20, 20, 45, false, true},
-    [PARAMETER_SHIFT] = {"shift_m", "node", 0, -0.2, 0.2, 10, true, true},
-    [PARAMETER_HOOD] = {"hood_m", "display", 0, 0, 0.2, 1, false, false},
-    [PARAMETER_EYE] = {"eye_m", "eye", 0, -0.2, 0.2, 10, true, false},
-    [PARAMETER_BRIGHTNESS] = {"brightness", "display", 1, 0.05, 20, 1, false, false},
-    [PARAMETER_REFLECTANCE] = {"reflectance", "material", 0, 0, BARE_REFLECTANCE, 0.02, false,
+    [PARAMETER_TILT] = {"node", 0, -20, 20, {-180, 180}, false, true},
+    [PARAMETER_TURN] = {"node", 0, -20, 20, {-180, 180}, false, true},
+    [PARAMETER_ROLL] = {"node", 0, -20, 20, {-180, 180}, false, true},
+    [PARAMETER_SHIFT] = {"node", 0, -0.2, 0.2, {-180, 180}, true, true},
+    [PARAMETER_HOOD] = {"display", 0, 0, 0.2, {0, 180}, false, false},
+    [PARAMETER_EYE] = {"eye", 0, -0.2, 0.2, {-180, 180}, true, false},
+    [PARAMETER_BRIGHTNESS] = {"display", 1, 0.05, 20, {1e-3, 180}, false, false},
+    [PARAMETER_REFLECTANCE] = {"material", 0, 0, BARE_REFLECTANCE, {0, BARE_REFLECTANCE}, false,
                                false},
 };
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
+static bool read_eye(const JsonView *view, const RecordRow *row, void *item, Error *err)
+{
+    int       eye;
+    RecordRow name = {row->key, RECORD_REFER, .among = &review_eye_names};
+    return record_read_kind(view, row, item, err) && record_read_kind(view, &name, &eye, err);
+}
+
+static const RecordRow PARAMETER[] = {
+    [PARAMETER_TILT] = STEP("tilt_deg", 45, "Step, of a node."),
+    [PARAMETER_TURN] = STEP("turn_deg", 45, "Step, of a node."),
+    [PARAMETER_ROLL] = STEP("roll_deg", 45, "Step, of a node."),
+    [PARAMETER_SHIFT] = STEP("shift_m", 10, "Step along direction, of a node."),
+    [PARAMETER_HOOD] = STEP("hood_m", 1, "Step, of a hood over a display."),
+    [PARAMETER_EYE] = STEP("eye_m", 10, "Step along direction, of an eye."),
+    [PARAMETER_BRIGHTNESS] = STEP("brightness", 1,
+                                  "Step, in times as bright, of a display or *."),
+    [PARAMETER_REFLECTANCE] = STEP("reflectance", 0.02,
+                                   "Step, of a material's coating: a quarter wave at 550 nm on "
+                                   "glass of index 1.52."),
+    TARGET("node"), TARGET("display"), TARGET("material"),
+    {"eye", RECORD_TEXT, RECORD_FILLED, RECORD_AT(OWNER, target), .read = read_eye},
+    VECTOR("direction", RECORD_UNIT, direction, 3, -1e6, 1e6, "Not zero."),
+    {"with", RECORD_TEXTS, RECORD_MANY(OWNER, with, with_count), RECORD_COUNT(1, 1000),
+     .doc = "Nodes of the same file that move along: glass, rim."},
+    NUMBER("at", 0, at, 0, BARE_REFLECTANCE, "The reflectance as it stands."),
+    VECTOR("range", 0, low, 2, -180, 180,
+           "What --mend may try: least and most, in the step's unit."),
+    {0}};
+_Static_assert(offsetof(OWNER, high) == offsetof(OWNER, low) + sizeof(double), "a pair");
+
+static void start_parameter(void *item)
+{
+    *(ReviewParameter *)item = (ReviewParameter){.at = NAN, .low = NAN, .high = NAN};
+}
+
 static bool find_kind(const JsonView *view, ReviewParameter *out, Error *err)
 {
     int found = 0;
     for (int k = 0; k < PARAMETER_KINDS; k++)
-        if (json_object_get(view->object, KINDS[k].key)) {
+        if (record_has(view, PARAMETER[k].key)) {
             out->kind = (ReviewParameterKind)k;
             found++;
         }
@@ -43,89 +85,62 @@ static bool find_kind(const JsonView *view, ReviewParameter *out, Error *err)
                     "'shift_m', 'hood_m', 'eye_m', 'brightness', 'reflectance'", found);
 }
 
-static bool read_range(const JsonView *view, ReviewParameter *out, Error *err)
+/* The keys that its kind has, besides the step: those it needs are there, others are not. A
+ * coating's reflectance is not derived from its layers: `at` gives it. */
+static bool check_keys(const JsonView *view, const ReviewParameter *p, Error *err)
 {
-    double range[2] = {out->low, out->high};
-    if (!json_view_pair(view, "range", -180, 180, range, err)) return false;
-    if (!(range[0] <= out->at && out->at <= range[1] && range[0] < range[1]))
-        return field_fails(view, "range", err,
-                           "is [%g, %g], required: [least, most] about %g, where it stands",
-                           range[0], range[1], out->at);
-    bool   is_length = out->kind == PARAMETER_HOOD || out->kind == PARAMETER_REFLECTANCE;
-    double least = is_length ? 0 : -180;
-    double most = out->kind == PARAMETER_REFLECTANCE ? BARE_REFLECTANCE : 180;
-    if (out->kind == PARAMETER_BRIGHTNESS) least = 1e-3;
-    if (range[0] < least || range[1] > most)
-        return field_fails(view, "range", err, "is [%g, %g], required: numbers from %g to %g",
-                           range[0], range[1], least, most);
-    out->low = range[0];
-    out->high = range[1];
+    for (const RecordRow *row = PARAMETER + PARAMETER_KINDS; row->key; row++) {
+        const char *key = row->key;
+        bool is_there = record_has(view, key);
+        bool is_needed = !strcmp(key, KINDS[p->kind].target) ||
+                         (!strcmp(key, "direction") && KINDS[p->kind].has_direction) ||
+                         (!strcmp(key, "at") && p->kind == PARAMETER_REFLECTANCE);
+        bool is_free = !strcmp(key, "range") ||
+                       (!strcmp(key, "with") && KINDS[p->kind].has_with);
+        if (is_needed && !is_there)
+            return record_misses(view, key, err);
+        if (is_there && !is_needed && !is_free)
+            return record_fails(view, key, err, "stands beside '%s', required: '%s'%s",
+                                PARAMETER[p->kind].key, KINDS[p->kind].target,
+                                KINDS[p->kind].has_direction ? " and 'direction'" : " alone");
+    }
     return true;
 }
 
-/* A coating's reflectance is not derived from its layers: `at` gives it. */
-static bool read_at(const JsonView *view, ReviewParameter *out, Error *err)
+static bool check_range(const JsonView *view, const ReviewParameter *p, Error *err)
 {
-    if (out->kind != PARAMETER_REFLECTANCE) return true;
-    return field_wanted(view, "at", err) &&
-           json_view_number(view, "at", 0, BARE_REFLECTANCE, &out->at, err);
+    const double *limits = KINDS[p->kind].range;
+    if (!(p->low <= p->at && p->at <= p->high && p->low < p->high))
+        return record_fails(view, "range", err,
+                            "is [%g, %g], required: [least, most] about %g, where it stands",
+                            p->low, p->high, p->at);
+    return (p->low >= limits[0] && p->high <= limits[1]) ||
+           record_fails(view, "range", err, "is [%g, %g], required: numbers from %g to %g",
+                        p->low, p->high, limits[0], limits[1]);
 }
 
-static bool check_eye(const RequestReading *reading, const JsonView *view,
-                      const ReviewParameter *parameter, Error *err)
+static bool check_parameter(const JsonView *view, void *item, Error *err)
 {
-    int eye;
-    return parameter->kind != PARAMETER_EYE ||
-           request_find_name(view, "eye", request_eye_names(reading->request, view->arena),
-                             "eyes", &eye, err);
+    ReviewParameter *p = item;
+    if (!find_kind(view, p, err) || !check_keys(view, p, err)) return false;
+    p->place = view->path;
+    if (p->kind != PARAMETER_REFLECTANCE) p->at = KINDS[p->kind].at;
+    if (!record_has(view, "range")) {
+        p->low = KINDS[p->kind].low;
+        p->high = KINDS[p->kind].high;
+    }
+    return check_range(view, p, err);
 }
 
-static bool read_parameter(RequestReading *reading, const FieldMembers *members, int i,
-                           ReviewParameter *out, Error *err)
-{
-    JsonView    view;
-    const char *keys[8];
-    int         count = 0;
-    bool        has_direction = true;
-    *out = (ReviewParameter){.name = members->name[i]};
-    if (!json_view_child(&members->view, out->name, true, &view, err) ||
-        !find_kind(&view, out, err))
-        return false;
-    keys[count++] = KINDS[out->kind].key;
-    keys[count++] = KINDS[out->kind].target;
-    keys[count++] = "range";
-    if (KINDS[out->kind].has_direction) keys[count++] = "direction";
-    if (KINDS[out->kind].has_with) keys[count++] = "with";
-    if (out->kind == PARAMETER_REFLECTANCE) keys[count++] = "at";
-    out->place = view.path;
-    out->at = KINDS[out->kind].at;
-    out->low = KINDS[out->kind].low;
-    out->high = KINDS[out->kind].high;
-    if (!json_view_check_keys(&view, keys, count, err) ||
-        !json_view_number(&view, keys[0], 1e-6, KINDS[out->kind].step_most, &out->step, err) ||
-        !field_name(&view, keys[1], &out->target, err) || !read_at(&view, out, err) ||
-        !read_range(&view, out, err) ||
-        !field_names(&view, "with", "a node's name", &out->with, &out->with_count, err))
-        return false;
-    if (KINDS[out->kind].has_direction &&
-        !field_unit_vector(&view, "direction", out->direction, &has_direction, err))
-        return false;
-    if (!has_direction && !field_wanted(&view, "direction", err)) return false;
-    return check_eye(reading, &view, out, err);
-}
-
-bool request_parameters_read(RequestReading *reading, Error *err)
-{
-    FieldMembers   members;
-    ReviewRequest *request = reading->request;
-    if (!field_members(&reading->root, "sensitivity", PARAMETERS_MAX, &members, err))
-        return false;
-    request->parameters = ARENA_NEW(reading->root.arena, ReviewParameter, members.count);
-    request->parameter_count = members.count;
-    for (int i = 0; i < members.count; i++)
-        if (!read_parameter(reading, &members, i, &request->parameters[i], err)) return false;
-    return true;
-}
+const RecordFormat review_parameter_format = {
+    "parameter", sizeof(OWNER), PARAMETER, .start = start_parameter, .check = check_parameter,
+    .rules = "{'oneOf': [{'required': ['tilt_deg', 'node']}, "
+             "{'required': ['turn_deg', 'node']}, {'required': ['roll_deg', 'node']}, "
+             "{'required': ['shift_m', 'node', 'direction']}, "
+             "{'required': ['hood_m', 'display']}, "
+             "{'required': ['eye_m', 'eye', 'direction']}, "
+             "{'required': ['brightness', 'display']}, "
+             "{'required': ['reflectance', 'material', 'at']}]}"};
 
 /* ---- words ------------------------------------------------------------------------------- */
 

@@ -3,13 +3,10 @@
  * variant that a value of one of them is.
  *
  * Units    as files have them: degrees, metres; times as bright; reflectance 0..1.
- * Memory   the root view's arena; of a variant the one that is passed in.
- * Threads  one at a time. Fails as request_read.h.
+ * Memory   of a variant the arena that is passed in. Threads: one at a time. Fails: never.
  */
 #pragma once
-#include "review/request/request_fields.h"
-
-bool request_parameters_read(RequestReading *reading, Error *err);
+#include "review/request/request.h"
 
 /* The review with the parameter at a value within its range. */
 ReviewVariant review_parameter_at(const ReviewRequest *request,

@@ -2,142 +2,220 @@
 #include "review/request/request_read.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/file.h"
-#include "review/request/request_conditions.h"
-#include "review/request/request_eyes.h"
-#include "review/request/request_levels.h"
-#include "review/request/request_parameters.h"
-#include "review/request/request_variants.h"
-#include "tinygltf/gltf_json.h"
+#include "base/mathd.h"
+#include "base/units.h"
+#include "record/rows.h"
+#include "review/request/request_format.h"
 
-#define PATHS_USUAL 262144
 #define CLEAR_USUAL 0.05 /* precision of readings whose verdict is clear */
+#define UPRIGHT 1e-6     /* horizontal length of a unit vector: less is vertical */
 
-static const char *const KEYS[] = {"title",  "scene",     "eyes",       "forward",
-                                   "gaze",   "observer",  "with",       "symbols",
-                                   "levels", "profile",   "conditions", "precision",
-                                   "frames", "variants",   "sensitivity", "glare", "max_level"};
+/* ---- the observer ------------------------------------------------------------------------ */
 
-static bool read_title(RequestReading *reading, Error *err)
-{
-    ReviewRequest *request = reading->request;
-    request->title = path_name(request->file);
-    return json_view_text(&reading->root, "title", &request->title, err) &&
-           field_wanted(&reading->root, "scene", err) &&
-           field_files(&reading->root, "scene", &request->scenes, &request->scene_count, err) &&
-           field_name(&reading->root, "profile", &request->profile, err);
-}
+#define OWNER HumanEye
 
-static bool read_precision(RequestReading *reading, Error *err)
-{
-    static const char *const keys[] = {"contrast", "clear", "paths", "seed"};
-    JsonView view;
-    int     *paths = &reading->request->precision_paths, seed = 0;
-    double  *contrast = &reading->request->precision_contrast;
-    double  *clear = &reading->request->precision_clear;
-    *contrast = 0.01;
-    *clear = (double)NAN;
-    *paths = PATHS_USUAL;
-    if (!json_view_child(&reading->root, "precision", false, &view, err) ||
-        !json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
-        !json_view_number(&view, "contrast", 1e-6, 1, contrast, err) ||
-        !json_view_number(&view, "clear", 1e-6, 1, clear, err) ||
-        !field_integer(&view, "paths", (FieldBounds){8192, 1 << 30}, paths, err) ||
-        !field_integer(&view, "seed", (FieldBounds){0, INT32_MAX}, &seed, err))
-        return false;
-    reading->request->seed = (uint32_t)seed;
-    if (isnan(*clear)) *clear = fmax(CLEAR_USUAL, *contrast);
-    return *clear >= *contrast ||
-           field_fails(&view, "clear", err, "is %g, required: at least 'contrast', %g", *clear,
-                       *contrast);
-}
+static const RecordRow OBSERVER[] = {
+    NUMBER("age_years", 0, age_years, 10, 100, NULL),
+    NUMBER("pigment", 0, pigment, 0, 1.2, "Of the iris: 0 black, 0.5 brown, 1.2 very light."),
+    {0}};
+
+static const RecordFormat observer_format = {"observer", sizeof(OWNER), OBSERVER, .doc = NULL};
+#undef OWNER
+#define OWNER GlareSettings
+
+static const RecordRow GLARE[] = {
+    NUMBER("threshold_cd_m2", 0, threshold_cd_m2, 1e-3, 1e9,
+           "What is brighter is a source. Not beside task_factor."),
+    NUMBER("task_factor", 0, task_factor, 1, 1e6,
+           "The threshold is this times the task's mean luminance."),
+    NUMBER("task_deg", 0, task_deg, 1, 180,
+           "Full width of the cone about the line of sight that is the task."),
+    NUMBER("peak_cd_m2", 0, peak_cd_m2, 1, 1e12,
+           "What is brighter is a source apart from what surrounds it."),
+    FLAG("low_light_factor", 0, low_light, "DGP is multiplied by its factor below 1000 lx."),
+    FLAG("small_source_rule", 0, small_sources,
+         "UGR counts sources below 0.005 m2 by CIE 147's rule."),
+    {0}};
 
 /* A fixed threshold or a task's: not both. */
-static bool read_glare(RequestReading *reading, Error *err)
+static bool check_glare(const JsonView *view, void *item, Error *err)
 {
-    static const char *const keys[] = {"threshold_cd_m2", "task_factor", "task_deg",
-                                       "peak_cd_m2", "low_light_factor", "small_source_rule"};
-    JsonView       view;
-    GlareSettings *glare = &reading->request->glare;
-    double         fixed = (double)NAN;
-    *glare = (GlareSettings)GLARE_SETTINGS_DEFAULT;
-    if (!json_view_child(&reading->root, "glare", false, &view, err) ||
-        !json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
-        !json_view_number(&view, "threshold_cd_m2", 1e-3, 1e9, &fixed, err) ||
-        !json_view_number(&view, "task_factor", 1, 1e6, &glare->task_factor, err) ||
-        !json_view_number(&view, "task_deg", 1, 180, &glare->task_deg, err) ||
-        !json_view_number(&view, "peak_cd_m2", 1, 1e12, &glare->peak_cd_m2, err) ||
-        !field_boolean(&view, "low_light_factor", &glare->low_light, err) ||
-        !field_boolean(&view, "small_source_rule", &glare->small_sources, err))
-        return false;
-    if (isnan(fixed)) return true;
-    glare->threshold_cd_m2 = fixed;
-    return !(glare->task_factor > 0) ||
-           field_fails(&view, "threshold_cd_m2", err,
-                       "stands beside 'task_factor', required: one of the two");
+    (void)item;
+    return !record_has(view, "threshold_cd_m2") ||
+           !record_has(view, "task_factor") ||
+           record_fails(view, "threshold_cd_m2", err,
+                        "stands beside 'task_factor', required: one of the two");
 }
 
-static bool read_size(const JsonView *view, ReviewFrames *frames, Error *err)
+static const RecordFormat glare_format = {
+    "glare", sizeof(OWNER), GLARE, .check = check_glare,
+    .rules = "{'not': {'required': ['threshold_cd_m2', 'task_factor']}}"};
+
+#undef OWNER
+
+/* ---- how well it is read ----------------------------------------------------------------- */
+
+#define OWNER ReviewRequest
+
+static const RecordRow PRECISION[] = {
+    NUMBER("contrast", 0, precision_contrast, 1e-6, 1,
+           "Relative standard error: readings end there, whatever the verdict."),
+    NUMBER("clear", 0, precision_clear, 1e-6, 1,
+           "Where the verdict is clear before: of contrast and reflected light. At least "
+           "contrast, which is the default where it is more."),
+    WHOLE("paths", 0, precision_paths, 8192, 1 << 30,
+          "Of one reading at most: what is not sure then has a wider interval."),
+    WHOLE("seed", 0, seed, 0, INT32_MAX,
+          "Of the random numbers: another one shows what of a figure is luck."),
+    {0}};
+
+static bool check_precision(const JsonView *view, void *item, Error *err)
 {
-    double size[2] = {frames->width, frames->height};
-    if (!field_numbers(view, "size", (JsonRange){1, 16384, 2}, size, NULL, err))
-        return false;
-    frames->width = (int)size[0];
-    frames->height = (int)size[1];
-    return (frames->width == size[0] && frames->height == size[1]) ||
-           field_fails(view, "size", err, "is [%g, %g], required: whole numbers of pixels",
-                       size[0], size[1]);
+    ReviewRequest *r = item;
+    if (!record_has(view, "clear"))
+        r->precision_clear = fmax(r->precision_clear, r->precision_contrast);
+    return r->precision_clear >= r->precision_contrast ||
+           record_fails(view, "clear", err, "is %g, required: at least 'contrast', %g",
+                        r->precision_clear, r->precision_contrast);
 }
 
-static bool read_frames(RequestReading *reading, Error *err)
+static const RecordFormat precision_format = {"precision", sizeof(OWNER), PRECISION,
+                                              .check = check_precision};
+
+#undef OWNER
+#define OWNER ReviewFrames
+
+static const RecordRow FRAMES[] = {
+    WHOLES("size", 0, width, 2, 1, 16384, "Pixels."),
+    NUMBER("noise", 0, noise, 1e-4, 1, "Relative error."),
+    WHOLE("worst", 0, worst, 0, 1000, "How many of the worst cases are rendered."),
+    {0}};
+_Static_assert(offsetof(OWNER, height) == offsetof(OWNER, width) + sizeof(int), "a pair");
+
+static const RecordFormat frames_format = {"frames", sizeof(OWNER), FRAMES, .doc = NULL};
+#undef OWNER
+
+/* ---- all of it --------------------------------------------------------------------------- */
+
+#define OWNER ReviewRequest
+
+/* In the order in which they need each other: names before who uses them. */
+static const RecordRow REVIEW[] = {
+    TEXT("title", 0, title, "Default: the file's name."),
+    FILES("scene", MUST, scenes, scene_count, 256, "The first holds the displays."),
+    TEXT("profile", MUST | RECORD_FILLED, profile,
+         "A list of limits: NAME of assets/profiles/NAME.json."),
+    MAP("eyes", MUST, eyes, eye_count, 256, review_eye_format, "Who looks, by name."),
+    VECTOR("forward", RECORD_UNIT, forward, 3, -1e6, 1e6,
+           "Where the vehicle points to; not vertical."),
+    OBJECT("observer", 0, observer, observer_format, NULL),
+    LIST("gaze", 0, gazes, gaze_count, 1, 256, review_gaze_format, "Default: at the symbols."),
+    MAP("with", 0, withs, with_count, 100, review_with_format,
+        "More of the scene by name: occupants."),
+    MAP("symbols", MUST, symbols, symbol_count, 1000, review_symbol_format,
+        "What is to be read, by name."),
+    NUMBER("max_level", 0, max_level, 1, 100,
+           "How far panels can be driven, in times of what was measured: levels above 1 have "
+           "to say so."),
+    MAP("levels", 0, levels, level_count, 1000, review_level_format,
+        "How bright displays are set, 1 as measured: by display (* all others), or all by a "
+        "sensor. None above max_level."),
+    {"precision", RECORD_OBJECT, .of = &precision_format},
+    OBJECT("glare", 0, glare, glare_format, "How discomfort is read: UGR, DGP, DGI."),
+    OBJECT("frames", 0, frames, frames_format, NULL),
+    LIST("conditions", MUST, conditions, condition_count, 1, 10000, review_condition_format,
+         NULL),
+    MAP("variants", 0, variants, variant_count, 100, review_variant_format,
+        "The same review with something changed, by name: each is held against the review "
+        "itself."),
+    MAP("sensitivity", 0, parameters, parameter_count, 100, review_parameter_format,
+        "Numbers that may be turned, by name: how margins hang on them; --mend NAME seeks the "
+        "smallest change that makes everything pass."),
+    {0}};
+
+static void start_review(void *item)
 {
-    static const char *const keys[] = {"size", "noise", "worst"};
-    JsonView      view;
-    ReviewFrames *frames = &reading->request->frames;
-    *frames = (ReviewFrames){960, 540, 0.1, 2};
-    return json_view_child(&reading->root, "frames", false, &view, err) &&
-           json_view_check_keys(&view, keys, COUNT_OF(keys), err) &&
-           read_size(&view, frames, err) &&
-           json_view_number(&view, "noise", 1e-4, 1, &frames->noise, err) &&
-           field_integer(&view, "worst", (FieldBounds){0, 1000}, &frames->worst, err);
+    *(ReviewRequest *)item = (ReviewRequest){
+        .title = "", .forward = {0, 0, -1}, .observer = {50, 0.5},
+        .glare = GLARE_SETTINGS_DEFAULT, .max_level = 1, .precision_contrast = 0.01,
+        .precision_clear = CLEAR_USUAL, .precision_paths = 262144,
+        .frames = {960, 540, 0.1, 2}};
 }
 
-/* The document once more, as scenes have theirs: environments are read as there. */
-static bool read_tree(RequestReading *reading, Error *err)
+/* Ahead on the horizontal, its front down by the tilt; across; upright on both. */
+static void turn_ellipse(const double forward[3], ReviewEye *eye)
 {
-    FileBytes   bytes;
-    const char *file = reading->request->file;
-    if (!file_read(file, JSON_FILE_BYTES_MAX, reading->root.arena, &bytes, err)) return false;
-    return gltf_json_parse((const char *)bytes.data, bytes.size, reading->root.arena,
-                           &reading->tree, err) ||
-           error_in_file(err, file);
+    double level = hypot_d(forward[0], forward[2]);
+    double ahead[3] = {forward[0] / level, 0, forward[2] / level};
+    double across[3] = {-ahead[2], 0, ahead[0]};
+    double tilt = radians_from_degrees(eye->tilt_deg), c = cos_d(tilt), s = sin_d(tilt);
+    for (int k = 0; k < 3; k++) {
+        double up = k == 1;
+        eye->half_axes_m[0][k] = 0.5 * eye->axes_m[0] * (c * ahead[k] - s * up);
+        eye->half_axes_m[1][k] = 0.5 * eye->axes_m[1] * across[k];
+        eye->half_axes_m[2][k] = 0.5 * eye->axes_m[2] * (s * ahead[k] + c * up);
+    }
 }
 
-static bool read_all(RequestReading *reading, Error *err)
+static void turn_ellipses(ReviewRequest *request)
 {
-    return json_view_check_keys(&reading->root, KEYS, COUNT_OF(KEYS), err) &&
-           read_tree(reading, err) && read_title(reading, err) &&
-           request_eyes_read(reading, err) && request_withs_read(reading, err) &&
-           request_symbols_read(reading, err) && request_levels_read(reading, err) &&
-           read_precision(reading, err) && read_glare(reading, err) &&
-           read_frames(reading, err) &&
-           request_conditions_read(reading, err) && request_variants_read(reading, err) &&
-           request_parameters_read(reading, err);
+    for (int i = 0; i < request->eye_count; i++)
+        if (request->eyes[i].kind == EYE_ELLIPSE)
+            turn_ellipse(request->forward, &request->eyes[i]);
 }
+
+/* Where no gaze is given: at the symbols. One that names no eyes is of all. */
+static void look(ReviewRequest *request, Arena *arena)
+{
+    if (!request->gaze_count) {
+        request->gazes = ARENA_NEW(arena, ReviewGaze, 1);
+        request->gaze_count = 1;
+        request->gazes[0] = (ReviewGaze){.name = "symbols", .at_symbols = true};
+    }
+    for (int g = 0; g < request->gaze_count; g++) {
+        ReviewGaze *gaze = &request->gazes[g];
+        if (gaze->for_eye) continue;
+        gaze->for_eye = ARENA_NEW(arena, bool, request->eye_count);
+        for (int i = 0; i < request->eye_count; i++) gaze->for_eye[i] = true;
+    }
+}
+
+static bool check_review(const JsonView *view, void *item, Error *err)
+{
+    ReviewRequest *request = item;
+    if (!(hypot_d(request->forward[0], request->forward[2]) > UPRIGHT))
+        return record_fails(view, "forward", err,
+                            "is vertical, required: where the vehicle points");
+    turn_ellipses(request);
+    look(request, view->arena);
+    request->is_compared = review_is_compared(request);
+    return true;
+}
+
+const RecordFormat review_format = {
+    "review", sizeof(OWNER), REVIEW, .start = start_review, .check = check_review,
+    .doc = "Files are relative to this one. Every name that is used (levels, with, eyes, "
+           "symbols) is defined in it; displays and cameras are the scene's."};
+
+/* ---- a file ------------------------------------------------------------------------------ */
 
 bool review_request_read(const char *file, const char *root, Arena *arena, Problems *problems,
                          ReviewRequest *out, Error *err)
 {
-    ReviewRequest  request = {.file = arena_string(arena, file, strlen(file))};
-    RequestReading reading = {.problems = problems, .request = &request};
-    if (!json_view_open(file, arena, &reading.root, err)) return false;
-    reading.root.root = root;
-    request_note_input(&reading, file, reading.root.hash);
-    bool ok = read_all(&reading, err);
-    request.is_compared = review_is_compared(&request);
-    json_view_close(&reading.root);
+    JsonView      view;
+    ReviewRequest request;
+    if (!json_view_open(file, arena, &view, err)) return false;
+    start_review(&request);
+    request.file = view.file;
+    request.title = path_name(view.file);
+    view.root = root;
+    view.problems = problems;
+    view.whole = &request;
+    request_note_input(&view, view.file, view.hash);
+    bool ok = record_read(&view, &review_format, &request, err);
+    json_view_close(&view);
     if (ok) *out = request;
     return ok;
 }

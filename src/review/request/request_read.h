@@ -10,7 +10,10 @@
  */
 #pragma once
 #include "base/problems.h"
+#include "record/record.h"
 #include "review/request/request.h"
+
+extern const RecordFormat review_format; /* of a ReviewRequest */
 
 /* root: a folder whose files may be named as well (--root); NULL: none. Warnings (a sky's
  * picture with broken pixels) go to *problems. */

@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/request/request_variants.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,193 +6,323 @@
 #include "base/file.h"
 #include "base/mathd.h"
 #include "base/units.h"
-#include "review/request/request_levels.h"
+#include "record/rows.h"
+#include "review/request/request_format.h"
 #include "text/text.h"
 
-#define VARIANTS_MAX 100
-#define NAMES_MAX 1000
 #define METRES_MAX 100.0
-#define HOOD_MAX_M 2.0
-#define FINISH_MOST_DEG 20.0 /* beyond, its facets lose light (shaders/display.c) */
-
-static const char *const KEYS[] = {"panels",  "contents",  "levels", "brightness",
-                                   "coatings", "glazings", "materials", "nodes", "hoods",
-                                   "finishes", "mirror",   "eyes",      "scene", "add"};
-
-/* A variant while it is read, with room for its changes of the scene. */
-typedef struct VariantReading {
-    RequestReading *reading;
-    JsonView        view;
-    ReviewVariant  *variant;
-    SceneChange    *scene; /* the change's own */
-} VariantReading;
-
-static Arena *arena_of(const VariantReading *v)
-{
-    return v->view.arena;
-}
-
-static void say(VariantReading *v, const char *words)
-{
-    v->variant->words[v->variant->word_count++] = words;
-}
-
-static SceneChange *add_change(VariantReading *v, SceneChangeKind kind, const FieldMembers *of,
-                               int i)
-{
-    SceneChange *change = &v->scene[v->variant->change.scene_count++];
-    const char  *place = json_view_path(&of->view, of->name[i]);
-    *change = (SceneChange){.kind = kind, .name = of->name[i], .file = v->view.file,
-                            .place = place};
-    return change;
-}
-
-/* ---- displays ---------------------------------------------------------------------------- */
-
-static bool read_panels(VariantReading *v, Error *err)
-{
-    FieldMembers members;
-    if (!field_members(&v->view, "panels", NAMES_MAX, &members, err)) return false;
-    SceneOverride *panels = ARENA_NEW(arena_of(v), SceneOverride, members.count);
-    for (int i = 0; i < members.count; i++) {
-        const char *path = NULL, *name = members.name[i];
-        if (!field_file(&members.view, name, &path, err)) return false;
-        const char *said = arena_format(arena_of(v), "%s: %s", v->view.file,
-                                        json_view_path(&members.view, name));
-        panels[i] = (SceneOverride){name, path, said};
-        say(v, arena_format(arena_of(v), "panel of %s: %s", name, path_name(path)));
-    }
-    v->variant->change.panels = panels;
-    v->variant->change.panel_count = members.count;
-    return true;
-}
-
-static bool read_contents(VariantReading *v, Error *err)
-{
-    ReviewContent *contents;
-    int            count;
-    if (!request_contents_read(&v->view, &contents, &count, err)) return false;
-    for (int i = 0; i < count; i++)
-        say(v, arena_format(arena_of(v), "%s shows %s", contents[i].display,
-                            path_name(contents[i].path)));
-    v->variant->change.contents = contents;
-    v->variant->change.content_count = count;
-    return true;
-}
-
-/* Those that it names must be there: another name would change nothing. */
-static bool read_levels(VariantReading *v, Error *err)
-{
-    const ReviewRequest *request = v->reading->request;
-    ReviewVariant       *variant = v->variant;
-    FieldWords names = request_level_names(request, arena_of(v));
-    JsonView   levels;
-    if (!request_levels_of(&v->view, request->max_level, &variant->levels,
-                           &variant->level_count, err))
-        return false;
-    for (int i = 0; i < variant->level_count; i++) {
-        const char *name = variant->levels[i].name;
-        if (!json_view_child(&v->view, "levels", true, &levels, err) ||
-            !field_knows(&levels, name, names, "level", err))
-            return false;
-        say(v, arena_format(arena_of(v), "level '%s'", name));
-    }
-    return true;
-}
-
+#define NAMES_MAX 1000
 #define BRIGHTNESS_USUAL 10.0 /* times; beyond it per cent may be meant */
 
-static void doubt_brightness(VariantReading *v, const JsonView *view, const ReviewFixedLevel *b)
+/* ---- by display -------------------------------------------------------------------------- */
+
+static bool check_panel(const JsonView *view, void *item, Error *err)
 {
+    SceneOverride *panel = item;
+    (void)err;
+    panel->said = arena_format(view->arena, "%s: %s", view->file,
+                               json_view_path(view, panel->material));
+    return true;
+}
+
+static const RecordRow PANEL = {.kind = RECORD_FILE, RECORD_AT(SceneOverride, value)};
+static const RecordFormat panel_format = {"panel", sizeof(SceneOverride), .value = &PANEL,
+                                          .check = check_panel};
+
+static bool check_brightness(const JsonView *view, void *item, Error *err)
+{
+    const ReviewFixedLevel *b = item;
+    (void)err;
     if (b->level > BRIGHTNESS_USUAL)
-        problems_add(v->reading->problems, SEVERITY_WARNING, view->file,
+        problems_add(view->problems, SEVERITY_WARNING, view->file,
                      json_view_path(view, b->display),
                      "is %g times as bright: if per cent are meant, %g is", b->level,
                      b->level / 100);
-}
-
-static bool read_brightness(VariantReading *v, Error *err)
-{
-    FieldMembers      members;
-    ReviewFixedLevel *list;
-    if (!field_members(&v->view, "brightness", NAMES_MAX, &members, err) ||
-        !request_brightness_read(&members, &list, err))
-        return false;
-    for (int i = 0; i < members.count; i++) doubt_brightness(v, &members.view, &list[i]);
-    for (int i = 0; i < members.count; i++)
-        say(v, arena_format(arena_of(v), "%s %g times as bright",
-                            strcmp(list[i].display, "*") ? list[i].display : "every display",
-                            list[i].level));
-    v->variant->change.brightness = list;
-    v->variant->change.brightness_count = members.count;
     return true;
 }
 
-/* ---- materials --------------------------------------------------------------------------- */
+static const RecordRow BRIGHTNESS = {.kind = RECORD_NUMBER, RECORD_AT(ReviewFixedLevel, level),
+                                     RECORD_RANGE(0, 100)};
+static const RecordFormat brightness_format = {
+    "brightness", sizeof(ReviewFixedLevel), .value = &BRIGHTNESS, .check = check_brightness};
+
+/* A hood's depth in m is kept as a level is. */
+static const RecordRow HOOD = {.kind = RECORD_NUMBER, RECORD_AT(ReviewFixedLevel, level),
+                               RECORD_RANGE(1e-3, 2)};
+static const RecordFormat hood_format = {"hood", sizeof(ReviewFixedLevel), .value = &HOOD};
+
+typedef struct FinishSaid {
+    const char *display;
+    double      scatters, width_deg;
+} FinishSaid;
+
+#define OWNER FinishSaid
+
+/* Wider than 20 degrees its facets lose light (shaders/display.c). */
+static const RecordRow FINISH[] = {
+    NUMBER("scatters", MUST, scatters, 0, 1, "Share of its mirror image that becomes haze."),
+    NUMBER("width_deg", MUST, width_deg, 0.3, 20,
+           "Of the haze: full width at half its height, as it is reflected."),
+    {0}};
+static const RecordFormat finish_format = {"finish", sizeof(OWNER), FINISH, .doc = NULL};
+#undef OWNER
+
+/* ---- by material ------------------------------------------------------------------------- */
+
+/* JSON of a material's; valid while the file is read. */
+typedef struct PatchSaid {
+    const char *material;
+    json_t     *json;
+} PatchSaid;
+
+/* The row's schema names the kinds that it takes, its words say them. */
+static bool read_patch(const JsonView *view, const RecordRow *row, void *item, Error *err)
+{
+    json_t *value = json_object_get(view->object, row->key);
+    if (!json_is_object(value) && !(json_is_null(value) && strstr(row->schema, "null")) &&
+        !(json_is_string(value) && strstr(row->schema, "string")))
+        return json_view_wrong_kind(view, row->key, value, row->words[0], err);
+    ((PatchSaid *)item)->json = value;
+    return true;
+}
+
+#define PATCH_FORMAT(name, VALUE, kinds, said)                                                 \
+    static const char *const VALUE##_WORDS[] = {said};                                         \
+    static const RecordRow VALUE = {.kind = RECORD_OWN, .read = read_patch,                    \
+                                    .words = VALUE##_WORDS,                                    \
+                                    .schema = "{'type': " kinds "}"};                        \
+    static const RecordFormat name = {#name, sizeof(PatchSaid), .value = &VALUE}
+
+PATCH_FORMAT(coating_format, COATING, "['object', 'string', 'null']",
+             "an object, a stack's name or null");
+PATCH_FORMAT(glazing_format, GLAZING, "['object', 'null']", "an object or null");
+PATCH_FORMAT(material_format, MATERIAL, "'object'", "an object, merged into the material");
+
+/* ---- by node, by eye --------------------------------------------------------------------- */
+
+#define OWNER SceneHinge
+
+static const RecordRow HINGE[] = {
+    VECTOR("axis", MUST | RECORD_UNIT | RECORD_FLOAT, axis, 3, -1e6, 1e6,
+           "In the scene's axes; of any length but 0."),
+    VECTOR("through_m", RECORD_OPEN, through_m, 3, -1e6, 1e6,
+           "A point of the axis, m; default: the node's own origin."),
+    NUMBER("angle_deg", MUST | RECORD_RADIANS | RECORD_FLOAT, angle, -180, 180,
+           "Anticlockwise as seen against the axis."),
+    {0}};
+
+static bool check_hinge(const JsonView *view, void *item, Error *err)
+{
+    (void)err;
+    ((SceneHinge *)item)->is_own = !record_has(view, "through_m");
+    return true;
+}
+
+static const RecordFormat hinge_format = {"hinge", sizeof(OWNER), HINGE, .check = check_hinge};
+#undef OWNER
+#define OWNER SceneChange
+#define ANGLE(key, member, words)                                                              \
+    NUMBER(key, RECORD_RADIANS | RECORD_FLOAT, member, -180, 180, words)
+
+static const RecordRow NODE[] = {
+    ANGLE("tilt_deg", tilt, "Its face turns up, about its middle and its own level axis."),
+    ANGLE("turn_deg", turn, "To the right of who faces it."),
+    ANGLE("roll_deg", roll, "Clockwise, as seen by who faces it."),
+    VECTOR("move_m", RECORD_FLOAT, move_m, 3, -METRES_MAX, METRES_MAX, "In the scene's axes."),
+    {"with", RECORD_TEXTS, RECORD_MANY(OWNER, with, with_count), RECORD_COUNT(1, NAMES_MAX),
+     .doc = "Nodes of the same file that move along: glass, rim."},
+    OBJECT("hinge", 0, hinge, hinge_format,
+           "It turns about this axis, as a door that opens, after tilt, turn and roll."),
+    {0}};
+static const RecordFormat node_format = {"node", sizeof(OWNER), NODE, .doc = NULL};
+#undef OWNER
+
+typedef struct EyeMove {
+    const char *eye;
+    double      move_m[3];
+} EyeMove;
+
+#define OWNER EyeMove
+
+static const RecordRow EYE_MOVE[] = {
+    VECTOR("move_m", MUST, move_m, 3, -METRES_MAX, METRES_MAX, "In the scene's axes."),
+    {0}};
+static const RecordFormat eye_format = {"eye_move", sizeof(OWNER), EYE_MOVE, .doc = NULL};
+#undef OWNER
+
+/* ---- a variant as the file has it -------------------------------------------------------- */
+
+typedef struct MirrorSaid {
+    double middle_m;
+} MirrorSaid;
+
+#define OWNER MirrorSaid
+
+static const RecordRow MIRROR[] = {
+    NUMBER("middle_m", 0, middle_m, -METRES_MAX, METRES_MAX,
+           "Where its middle plane stands, to the right of the scene's origin, m."),
+    {0}};
+static const RecordFormat mirror_format = {"mirror", sizeof(OWNER), MIRROR, .doc = NULL};
+#undef OWNER
+
+/* What a variant keeps as the file has it, and what becomes changes of its scene. */
+typedef struct VariantSaid {
+    ReviewVariant           of;
+    const PatchSaid        *coatings, *glazings, *materials;
+    const SceneChange      *nodes;
+    const ReviewFixedLevel *hoods;
+    const FinishSaid       *finishes;
+    const MirrorSaid       *mirror;
+    const EyeMove          *eyes;
+    int coating_count, glazing_count, material_count, node_count, hood_count, finish_count,
+        eye_count;
+} VariantSaid;
+
+#define OWNER VariantSaid
+#define BY_NAME(key, member, counted, format, words)                                           \
+    MAP(key, 0, member, counted, NAMES_MAX, format, words)
+
+static const RecordRow VARIANT[] = {
+    BY_NAME("panels", of.change.panels, of.change.panel_count, panel_format,
+            "By display: its panel."),
+    BY_NAME("contents", of.change.contents, of.change.content_count, review_content_format,
+            "By display: what it shows, in every condition."),
+    {"levels", RECORD_MAP, RECORD_MANY(OWNER, of.levels, of.level_count),
+     RECORD_COUNT(1, NAMES_MAX), .among = &review_level_names, .of = &review_level_format,
+     .doc = "They take the places of the review's of their names."},
+    BY_NAME("brightness", of.change.brightness, of.change.brightness_count, brightness_format,
+            "By display (* all others): times as bright, whatever sets its level."),
+    BY_NAME("coatings", coatings, coating_count, coating_format,
+            "By material: a PARHELION_coating instead of its own, a stack's name, or null for "
+            "none. Files count from the scene's."),
+    BY_NAME("glazings", glazings, glazing_count, glazing_format,
+            "By material: a PARHELION_glazing instead of its own, or null for none."),
+    BY_NAME("materials", materials, material_count, material_format,
+            "By material: JSON that is merged into it (RFC 7396). Files count from the "
+            "scene's."),
+    BY_NAME("nodes", nodes, node_count, node_format,
+            "By node: how it is turned and moved, with all that hangs below it."),
+    BY_NAME("hoods", hoods, hood_count, hood_format,
+            "By display: a hood that reaches so far out, m."),
+    BY_NAME("finishes", finishes, finish_count, finish_format,
+            "By display: a matte surface in place of its clear one. Modelled."),
+    OBJECT("mirror", RECORD_APART, mirror, mirror_format,
+           "A right-hand drive of a left-hand one: all of the scene, lamps and people "
+           "included, eyes and sensors are mirrored at the vehicle's vertical middle plane. "
+           "Displays keep their panels and contents as they are. Sun and sky stay."),
+    {"eyes", RECORD_MAP, RECORD_MANY(OWNER, eyes, eye_count), RECORD_COUNT(1, NAMES_MAX),
+     .among = &review_eye_names, .of = &eye_format, .doc = "By eye: where it is moved."},
+    FILES("scene", 0, of.scenes, of.scene_count, 256, "Instead of the review's."),
+    FILES("add", 0, of.more, of.more_count, 256, "More files of the scene."),
+    {0}};
+
+static const RecordFormat said_format = {"variant", sizeof(OWNER), VARIANT,
+                                         .rules = "{'minProperties': 1}"};
+
+/* ---- and what it changes ----------------------------------------------------------------- */
+
+/* view: of the variant. */
+typedef struct Making {
+    const JsonView    *view;
+    const VariantSaid *said;
+    ReviewVariant     *variant;
+    SceneChange       *scene; /* the change's own */
+} Making;
+
+static void say(Making *m, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static void say(Making *m, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    m->variant->words[m->variant->word_count++] =
+        arena_format_list(m->view->arena, ARENA_FORMAT_MOST, format, list);
+    va_end(list);
+}
+
+/* group: the member that it stands in. */
+static SceneChange *add_change(Making *m, SceneChangeKind kind, const char *group,
+                               const char *name)
+{
+    SceneChange *change = &m->scene[m->variant->change.scene_count++];
+    const double *ahead = ((const ReviewRequest *)m->view->whole)->forward;
+    *change = (SceneChange){.kind = kind, .name = name, .file = m->view->file,
+                            .place = arena_format(m->view->arena, "%s/%s%s%s", m->view->path,
+                                                  group, *name ? "/" : "", name)};
+    if (kind == CHANGE_NODES || kind == CHANGE_MIRROR)
+        for (int k = 0; k < 3; k++) change->ahead[k] = (float)ahead[k];
+    return change;
+}
+
+/* Those of displays: their words alone. */
+static void make_displays(Making *m)
+{
+    const ReviewChange *change = &m->variant->change;
+    for (int i = 0; i < change->panel_count; i++)
+        say(m, "panel of %s: %s", change->panels[i].material,
+            path_name(change->panels[i].value));
+    for (int i = 0; i < change->content_count; i++)
+        say(m, "%s shows %s", change->contents[i].display, path_name(change->contents[i].path));
+    for (int i = 0; i < m->variant->level_count; i++)
+        say(m, "level '%s'", m->variant->levels[i].name);
+    for (int i = 0; i < change->brightness_count; i++) {
+        const ReviewFixedLevel *b = &change->brightness[i];
+        say(m, "%s %g times as bright", strcmp(b->display, "*") ? b->display : "every display",
+            b->level);
+    }
+}
 
 /* Takes the patch. The text is the arena's. */
-static const char *patch_text(VariantReading *v, json_t *patch)
+static void add_patch(Making *m, const char *group, const char *material, json_t *patch)
 {
-    char       *text = json_dumps(patch, JSON_COMPACT | JSON_ENCODE_ANY);
-    const char *kept = text ? arena_string(arena_of(v), text, strlen(text)) : "{}";
+    char *text = json_dumps(patch, JSON_COMPACT | JSON_ENCODE_ANY);
+    add_change(m, CHANGE_MATERIAL, group, material)->patch =
+        text ? arena_string(m->view->arena, text, strlen(text)) : "{}";
     free(text);
     json_decref(patch);
-    return kept;
 }
 
-static bool read_materials(VariantReading *v, Error *err)
+/* A name is a stack that the program carries; null takes the coating away. The old one is
+ * removed first: it is replaced, not merged. */
+static void make_extension(Making *m, const char *group, const char *extension,
+                           const PatchSaid *p)
 {
-    FieldMembers members;
-    if (!field_members(&v->view, "materials", NAMES_MAX, &members, err)) return false;
-    for (int i = 0; i < members.count; i++) {
-        json_t *patch = json_object_get(members.view.object, members.name[i]);
-        if (!json_is_object(patch))
-            return json_view_wrong_kind(&members.view, members.name[i], patch,
-                                        "an object, merged into the material", err);
-        SceneChange *change = add_change(v, CHANGE_MATERIAL, &members, i);
-        change->patch = patch_text(v, json_incref(patch));
-        say(v, arena_format(arena_of(v), "material of %s", members.name[i]));
+    const char *stack = json_string_value(p->json);
+    int         one = (int)strlen(group) - 1; /* "coating" */
+    add_patch(m, group, p->material, json_pack("{s:{s:n}, s:{s:n}}", "extensions", extension,
+                                               "extras", extension));
+    if (json_is_null(p->json)) {
+        say(m, "no %.*s on %s", one, group, p->material);
+        return;
     }
-    return true;
+    add_patch(m, group, p->material,
+              json_pack("{s:{s:o}}", "extensions", extension,
+                        stack ? json_pack("{s:s}", "stack", stack) : json_incref(p->json)));
+    say(m, "%.*s of %s%s%s", one, group, p->material, stack ? ": " : "", stack ? stack : "");
 }
 
-/* A name is a stack that the program carries; null takes the coating away. */
-static bool read_extension(VariantReading *v, const char *key, const char *extension,
-                           bool takes_names, Error *err)
+static void make_materials(Making *m)
 {
-    FieldMembers members;
-    if (!field_members(&v->view, key, NAMES_MAX, &members, err)) return false;
-    for (int i = 0; i < members.count; i++) {
-        const char *name = members.name[i], *stack = NULL;
-        json_t     *value = json_object_get(members.view.object, name);
-        if (takes_names && json_is_string(value)) stack = json_string_value(value);
-        else if (!json_is_object(value) && !json_is_null(value))
-            return json_view_wrong_kind(&members.view, name, value,
-                                        takes_names ? "an object, a stack's name or null"
-                                                    : "an object or null", err);
-        /* the old one is removed first: it is replaced, not merged */
-        add_change(v, CHANGE_MATERIAL, &members, i)->patch = patch_text(
-            v, json_pack("{s:{s:n}, s:{s:n}}", "extensions", extension, "extras", extension));
-        json_t *inside = stack ? json_pack("{s:s}", "stack", stack) : json_incref(value);
-        if (json_is_null(inside)) json_decref(inside);
-        else
-            add_change(v, CHANGE_MATERIAL, &members, i)->patch =
-                patch_text(v, json_pack("{s:{s:o}}", "extensions", extension, inside));
-        say(v, json_is_null(value)
-                   ? arena_format(arena_of(v), "no %.*s on %s", (int)strlen(key) - 1, key, name)
-                   : arena_format(arena_of(v), "%.*s of %s%s%s", (int)strlen(key) - 1, key,
-                                  name, stack ? ": " : "", stack ? stack : ""));
+    const VariantSaid *said = m->said;
+    for (int i = 0; i < said->coating_count; i++)
+        make_extension(m, "coatings", "PARHELION_coating", &said->coatings[i]);
+    for (int i = 0; i < said->glazing_count; i++)
+        make_extension(m, "glazings", "PARHELION_glazing", &said->glazings[i]);
+    for (int i = 0; i < said->material_count; i++) {
+        const PatchSaid *p = &said->materials[i];
+        add_patch(m, "materials", p->material, json_incref(p->json));
+        say(m, "material of %s", p->material);
     }
-    return true;
 }
 
-/* ---- geometry ---------------------------------------------------------------------------- */
-
-static void set_words(VariantReading *v, const SceneChange *c)
+static void make_node(Making *m, const SceneChange *said)
 {
     static const char *const WAYS[3] = {"tilted", "turned", "rolled"};
-    const float angles[3] = {c->tilt, c->turn, c->roll};
-    Text        text = {.arena = arena_of(v)};
+    SceneChange *c = add_change(m, CHANGE_NODES, "nodes", said->name);
+    const float  angles[3] = {said->tilt, said->turn, said->roll};
+    Text         text = {.arena = m->view->arena};
+    c->tilt = said->tilt, c->turn = said->turn, c->roll = said->roll;
+    c->hinge = said->hinge, c->with = said->with, c->with_count = said->with_count;
+    memcpy(c->move_m, said->move_m, sizeof c->move_m);
     text_add(&text, c->name);
     for (int i = 0; i < 3; i++)
         if (angles[i] != 0)
@@ -206,84 +334,7 @@ static void set_words(VariantReading *v, const SceneChange *c)
     if (c->move_m[0] != 0 || c->move_m[1] != 0 || c->move_m[2] != 0)
         text_format(&text, " moved by (%.4g, %.4g, %.4g) m", (double)c->move_m[0],
                     (double)c->move_m[1], (double)c->move_m[2]);
-    say(v, text.data);
-}
-
-/* Absent: none. */
-static bool read_hinge(const JsonView *node, SceneHinge *out, Error *err)
-{
-    static const char *const keys[] = {"axis", "through_m", "angle_deg"};
-    JsonView view;
-    double   axis[3] = {0, 0, 0}, through[3] = {0, 0, 0}, angle = 0;
-    bool     has_point = false;
-    if (!json_object_get(node->object, "hinge")) return true;
-    if (!json_view_child(node, "hinge", true, &view, err) ||
-        !json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
-        !field_wanted(&view, "axis", err) || !field_wanted(&view, "angle_deg", err) ||
-        !field_unit_vector(&view, "axis", axis, NULL, err) ||
-        !json_view_number(&view, "angle_deg", -180, 180, &angle, err) ||
-        !field_numbers(&view, "through_m", (JsonRange){-1e6, 1e6, 3}, through, &has_point, err))
-        return false;
-    *out = (SceneHinge){.is_own = !has_point, .angle = (float)radians_from_degrees(angle)};
-    for (int k = 0; k < 3; k++) {
-        out->axis[k] = (float)axis[k];
-        out->through_m[k] = (float)through[k];
-    }
-    return true;
-}
-
-static bool read_node(VariantReading *v, const FieldMembers *members, int i, Error *err)
-{
-    static const char *const keys[] = {"tilt_deg", "turn_deg", "roll_deg",
-                                       "hinge",    "move_m",   "with"};
-    JsonView     view;
-    double       angle[3] = {0, 0, 0}, move[3] = {0, 0, 0};
-    const char **with = NULL;
-    SceneChange *change = add_change(v, CHANGE_NODES, members, i);
-    if (!json_view_child(&members->view, members->name[i], true, &view, err) ||
-        !json_view_check_keys(&view, keys, COUNT_OF(keys), err))
-        return false;
-    for (int k = 0; k < 3; k++)
-        if (!json_view_number(&view, keys[k], -180, 180, &angle[k], err)) return false;
-    if (!field_numbers(&view, "move_m", (JsonRange){-METRES_MAX, METRES_MAX, 3}, move, NULL,
-                       err) ||
-        !field_names(&view, "with", "a node's name", &with, &change->with_count, err) ||
-        !read_hinge(&view, &change->hinge, err))
-        return false;
-    change->with = with;
-    change->tilt = (float)radians_from_degrees(angle[0]);
-    change->turn = (float)radians_from_degrees(angle[1]);
-    change->roll = (float)radians_from_degrees(angle[2]);
-    for (int k = 0; k < 3; k++) {
-        change->move_m[k] = (float)move[k];
-        change->ahead[k] = (float)v->reading->request->forward[k];
-    }
-    set_words(v, change);
-    return true;
-}
-
-static bool read_nodes(VariantReading *v, Error *err)
-{
-    FieldMembers members;
-    if (!field_members(&v->view, "nodes", NAMES_MAX, &members, err)) return false;
-    for (int i = 0; i < members.count; i++)
-        if (!read_node(v, &members, i, err)) return false;
-    return true;
-}
-
-static bool read_hoods(VariantReading *v, Error *err)
-{
-    FieldMembers members;
-    if (!field_members(&v->view, "hoods", NAMES_MAX, &members, err)) return false;
-    for (int i = 0; i < members.count; i++) {
-        double depth = 0;
-        if (!json_view_number(&members.view, members.name[i], 1e-3, HOOD_MAX_M, &depth, err))
-            return false;
-        add_change(v, CHANGE_HOOD, &members, i)->depth_m = (float)depth;
-        say(v, arena_format(arena_of(v), "hood of %.4g mm over %s", 1000 * depth,
-                            members.name[i]));
-    }
-    return true;
+    m->variant->words[m->variant->word_count++] = text.data;
 }
 
 /* Of a lobe whose full width at half its height is `width` radians: facets turn light by twice
@@ -293,153 +344,93 @@ static double alpha_of(double width)
     return tan_d(width / 4) / sqrt(sqrt(2.0) - 1);
 }
 
-static bool read_finish(VariantReading *v, const FieldMembers *members, int i, Error *err)
+static void make_surfaces(Making *m)
 {
-    static const char *const keys[] = {"scatters", "width_deg"};
-    const char  *name = members->name[i];
-    SceneChange *change = add_change(v, CHANGE_FINISH, members, i);
-    double       share = 0, width = 0;
-    JsonView     view;
-    if (!json_view_child(&members->view, name, true, &view, err) ||
-        !json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
-        !field_wanted(&view, "scatters", err) || !field_wanted(&view, "width_deg", err) ||
-        !json_view_number(&view, "scatters", 0, 1, &share, err) ||
-        !json_view_number(&view, "width_deg", 0.3, FINISH_MOST_DEG, &width, err))
-        return false;
-    change->finish = (DisplayFinish){(float)share,
-                                     (float)alpha_of(radians_from_degrees(width))};
-    say(v, arena_format(arena_of(v), "%s matte: %.3g %% of its mirror image scattered, %.3g° "
-                        "wide (modelled)", name, 100 * share, width));
-    return true;
-}
-
-static bool read_finishes(VariantReading *v, Error *err)
-{
-    FieldMembers members;
-    if (!field_members(&v->view, "finishes", NAMES_MAX, &members, err)) return false;
-    for (int i = 0; i < members.count; i++)
-        if (!read_finish(v, &members, i, err)) return false;
-    return true;
+    const VariantSaid *said = m->said;
+    for (int i = 0; i < said->hood_count; i++) {
+        const ReviewFixedLevel *h = &said->hoods[i];
+        add_change(m, CHANGE_HOOD, "hoods", h->display)->depth_m = (float)h->level;
+        say(m, "hood of %.4g mm over %s", 1000 * h->level, h->display);
+    }
+    for (int i = 0; i < said->finish_count; i++) {
+        const FinishSaid *f = &said->finishes[i];
+        add_change(m, CHANGE_FINISH, "finishes", f->display)->finish = (DisplayFinish){
+            (float)f->scatters, (float)alpha_of(radians_from_degrees(f->width_deg))};
+        say(m, "%s matte: %.3g %% of its mirror image scattered, %.3g° wide (modelled)",
+            f->display, 100 * f->scatters, f->width_deg);
+    }
 }
 
 /* The plane is vertical and along where the vehicle points. */
-static bool read_mirror(VariantReading *v, Error *err)
+static void make_mirror(Making *m)
 {
-    static const char *const keys[] = {"middle_m"};
-    const double *ahead = v->reading->request->forward;
-    JsonView      view;
-    double        middle = 0;
-    if (!json_object_get(v->view.object, "mirror")) return true;
-    if (!json_view_child(&v->view, "mirror", true, &view, err) ||
-        !json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
-        !json_view_number(&view, "middle_m", -METRES_MAX, METRES_MAX, &middle, err))
-        return false;
-    ReviewMirror *mirror = ARENA_NEW(arena_of(v), ReviewMirror, 1);
-    SceneChange  *change = &v->scene[v->variant->change.scene_count++];
-    double        level = hypot_d(ahead[0], ahead[2]);
+    const double *ahead = ((const ReviewRequest *)m->view->whole)->forward;
+    double        level = hypot_d(ahead[0], ahead[2]), middle = m->said->mirror->middle_m;
+    ReviewMirror *mirror = ARENA_NEW(m->view->arena, ReviewMirror, 1);
     *mirror = (ReviewMirror){{-ahead[2] / level, 0, ahead[0] / level}, middle};
-    *change = (SceneChange){.kind = CHANGE_MIRROR, .name = "", .middle_m = (float)middle,
-                            .file = v->view.file, .place = view.path};
-    for (int k = 0; k < 3; k++) change->ahead[k] = (float)ahead[k];
-    v->variant->change.mirror = mirror;
-    say(v, arena_format(arena_of(v), "mirrored, at %.4g m right of the origin; displays "
-                        "are not", middle));
+    add_change(m, CHANGE_MIRROR, "mirror", "")->middle_m = (float)middle;
+    m->variant->change.mirror = mirror;
+    say(m, "mirrored, at %.4g m right of the origin; displays are not", middle);
+}
+
+static void make_eyes(Making *m)
+{
+    const ReviewRequest *request = m->view->whole;
+    if (!m->said->eye_count) return;
+    m->variant->eye_moves = (double(*)[3])ARENA_NEW(m->view->arena, double,
+                                                    3 * request->eye_count);
+    for (int i = 0; i < m->said->eye_count; i++) {
+        const EyeMove *moved = &m->said->eyes[i];
+        double *move = m->variant->eye_moves[review_eye_named(request, moved->eye) -
+                                             request->eyes];
+        memcpy(move, moved->move_m, sizeof moved->move_m);
+        say(m, "%s moved by (%.4g, %.4g, %.4g) m", moved->eye, move[0], move[1], move[2]);
+    }
+}
+
+static void make_files(Making *m)
+{
+    const ReviewVariant *v = m->variant;
+    if (v->scene_count) say(m, "scene %s", path_name(v->scenes[0]));
+    for (int i = 0; i < v->more_count; i++) say(m, "with %s", path_name(v->more[i]));
+}
+
+static void make_variant(const JsonView *view, const VariantSaid *said, ReviewVariant *out)
+{
+    const ReviewChange *c = &said->of.change;
+    int changes = 2 * (said->coating_count + said->glazing_count) + said->material_count +
+                  said->node_count + said->hood_count + said->finish_count + 1;
+    int words = changes + c->panel_count + c->content_count + said->of.level_count +
+                c->brightness_count + said->eye_count + said->of.more_count + 1;
+    Making m = {view, said, out, ARENA_NEW(view->arena, SceneChange, changes)};
+    const char *name = out->name;
+    *out = said->of;
+    out->name = name;
+    out->words = ARENA_NEW(view->arena, const char *, words);
+    out->change.place = view->path;
+    out->change.scene = m.scene;
+    make_displays(&m);
+    make_materials(&m);
+    for (int i = 0; i < said->node_count; i++) make_node(&m, &said->nodes[i]);
+    make_surfaces(&m);
+    if (said->mirror) make_mirror(&m);
+    make_eyes(&m);
+    make_files(&m);
+}
+
+static bool read_variant(const JsonView *view, const RecordRow *row, void *item, Error *err)
+{
+    JsonView    inside;
+    VariantSaid said = {.coatings = NULL};
+    if (!json_view_child(view, row->key, &inside, err)) return false;
+    if (!json_object_size(inside.object))
+        return record_fails(view, row->key, err, "changes nothing, required: one of 'panels', "
+                            "'levels', 'nodes' ...");
+    if (!record_read(&inside, &said_format, &said, err)) return false;
+    make_variant(&inside, &said, item);
     return true;
 }
 
-/* ---- eyes, files ------------------------------------------------------------------------- */
-
-static bool read_eye(VariantReading *v, const FieldMembers *members, int i, Error *err)
-{
-    static const char *const keys[] = {"move_m"};
-    JsonView view;
-    const ReviewRequest *request = v->reading->request;
-    const char          *name = members->name[i];
-    if (!json_view_child(&members->view, name, true, &view, err) ||
-        !json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
-        !field_wanted(&view, "move_m", err) ||
-        !field_knows(&members->view, name, request_eye_names(request, arena_of(v)), "eye", err))
-        return false;
-    const ReviewEye *eye = review_eye_named(request, name);
-    double *move = v->variant->eye_moves[eye - request->eyes];
-    if (!field_numbers(&view, "move_m", (JsonRange){-METRES_MAX, METRES_MAX, 3}, move, NULL,
-                       err))
-        return false;
-    say(v, arena_format(arena_of(v), "%s moved by (%.4g, %.4g, %.4g) m", name, move[0], move[1],
-                        move[2]));
-    return true;
-}
-
-static bool read_eyes(VariantReading *v, Error *err)
-{
-    FieldMembers members;
-    if (!field_members(&v->view, "eyes", NAMES_MAX, &members, err)) return false;
-    if (members.count)
-        v->variant->eye_moves = (double(*)[3])ARENA_NEW(arena_of(v), double,
-                                                        3 * v->reading->request->eye_count);
-    for (int i = 0; i < members.count; i++)
-        if (!read_eye(v, &members, i, err)) return false;
-    return true;
-}
-
-static bool read_files(VariantReading *v, Error *err)
-{
-    ReviewVariant *variant = v->variant;
-    if (!field_files(&v->view, "scene", &variant->scenes, &variant->scene_count, err) ||
-        !field_files(&v->view, "add", &variant->more, &variant->more_count, err))
-        return false;
-    if (variant->scene_count)
-        say(v, arena_format(arena_of(v), "scene %s", path_name(variant->scenes[0])));
-    for (int i = 0; i < variant->more_count; i++)
-        say(v, arena_format(arena_of(v), "with %s", path_name(variant->more[i])));
-    return true;
-}
-
-/* ---- a variant --------------------------------------------------------------------------- */
-
-/* An upper bound of its changes: the members of its members. */
-static size_t room_for(const JsonView *view)
-{
-    const char *key;
-    json_t     *value;
-    size_t      room = 0;
-    json_object_foreach(view->object, key, value)
-        room += json_is_array(value) ? json_array_size(value) : json_object_size(value);
-    return room + 1;
-}
-
-static bool read_variant(RequestReading *reading, const FieldMembers *members, int i,
-                         Error *err)
-{
-    VariantReading v = {.reading = reading, .variant = &reading->request->variants[i]};
-    if (!json_view_child(&members->view, members->name[i], true, &v.view, err) ||
-        !json_view_check_keys(&v.view, KEYS, COUNT_OF(KEYS), err))
-        return false;
-    if (!json_object_size(v.view.object))
-        return field_fails(&members->view, members->name[i], err,
-                           "changes nothing, required: one of 'panels', 'levels', 'nodes' ...");
-    size_t room = 2 * room_for(&v.view);
-    *v.variant = (ReviewVariant){.name = members->name[i],
-                                 .words = ARENA_NEW(v.view.arena, const char *, room)};
-    v.variant->change.place = v.view.path;
-    v.variant->change.scene = v.scene = ARENA_NEW(v.view.arena, SceneChange, room);
-    return read_panels(&v, err) && read_contents(&v, err) && read_levels(&v, err) &&
-           read_brightness(&v, err) &&
-           read_extension(&v, "coatings", "PARHELION_coating", true, err) &&
-           read_extension(&v, "glazings", "PARHELION_glazing", false, err) &&
-           read_materials(&v, err) && read_nodes(&v, err) && read_hoods(&v, err) &&
-           read_finishes(&v, err) &&
-           read_mirror(&v, err) && read_eyes(&v, err) && read_files(&v, err);
-}
-
-bool request_variants_read(RequestReading *reading, Error *err)
-{
-    FieldMembers   members;
-    ReviewRequest *request = reading->request;
-    if (!field_members(&reading->root, "variants", VARIANTS_MAX, &members, err)) return false;
-    request->variants = ARENA_NEW(reading->root.arena, ReviewVariant, members.count);
-    request->variant_count = members.count;
-    for (int i = 0; i < members.count; i++)
-        if (!read_variant(reading, &members, i, err)) return false;
-    return true;
-}
+static const RecordRow VALUE = {.kind = RECORD_OBJECT, .of = &said_format,
+                                .read = read_variant};
+const RecordFormat review_variant_format = {"variant", sizeof(ReviewVariant), .value = &VALUE};

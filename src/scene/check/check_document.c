@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/count.h"
+
 /* "major.minor", digits only; false when the text is anything else. */
 static bool parse_version(const char *text, long *major, long *minor)
 {
@@ -250,6 +252,15 @@ static const EnvironmentType ENVIRONMENT_TYPES[] = {
      "moon|"},
 };
 
+/* Of some type; any other key is reported as that. */
+static bool is_known(const char *word)
+{
+    bool found = false;
+    for (int i = 0; i < COUNT_OF(ENVIRONMENT_TYPES) && !found; i++)
+        found = strstr(ENVIRONMENT_TYPES[i].allowed, word) != NULL;
+    return found;
+}
+
 static void check_members(const DocumentCheck *check, const GltfValue *environment,
                           const EnvironmentType *type)
 {
@@ -262,7 +273,7 @@ static void check_members(const DocumentCheck *check, const GltfValue *environme
     for (int i = 0; i < environment->count; i++) {
         char word[80];
         snprintf(word, sizeof word, "|%.70s|", environment->items[i].key);
-        if (!strstr(COMMON, word) && !strstr(type->allowed, word))
+        if (is_known(word) && !strstr(COMMON, word) && !strstr(type->allowed, word))
             check_warns(check, &environment->items[i],
                         "has no meaning for an environment of type "
                         "\"%s\" and is skipped",

@@ -87,7 +87,11 @@ void check_glazing_layer(const DocumentCheck *check, const GltfValue *layer)
     if (transmission && !is_file && !is_share(transmission))
         check_fails(check, transmission,
                     "a number from 0 to 1, or the name of a CSV file of nm,value is required");
-    if (tree_number(layer, "wedge_rad", 0) > 0 && !tree_member(layer, "wedge_toward"))
+    const GltfValue *toward = tree_member(layer, "wedge_toward");
+    if (toward && !tree_member(layer, "wedge_rad"))
+        check_warns(check, toward,
+                    "stands there without \"wedge_rad\", which it needs");
+    if (tree_number(layer, "wedge_rad", 0) > 0 && !toward)
         check_fails(check, layer,
                     "a wedge without \"wedge_toward\": +u, -u, +v or -v is required");
 }

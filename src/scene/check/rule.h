@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* rule.h -- what a glTF document must look like, as tables.
  *
- * The tables (schema_core.c, schema_extensions.c) state for every object which members it may
- * have, of which kind and range, and which list an index refers to. What tables cannot express
- * (cycles, bounds, agreement between objects) is in the check_*.c files.
+ * The tables (schema_core.c, schema_extensions.c; ours are rows: our_extensions.c) state for
+ * every object which members it may have, of which kind and range, and which list an index
+ * refers to. What tables cannot express (cycles, bounds, agreement between objects) is in the
+ * check_*.c files.
  */
 #pragma once
+#include "record/record.h"
 #include "scene/check/check.h"
 
 typedef enum RuleKind {
@@ -44,6 +46,7 @@ typedef struct Rule {
     double min, max; /* both 0, and not RULE_FROM_MIN: any number will do */
     int least, most; /* items of an array; most 0: as many as there are */
     const char *of;
+    const char *const *words; /* of a choice, in place of `of`; a NULL ends them */
     const struct Schema *schema;
     const char *needs; /* the member beside it without which it means nothing; NULL: none */
 } Rule;
@@ -54,10 +57,11 @@ typedef struct Schema {
     /* NULL: the table suffices. */
     void (*more)(const DocumentCheck *check, const GltfValue *value);
     const Rule *rules; /* RULES(...): up to one without a name */
+    const RecordFormat *format; /* of ours: rows in place of rules */
 } Schema;
 
-#define NO_RULES (const Rule[]){{.name = NULL}}
-#define RULES(...) (const Rule[]){__VA_ARGS__, {.name = NULL}}
+#define NO_RULES .rules = (const Rule[]){{.name = NULL}}
+#define RULES(...) .rules = (const Rule[]){__VA_ARGS__, {.name = NULL}}
 
 #define RULE_MOST_BYTES 9007199254740992.0 /* 2^53: what a double counts exactly */
 

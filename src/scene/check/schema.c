@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/check/our_extensions.h"
 #include "scene/check/schema_extensions.h"
 #include "scene/gltf/accessor.h"
 #include "scene/gltf/document.h"
@@ -89,9 +90,12 @@ static void check_number(const DocumentCheck *check, const GltfValue *value, con
     fails_as(check, value, wanted);
 }
 
-/* Whether `text` is one of the words of "a|b|c". */
-static bool is_among(const char *words, const char *text)
+/* Whether `text` is one of the words of "a|b|c", or of a list. */
+static bool is_among(const Rule *rule, const char *text)
 {
+    const char *words = rule->of ? rule->of : "";
+    for (int i = 0; rule->words && rule->words[i]; i++)
+        if (strcmp(rule->words[i], text) == 0) return true;
     size_t length = strlen(text);
     for (const char *word = words; *word;) {
         size_t size = strcspn(word, "|");
@@ -105,6 +109,10 @@ static bool is_among(const char *words, const char *text)
 static void list_choices(const Rule *rule, char *out, size_t size)
 {
     size_t used = (size_t)snprintf(out, size, "one of ");
+    for (int i = 0; rule->words && rule->words[i]; i++)
+        used += (size_t)snprintf(out + used, size - used, "%s%s", i ? "|" : "",
+                                 rule->words[i]);
+    if (rule->words) return;
     if (!is_component_type(rule->name)) {
         snprintf(out + used, size - used, "%s", rule->of);
         return;
@@ -120,9 +128,9 @@ static void check_choice(const DocumentCheck *check, const GltfValue *value, con
     bool is_code = rule->kind == RULE_CODE;
     if (is_code && tree_is_integer(value)) {
         snprintf(text, sizeof text, "%.0f", value->number);
-        if (is_among(rule->of, text)) return;
+        if (is_among(rule, text)) return;
     }
-    if (!is_code && value->kind == GLTF_STRING && is_among(rule->of, value->text)) return;
+    if (!is_code && value->kind == GLTF_STRING && is_among(rule, value->text)) return;
     list_choices(rule, wanted, sizeof wanted);
     DocumentCheck milder = *check;
     bool is_kind = is_code ? tree_is_integer(value) : value->kind == GLTF_STRING;
@@ -254,13 +262,12 @@ static void check_value(const DocumentCheck *check, const GltfValue *value, cons
 
 /* ---- objects --------------------------------------------------------------------------- */
 
-static const char *nearest_name(const Schema *schema, const char *name)
+static int names_of(const Schema *schema, const char *names[MEMBERS_MAX])
 {
-    const char *names[MEMBERS_MAX];
     int count = 0;
     for (const Rule *rule = schema->rules; rule->name && count < MEMBERS_MAX; rule++)
         names[count++] = rule->name;
-    return nearest_key(name, names, count, 3);
+    return count;
 }
 
 static const Rule *find_rule(const Schema *schema, const char *name)
@@ -273,13 +280,18 @@ static const Rule *find_rule(const Schema *schema, const char *name)
 static void check_unknown(const DocumentCheck *check, const GltfValue *member,
                           const Schema *schema)
 {
-    const char *near = nearest_name(schema, member->key);
+    const char *names[MEMBERS_MAX];
+    int         count = names_of(schema, names);
+    const char *near = nearest_key(member->key, names, count, 3);
     char hint[100] = "";
+    if (schema->is_ours) {
+        if (!near) near = nearest_word_meant(member->key, names, count);
+        check_fails(check, member, "unknown key; the nearest known one is '%s'",
+                    near ? near : nearest_word(member->key, names, count));
+        return;
+    }
     if (near) snprintf(hint, sizeof hint, "; is \"%s\" meant?", near);
-    if (schema->is_ours)
-        check_fails(check, member, "is no member of %s%s", schema->name, hint);
-    else
-        check_warns(check, member, "is no member of glTF's %s and is skipped%s", schema->name,
+    check_warns(check, member, "is no member of glTF's %s and is skipped%s", schema->name,
                     hint);
 }
 
@@ -345,8 +357,46 @@ static void check_common(const DocumentCheck *check, const GltfValue *member,
     }
 }
 
-void schema_check(const DocumentCheck *check, const GltfValue *value, const Schema *schema)
+/* ---- rows as rules ---------------------------------------------------------------------- */
+
+static Rule rule_of(const RecordRow *row)
 {
+    static const RuleKind KINDS[] = {
+        [RECORD_NUMBER] = RULE_NUMBER, [RECORD_INTEGER] = RULE_INTEGER,
+        [RECORD_NUMBERS] = RULE_NUMBERS, [RECORD_FLAG] = RULE_BOOLEAN,
+        [RECORD_TEXT] = RULE_TEXT, [RECORD_FILE] = RULE_TEXT, [RECORD_CHOICE] = RULE_CHOICE,
+        [RECORD_OBJECT] = RULE_OBJECT, [RECORD_LIST] = RULE_OBJECTS,
+        [RECORD_EITHER] = RULE_ANY};
+    Rule rule = {.name = row->key, .kind = KINDS[row->kind], .flags = RULE_CLOSED,
+                 .least = row->least, .most = row->most, .words = row->words,
+                 .schema = row->of ? our_schema(row->of) : NULL};
+    if (row->flags & RECORD_REQUIRED) rule.flags |= RULE_REQUIRED;
+    if (row->flags & RECORD_ABOVE) rule.flags |= RULE_ABOVE_MIN;
+    if (!row->least) rule.flags |= RULE_MAY_BE_EMPTY;
+    if (isfinite(row->low)) rule.min = row->low;
+    if (isfinite(row->high)) rule.max = row->high;
+    else if (isfinite(row->low)) rule.flags |= RULE_FROM_MIN;
+    return rule;
+}
+
+/* But for what every object of glTF may have. */
+static Schema with_rules(const Schema *schema, Rule rules[MEMBERS_MAX])
+{
+    Schema own = *schema;
+    int    count = 0;
+    if (!schema->format) return own;
+    for (const RecordRow *row = schema->format->rows; row->key; row++)
+        if (row->kind != RECORD_OWN && count + 1 < MEMBERS_MAX)
+            rules[count++] = rule_of(row);
+    rules[count].name = NULL;
+    own.rules = rules;
+    return own;
+}
+
+void schema_check(const DocumentCheck *check, const GltfValue *value, const Schema *described)
+{
+    Rule          rules[MEMBERS_MAX];
+    const Schema  own = with_rules(described, rules), *schema = &own;
     if (value->kind != GLTF_OBJECT) {
         fails_as(check, value, "an object");
         return;

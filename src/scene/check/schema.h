@@ -4,4 +4,4 @@
 #include "scene/check/rule.h"
 
 /* Checks a value and everything below it. */
-void schema_check(const DocumentCheck *check, const GltfValue *value, const Schema *schema);
+void schema_check(const DocumentCheck *check, const GltfValue *value, const Schema *described);

@@ -10,6 +10,7 @@
 #include "scene/check/check_material.h"
 #include "scene/check/check_optics.h"
 #include "scene/check/foreign_extensions.h"
+#include "scene/check/our_extensions.h"
 #include "scene/check/schema_core.h"
 #include "scene/gltf/document.h"
 
@@ -161,107 +162,7 @@ static const Schema SCHEMA_POINTER = {
 static const Schema SCHEMA_VISIBILITY = {"KHR_node_visibility", false, NULL, RULES(
     {"visible", .kind = RULE_BOOLEAN})};
 
-/* ---- ours (formats: files that users write) -------------------------------------------- */
-
-static void check_subpixels(const DocumentCheck *check, const GltfValue *subpixels)
-{
-    const GltfValue *columns = tree_member(subpixels, "columns");
-    const GltfValue *rows = tree_member(subpixels, "rows");
-    if (!columns != !rows)
-        check_fails(check, columns ? columns : rows, "is there without \"%s\"",
-                    columns ? "rows" : "columns");
-    if (strcmp(tree_text(subpixels, "layout", ""), "none") != 0) return;
-    static const char *const beside[] = {"fill", "columns", "rows"};
-    for (int i = 0; i < COUNT_OF(beside); i++) {
-        const GltfValue *member = tree_member(subpixels, beside[i]);
-        if (member) check_fails(check, member, "is there beside the layout \"none\"");
-    }
-}
-
-static const Schema SCHEMA_SUBPIXELS = {"subpixels", true, check_subpixels, RULES(
-    {"layout", RULE_CHOICE, .flags = RULE_REQUIRED | RULE_CLOSED, .of = "stripe|pentile|none"},
-    {"fill", RULE_NUMBER, .min = 0.01, .max = 1},
-    {"columns", RULE_INTEGER, .min = 1, .max = 65536},
-    {"rows", RULE_INTEGER, .min = 1, .max = 65536})};
-
-static const Schema SCHEMA_DISPLAY = {"PARHELION_display", true, check_display, RULES(
-    {"panel", .kind = RULE_TEXT},
-    {"content", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {"level", RULE_NUMBER, .flags = RULE_FROM_MIN},
-    {"max_level", RULE_NUMBER, .min = 1, .max = 100},
-    {"any_size", .kind = RULE_BOOLEAN},
-    {"subpixels", RULE_OBJECT, .schema = &SCHEMA_SUBPIXELS})};
-
-static const Schema SCHEMA_SUN = {"sun", true, NULL, RULES(
-    {"azimuth_deg", RULE_NUMBER, .flags = RULE_REQUIRED, .min = -360, .max = 360},
-    {"elevation_deg", RULE_NUMBER, .flags = RULE_REQUIRED, .min = -90, .max = 90},
-    {"illuminance_lx", RULE_NUMBER, .flags = RULE_REQUIRED, .max = SCENE_MOST_LX},
-    {"angular_radius_deg", RULE_NUMBER, .flags = RULE_ABOVE_MIN, .max = 45})};
-
-static const Schema SCHEMA_ENVIRONMENT = {
-    "PARHELION_environment", true, check_environment, RULES(
-    {"type", RULE_CHOICE, .flags = RULE_REQUIRED | RULE_CLOSED,
-     .of = "constant|hdri|cie|perez|sky"},
-    {"heading_deg", RULE_NUMBER, .min = -360, .max = 360},
-    {"forward", RULE_NUMBERS, .least = 3, .most = 3},
-    {"sun", RULE_OBJECT, .schema = &SCHEMA_SUN},
-    {"luminance", RULE_NUMBER, .max = SCENE_MOST_CD_M2},
-    {"color", RULE_NUMBERS, .flags = RULE_FROM_MIN, .least = 3, .most = 3},
-    {"uri", .kind = RULE_TEXT},
-    {"rotation_deg", RULE_NUMBER, .min = -360, .max = 360},
-    {"scale", RULE_NUMBER, .max = SCENE_MOST_CD_M2},
-    {"horizontal_illuminance_lx", RULE_NUMBER, .flags = RULE_ABOVE_MIN, .max = SCENE_MOST_LX},
-    {"sky", RULE_INTEGER, .min = 1, .max = 15},
-    {"diffuse_horizontal_lx", RULE_NUMBER, .max = SCENE_MOST_LX},
-    {"direct_normal_w_m2", RULE_NUMBER, .max = SCENE_MOST_W_M2},
-    {"diffuse_horizontal_w_m2", RULE_NUMBER, .max = SCENE_MOST_W_M2},
-    {"when", .kind = RULE_TEXT},
-    {"where", RULE_NUMBERS, .least = 2, .most = 3},
-    {"turbidity", RULE_NUMBER, .min = 1, .max = 30},
-    {"visibility_km", RULE_NUMBER, .flags = RULE_FROM_MIN | RULE_ABOVE_MIN},
-    {"ozone_atm_cm", RULE_NUMBER, .max = 2},
-    {"water_cm", RULE_NUMBER, .max = 20},
-    {"albedo", RULE_NUMBER, .max = 1},
-    {"ground", RULE_CHOICE, .flags = RULE_CLOSED, .of = "land|sea|cloud"},
-    {"cloud_top_m", RULE_NUMBER, .flags = RULE_FROM_MIN},
-    {"moon", .kind = RULE_BOOLEAN})};
-
-static const Schema SCHEMA_SPECTRUM = {"PARHELION_spectrum", true, NULL, RULES(
-    {"baseColor", .kind = RULE_TEXT},
-    {"transmission", .kind = RULE_TEXT},
-    {"specular", .kind = RULE_TEXT},
-    {"conductor", .kind = RULE_TEXT},
-    {"emission", .kind = RULE_TEXT})};
-
-static const Schema SCHEMA_THIN_LAYER = {"layer", true, check_layer, RULES(
-    {"n", RULE_ANY, .flags = RULE_REQUIRED},
-    {"k", .kind = RULE_ANY},
-    {"thickness_nm", RULE_NUMBER, .flags = RULE_REQUIRED, .max = 1e6})};
-
-static const Schema SCHEMA_COATING = {"PARHELION_coating", true, check_coating, RULES(
-    {"layers", RULE_OBJECTS, .flags = RULE_MAY_BE_EMPTY, .schema = &SCHEMA_THIN_LAYER},
-    {"stack", .kind = RULE_TEXT},
-    {"outside", RULE_NUMBER, .min = 1, .max = 10},
-    {"faces", RULE_CHOICE, .flags = RULE_CLOSED, .of = "both|front|back"})};
-
-static const Schema SCHEMA_LAYER = {"layer", true, check_glazing_layer, RULES(
-    {"thickness_m", RULE_NUMBER, .flags = RULE_REQUIRED | RULE_ABOVE_MIN, .max = 0.1},
-    {"ior", RULE_NUMBER, .flags = RULE_REQUIRED, .min = 1, .max = 4},
-    {"transmission", .kind = RULE_ANY},
-    {"wedge_rad", RULE_NUMBER, .max = 0.01},
-    {"wedge_toward", RULE_CHOICE, .flags = RULE_CLOSED, .of = "+u|-u|+v|-v",
-     .needs = "wedge_rad"})};
-
-static const Schema SCHEMA_HAZE = {"haze", true, NULL, RULES(
-    {"share", RULE_NUMBER, .flags = RULE_REQUIRED, .max = 1},
-    {"width_deg", RULE_NUMBER, .flags = RULE_REQUIRED, .min = 0.1, .max = 60})};
-
-static const Schema SCHEMA_GLAZING = {"PARHELION_glazing", true, check_glazing, RULES(
-    {"layers", RULE_OBJECTS, .flags = RULE_REQUIRED, .least = 1, .most = GLAZING_LAYERS_MAX,
-     .schema = &SCHEMA_LAYER},
-    {"haze", RULE_OBJECT, .schema = &SCHEMA_HAZE},
-    {"coating_outside", RULE_OBJECT, .schema = &SCHEMA_COATING},
-    {"coating_inside", RULE_OBJECT, .schema = &SCHEMA_COATING})};
+/* ---- many of one mesh ------------------------------------------------------------------- */
 
 static const Schema SCHEMA_INSTANCING = {INSTANCING_EXTENSION, false, check_instancing, RULES(
     {"attributes", RULE_MAP, .flags = RULE_REQUIRED, .of = "accessors"})};
@@ -389,11 +290,11 @@ static const ExtensionRule EXTENSIONS[] = {
     {"KHR_animation_pointer", "animation.channel.target", &SCHEMA_POINTER},
     {"KHR_materials_variants", "document", &SCHEMA_VARIANTS},
     {"KHR_materials_variants", "mesh.primitive", &SCHEMA_MAPPINGS},
-    {"PARHELION_display", "material", &SCHEMA_DISPLAY},
-    {"PARHELION_environment", "scene", &SCHEMA_ENVIRONMENT},
-    {"PARHELION_spectrum", "material", &SCHEMA_SPECTRUM},
-    {"PARHELION_glazing", "material", &SCHEMA_GLAZING},
-    {"PARHELION_coating", "material", &SCHEMA_COATING},
+    {"PARHELION_display", "material", &our_schemas[OUR_DISPLAY]},
+    {"PARHELION_environment", "scene", &our_schemas[OUR_ENVIRONMENT]},
+    {"PARHELION_spectrum", "material", &our_schemas[OUR_SPECTRUM]},
+    {"PARHELION_glazing", "material", &our_schemas[OUR_GLAZING]},
+    {"PARHELION_coating", "material", &our_schemas[OUR_COATING]},
     {NORMAL_CONVENTION_EXTENSION, "asset", &SCHEMA_NORMAL_CONVENTION},
     {NORMAL_CONVENTION_EXTENSION, "document", &SCHEMA_NORMAL_CONVENTION},
     {"OpenMaterial_material_parameters", "material", NULL}, /* check_optics.c looks into it */

@@ -147,24 +147,36 @@ static void check(GltfFile *file, const GltfValue *value)
                  extension_rule("PARHELION_environment", "scene", &is_known)->schema);
 }
 
-static void pass_warnings(const Problems *from, Problems *to)
+/* Where a problem is in the file about the text. */
+static const char *place_of(const EnvironmentText *text, const Problem *problem, Arena *arena)
+{
+    if (strcmp(problem->file, text->file)) return problem->path;
+    return arena_format(arena, "%s%s", text->place, problem->path);
+}
+
+static void pass_warnings(const EnvironmentText *text, const Problems *from, Problems *to)
 {
     for (int i = 0; i < from->count; i++)
         if (from->list[i].severity == SEVERITY_WARNING)
-            problems_add(to, SEVERITY_WARNING, from->list[i].file, from->list[i].path, "%s",
+            problems_add(to, SEVERITY_WARNING, from->list[i].file,
+                         place_of(text, &from->list[i], from->arena), "%s",
                          from->list[i].message);
 }
 
-static bool first_error(const Problems *problems, Error *err)
+static bool first_error(const EnvironmentText *text, const Problems *problems, Error *err)
 {
     const Problem *first = problems->list;
     while (first->severity != SEVERITY_ERROR) first++;
-    return error_at(err, ERROR_INPUT, first->file, first->path, "%s", first->message);
+    return error_at(err, ERROR_INPUT, first->file, place_of(text, first, problems->arena), "%s",
+                    first->message);
 }
 
 bool environment_text_read(const EnvironmentText *text, Arena *arena, Problems *problems,
                            EnvironmentFound *out, Error *err)
 {
+    const GltfValue *value;
+    if (!gltf_json_parse(text->text, strlen(text->text), arena, &value, err))
+        return error_in_file(err, text->file);
     Problems own = problems_start(arena);
     SceneOptions options = {.root = text->root};
     Loader load = {.arena = arena,
@@ -173,12 +185,12 @@ bool environment_text_read(const EnvironmentText *text, Arena *arena, Problems *
                    .options = &options,
                    .inputs = list_of(sizeof(const char *)),
                    .input_hashes = list_of(sizeof(uint64_t))};
-    GltfFile file = {.load = &load, .path = text->file, .root = text->value};
-    check(&file, text->value);
-    if (!own.error_count) environment_build(&file, text->value);
-    bool is_sound = !own.error_count || first_error(&own, err);
+    GltfFile file = {.load = &load, .path = text->file, .root = value};
+    check(&file, value);
+    if (!own.error_count) environment_build(&file, value);
+    bool is_sound = !own.error_count || first_error(text, &own, err);
     if (is_sound) {
-        pass_warnings(&own, problems);
+        pass_warnings(text, &own, problems);
         *out = (EnvironmentFound){.environment = load.environment};
         if (load.inputs.count) {
             out->picture = *(const char **)list_item(&load.inputs, 0);

@@ -10,9 +10,10 @@
 void environment_build(GltfFile *file, const GltfValue *extension);
 
 typedef struct EnvironmentText {
-    const char      *file;  /* as the user named it: URIs are relative to it */
-    const GltfValue *value; /* the object, in its document's tree */
-    const char      *root;  /* as SceneOptions.root */
+    const char *file;  /* as the user named it: URIs are relative to it */
+    const char *place; /* where it stands there, a JSON pointer */
+    const char *text;  /* the object's JSON */
+    const char *root;  /* as SceneOptions.root */
 } EnvironmentText;
 
 typedef struct EnvironmentFound {

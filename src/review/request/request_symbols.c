@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "record/rows.h"
+#include "review/request/request_format.h"
+
+/* ---- words for all or by name ------------------------------------------------------------ */
+
+#define OWNER WordsSaid
+#define WORDS_ROWS(list, by, names, format)                                                    \
+    CHOICE("a word", 0, all, list, NULL),                                                      \
+    {by, RECORD_MAP, RECORD_MANY(OWNER, by_name, count), .least = 1, .among = &names,          \
+     .of = &format},                                                                           \
+    {0}
+
+static const char *const POLARITIES[] = {
+    [POLARITY_AUTO] = "auto",
+    [POLARITY_LIGHT_ON_DARK] = "light-on-dark",
+    [POLARITY_DARK_ON_LIGHT] = "dark-on-light",
+    NULL};
+static const char *const VISIBLE[] = {"required", "optional", NULL};
+
+static const RecordRow POLARITY = {.kind = RECORD_CHOICE, RECORD_AT(WordOf, word),
+                                   .words = POLARITIES};
+static const RecordFormat polarity_format = {"polarity", sizeof(WordOf), .value = &POLARITY};
+const RecordRow review_polarity_forms[] = {
+    WORDS_ROWS(POLARITIES, "words by symbols' names", review_symbol_names, polarity_format)};
+
+static const RecordRow IS_VISIBLE = {.kind = RECORD_CHOICE, RECORD_AT(WordOf, word),
+                                     .words = VISIBLE};
+static const RecordFormat visible_format = {"visible", sizeof(WordOf), .value = &IS_VISIBLE};
+static const RecordRow VISIBLE_FORMS[] = {
+    WORDS_ROWS(VISIBLE, "words by eyes' names", review_eye_names, visible_format)};
+
+#undef OWNER
+
+/* ---- symbols ----------------------------------------------------------------------------- */
+
+static bool read_visible(const JsonView *view, const RecordRow *row, void *item, Error *err)
+{
+    int *optional = ARENA_NEW(view->arena, int, ((ReviewRequest *)view->whole)->eye_count);
+    ((ReviewSymbol *)item)->optional_for = optional;
+    return request_read_words(view, row, optional, err);
+}
+
+static const char *const FOUND[] = {"text", NULL};
+
+#define OWNER ReviewSymbol
+
+static const RecordRow SYMBOL[] = {
+    TEXT("display", MUST | RECORD_FILLED, display,
+         "A material's name, or node:NAME where several nodes wear one."),
+    A_FILE("content", 0, content,
+           "What the display shows; default: what it shows in the scene."),
+    A_FILE("mask", 0, mask, "A picture of the content's size: white is the foreground."),
+    VECTOR("uv", 0, uv, 4, 0, 1, "Left, top, right, bottom of the content, v down."),
+    CHOICE("polarity", 0, polarity, POLARITIES, NULL),
+    {"find", RECORD_CONST, .words = FOUND,
+     .doc = "Symbols are proposed from what stands in the rectangle, or on all of the "
+            "content."},
+    {"visible", RECORD_EITHER, .forms = VISIBLE_FORMS, .read = read_visible,
+     .doc = "Whether it must be seen. What is optional and hidden does not count; what is seen "
+            "of it is judged."},
+    {0}};
+
+static void start_symbol(void *item)
+{
+    *(ReviewSymbol *)item = (ReviewSymbol){.uv = {0, 0, 1, 1}};
+}
+
+static bool check_symbol(const JsonView *view, void *item, Error *err)
+{
+    ReviewSymbol *symbol = item;
+    const double *uv = symbol->uv;
+    symbol->has_uv = record_has(view, "uv");
+    symbol->find_text = record_has(view, "find");
+    if (!(uv[0] < uv[2] && uv[1] < uv[3]))
+        return record_fails(view, "uv", err,
+                            "is [%g, %g, %g, %g], required: [left, top, right, bottom] with "
+                            "left below right and top below bottom",
+                            uv[0], uv[1], uv[2], uv[3]);
+    if (symbol->find_text && symbol->mask)
+        return error_at(err, ERROR_INPUT, view->file, view->path,
+                        "has both 'find' and 'mask', required: one of them");
+    return symbol->find_text || symbol->mask || symbol->has_uv ||
+           error_at(err, ERROR_INPUT, view->file, view->path,
+                    "says no place on its display, required: 'uv', 'mask' or 'find'");
+}
+
+const RecordFormat review_symbol_format = {
+    "symbol", sizeof(OWNER), SYMBOL, .start = start_symbol, .check = check_symbol,
+    .rules = "{'anyOf': [{'required': ['uv']}, {'required': ['mask']}, "
+             "{'required': ['find']}], 'not': {'required': ['mask', 'find']}}"};
+
+/* ---- files by name ----------------------------------------------------------------------- */
+
+static const RecordRow WITH = {.kind = RECORD_LIST, RECORD_MANY(ReviewWith, paths, path_count),
+                               RECORD_COUNT(1, 256), .of = &record_files,
+                               .doc = "Files of the scene."};
+const RecordFormat review_with_format = {"with", sizeof(ReviewWith), .value = &WITH};
