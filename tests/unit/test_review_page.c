@@ -178,6 +178,7 @@ static json_t *all_values(json_t *own)
     *review = fixture_review(&arena);
     ReviewDiff        diff = review_diff(&before, review, "a", "b", &arena);
     ReviewMap         map = fixture_map(&arena, &review->sweeps[0]);
+    SunPath           path = fixture_path(&arena, "21 June", 23.4);
     ReviewCalendar    calendar = fixture_calendar(&arena, &review->sweeps[0]);
     ReviewCase       *worst = (ReviewCase *)(size_t)review_worst(review, arena);
     const char       *file = fresh_name(".png"), *change = "x";
@@ -196,6 +197,8 @@ static json_t *all_values(json_t *own)
                                .beside = "b.png", .view = &VIEW, .is_frame = true};
     ReviewPicture     pair[2] = {shown, {.title = "t", .file = file}};
     ReviewFact        fact = {"a", "b"};
+    map.paths = &path;
+    map.path_count = 1;
     worst->view = &VIEW;
     worst->rim = RIM;
     worst->rim_count = 3;

@@ -10,9 +10,8 @@
 #include "page/page.h"
 #include "review/output/review_words.h"
 #include "text/base64.h"
+#include "text/json_text.h"
 #include "text/text.h"
-
-#define DRAWING_BYTES ((size_t)1 << 32) /* address space for cells and their picture */
 
 /* ---- colours ---------------------------------------------------------------------------- */
 
@@ -50,27 +49,20 @@ static void put(const Picture *picture, int x, int y, Colour colour)
 
 /* ---- what maps and calendars share ------------------------------------------------------ */
 
-/* A picture that fills the drawing's box of so many units. */
-static bool add_cells(Text *html, const Picture *cells, Arena scratch, Error *err)
+/* What a picture of cells is in both: one pixel each, and the numbers for the pointer
+ * (review.js), 16 bits a cell. False: it cannot be encoded. */
+static bool set_cells(json_t *to, const Picture *cells, const unsigned char *codes,
+                      Arena scratch, Error *err)
 {
-    FileBytes   bytes;
-    PictureFile file = {.bits = 8, .is_srgb = true};
-    if (!picture_encode("a.png", cells, file, &scratch, &bytes, err)) return false;
-    text_format(html, "<svg class=\"cells\" viewBox=\"0 0 %d %d\" preserveAspectRatio=\"none\" "
-                "aria-hidden=\"true\"><image width=\"%d\" height=\"%d\" "
-                "preserveAspectRatio=\"none\" href=\"data:image/png;base64,", cells->width,
-                cells->height, cells->width, cells->height);
-    base64_encode(html, bytes.data, bytes.size);
-    text_add(html, "\"/>");
+    Text    values = {.arena = &scratch};
+    json_t *picture = page_picture(cells, false, scratch, err);
+    if (!picture) return false;
+    base64_encode(&values, codes, 2 * (size_t)cells->width * (size_t)cells->height);
+    json_object_set_new(to, "cells", picture);
+    page_set(to, "values", values.data);
+    page_set_count(to, "columns", cells->width);
+    page_set_count(to, "rows", cells->height);
     return true;
-}
-
-/* The numbers for the pointer (review.js), 16 bits a cell. */
-static void add_values(Text *html, const unsigned char *codes, size_t cells)
-{
-    text_add(html, "\" data-values=\"");
-    base64_encode(html, codes, 2 * cells);
-    text_add(html, "\">");
 }
 
 static void set_code(unsigned char *codes, size_t i, unsigned code)
@@ -80,17 +72,12 @@ static void set_code(unsigned char *codes, size_t i, unsigned code)
 }
 
 /* share: of the way along the axis, 0..1; from the left, or from the top. */
-static void begin_tick(Text *html, const char *side, double share)
+static json_t *add_tick(json_t *list, double share)
 {
-    const char *end = share < 0.04 ? " class=\"begin\"" : share > 0.96 ? " class=\"last\"" : "";
-    text_format(html, "<span%s style=\"%s:%.2f%%\">", end, side, 100 * share);
-}
-
-static void add_tick(Text *html, const char *side, double share, const char *text)
-{
-    begin_tick(html, side, share);
-    escape_markup(html, text);
-    text_add(html, "</span>");
+    json_t *to = page_add(list);
+    page_set(to, "end", share < 0.04 ? "begin" : share > 0.96 ? "last" : NULL);
+    json_object_set_new(to, "at", json_real(100 * share));
+    return to;
 }
 
 static void set_colour(json_t *to, const char *name, Colour colour)
@@ -115,12 +102,10 @@ static json_t *colours(void)
     return to;
 }
 
-/* The drawing goes into a template (map.html, calendar.html) that names and explains it. A
- * sweep goes by the middle of an eye's box. */
-static json_t *values_of(const Text *drawing, const ReviewSweep *sweep)
+/* A sweep goes by the middle of an eye's box. */
+static json_t *values_of(const ReviewSweep *sweep)
 {
     json_t *to = json_object();
-    json_object_set_new(to, "drawing", json_stringn(drawing->data, drawing->size));
     json_object_set_new(to, "colour", colours());
     page_set_flag(to, "of_box", sweep && sweep_has_box(sweep));
     return to;
@@ -162,25 +147,25 @@ static Picture map_picture(const ReviewMap *map, Arena *arena)
 }
 
 /* The border of what fails, along the edges of cells; runs of edges are one line. */
-static void add_border(Text *html, const ReviewMap *map)
+static const char *border(const ReviewMap *map, Arena *arena)
 {
+    Text line = {.arena = arena};
     int columns = map->azimuth_deg.count, rows = map->elevation_deg.count;
-    text_add(html, "<path class=\"border\" d=\"");
     for (int e = 0; e <= rows; e++)
         for (int a = 0, from = 0; a <= columns; a++) {
             bool here = a < columns && fails_at(map, a, e) != fails_at(map, a, e - 1);
             bool before = a > 0 && fails_at(map, a - 1, e) != fails_at(map, a - 1, e - 1);
             if (here && !before) from = a;
-            if (!here && before) text_format(html, "M%d %dH%d", from, rows - e, a);
+            if (!here && before) text_format(&line, "M%d %dH%d", from, rows - e, a);
         }
     for (int a = 0; a <= columns; a++)
         for (int e = 0, from = 0; e <= rows; e++) {
             bool here = e < rows && fails_at(map, a, e) != fails_at(map, a - 1, e);
             bool before = e > 0 && fails_at(map, a, e - 1) != fails_at(map, a - 1, e - 1);
             if (here && !before) from = e;
-            if (!here && before) text_format(html, "M%d %dV%d", a, rows - from, rows - e);
+            if (!here && before) text_format(&line, "M%d %dV%d", a, rows - from, rows - e);
         }
-    text_add(html, "\"/>");
+    return line.data ? line.data : "";
 }
 
 /* Where a cell's middle lies, in cells from the first edge. */
@@ -197,68 +182,69 @@ static double axis_azimuth(const ReviewAxis *axis, double azimuth_deg)
 }
 
 /* A path is lifted where it leaves the map on one side and comes back on the other. */
-static void add_path(Text *html, const ReviewMap *map, const SunPath *path)
+static const char *path_line(const ReviewMap *map, const SunPath *path, Arena *arena)
 {
+    Text   line = {.arena = arena};
     double last = NAN;
-    text_add(html, "<path class=\"sun\" d=\"");
     for (int i = 0; i < path->count; i++) {
         double azimuth = axis_azimuth(&map->azimuth_deg, path->azimuth_deg[i]);
         double x = axis_place(&map->azimuth_deg, azimuth);
         double y = map->elevation_deg.count -
                    axis_place(&map->elevation_deg, path->elevation_deg[i]);
-        text_format(html, "%c%.2f %.2f", fabs(azimuth - last) < 180 ? 'L' : 'M', x, y);
+        text_format(&line, "%c%.2f %.2f", fabs(azimuth - last) < 180 ? 'L' : 'M', x, y);
         last = azimuth;
     }
-    text_add(html, "\"/>");
+    return line.data ? line.data : "";
 }
 
-/* Its name stands where the sun is highest. */
-static void add_path_name(Text *html, const ReviewMap *map, const SunPath *path)
+/* Its name stands where the sun is highest, if that is on the map. */
+static void add_path(json_t *list, const ReviewMap *map, const SunPath *path, Arena scratch)
 {
-    int top = 0;
+    int     top = 0;
+    json_t *to = page_add(list);
+    page_set(to, "line", path_line(map, path, &scratch));
+    page_set(to, "name", NULL);
     for (int i = 1; i < path->count; i++)
         if (path->elevation_deg[i] > path->elevation_deg[top]) top = i;
-    if (path->count == 0 || !path->name) return;
+    if (path->count == 0) return;
     double azimuth = axis_azimuth(&map->azimuth_deg, path->azimuth_deg[top]);
     double x = axis_place(&map->azimuth_deg, azimuth) / map->azimuth_deg.count;
     double y = axis_place(&map->elevation_deg, path->elevation_deg[top]) /
                map->elevation_deg.count;
     if (x < 0 || x > 1 || y < 0 || y > 1) return;
-    text_format(html, "<span class=\"path\" style=\"left:%.2f%%;bottom:%.2f%%\">", 100 * x,
-                100 * y);
-    escape_markup(html, path->name);
-    text_add(html, "</span>");
+    page_set(to, "name", path->name);
+    json_object_set_new(to, "x", json_real(100 * x));
+    json_object_set_new(to, "y", json_real(100 * y));
 }
 
-/* The degrees are left out where there is no room. */
-static void add_azimuths(Text *html, const ReviewMap *map)
+static json_t *azimuths(const ReviewMap *map)
 {
     static const char *const VEHICLE[4] = {"ahead", "right", "behind", "left"};
     static const char *const WORLD[4] = {"north", "east", "south", "west"};
     const ReviewAxis *axis = &map->azimuth_deg;
-    text_add(html, "<div class=\"x\">");
+    json_t           *list = json_array();
     for (int quarter = -4; quarter <= 8; quarter++) {
         double share = axis_place(axis, 90.0 * quarter) / axis->count;
         if (share < 0 || share > 1) continue;
-        begin_tick(html, "left", share);
-        text_format(html, "<b>%d° </b>%s</span>", 90 * quarter,
-                    (map->is_of_vehicle ? VEHICLE : WORLD)[(quarter + 4) % 4]);
+        json_t *tick = add_tick(list, share);
+        page_set_count(tick, "degrees", 90 * quarter);
+        page_set(tick, "name", (map->is_of_vehicle ? VEHICLE : WORLD)[(quarter + 4) % 4]);
     }
-    text_add(html, "</div>");
+    return list;
 }
 
-static void add_elevations(Text *html, const ReviewMap *map, Arena *arena)
+static json_t *elevations(const ReviewMap *map)
 {
     const ReviewAxis *axis = &map->elevation_deg;
-    double range = axis->step * axis->count;
-    int    step = range > 50 ? 20 : range > 20 ? 10 : range > 8 ? 5 : 1;
-    text_add(html, "<div class=\"y\">");
+    double  range = axis->step * axis->count;
+    int     step = range > 50 ? 20 : range > 20 ? 10 : range > 8 ? 5 : 1;
+    json_t *list = json_array();
     for (int value = -90; value <= 90; value++) {
         double share = axis_place(axis, value) / axis->count;
         if (value % step == 0 && share >= 0 && share <= 1)
-            add_tick(html, "top", 1 - share, arena_format(arena, "%d°", value));
+            page_set_count(add_tick(list, 1 - share), "degrees", value);
     }
-    text_add(html, "</div>");
+    return list;
 }
 
 #define GAP (-1) /* instead of a verdict */
@@ -280,44 +266,43 @@ static unsigned code_of(float contrast, unsigned verdict)
     return isnan(contrast) ? 0 : verdict << 14 | (unsigned)(1.5 + 16382 * decades / 4);
 }
 
-/* Opens the map's area; the box is on which the pointer is read. */
-static void begin_map(Text *html, const ReviewMap *map, Arena scratch)
+static bool set_map_cells(json_t *to, const ReviewMap *map, Arena scratch, Error *err)
 {
-    const ReviewAxis  *across = &map->azimuth_deg, *up = &map->elevation_deg;
-    const char *const *words = words_directions(map->is_of_vehicle);
-    size_t         cells = (size_t)across->count * (size_t)up->count;
-    unsigned char *codes = ARENA_NEW(&scratch, unsigned char, 2 * cells);
-    for (size_t i = 0; i < cells; i++)
+    Picture        cells = map_picture(map, &scratch);
+    size_t         count = (size_t)cells.width * (size_t)cells.height;
+    unsigned char *codes = ARENA_NEW(&scratch, unsigned char, 2 * count);
+    for (size_t i = 0; i < count; i++)
         set_code(codes, i, code_of(map->contrast[i], map->verdict[i]));
-    text_format(html, "<div class=\"chart\"><div class=\"area\" data-kind=\"map\" "
-                "data-columns=\"%d\" data-rows=\"%d\" data-first=\"%.9g\" data-step=\"%.9g\" "
-                "data-low=\"%.9g\" data-rise=\"%.9g\" data-words=\"", across->count, up->count,
-                across->first, across->step, up->first, up->step);
-    for (int i = 0; i < 8; i++) text_format(html, i ? "|%s" : "%s", words[i]);
-    add_values(html, codes, cells);
+    return set_cells(to, &cells, codes, scratch, err);
+}
+
+static void set_axes(json_t *to, const ReviewMap *map)
+{
+    const ReviewAxis *across = &map->azimuth_deg, *up = &map->elevation_deg;
+    json_object_set_new(to, "first", json_real(across->first));
+    json_object_set_new(to, "step", json_real(across->step));
+    json_object_set_new(to, "low", json_real(up->first));
+    json_object_set_new(to, "rise", json_real(up->step));
+    json_object_set_new(to, "azimuths", azimuths(map));
+    json_object_set_new(to, "elevations", elevations(map));
+    json_object_set_new(to, "directions", json_texts(words_directions(map->is_of_vehicle), 8));
 }
 
 json_t *review_map_values(const ReviewMap *map, Arena scratch, Error *err)
 {
-    Text    html = {.arena = &scratch};
-    Arena   own = arena_reserve(DRAWING_BYTES);
-    Picture cells = map_picture(map, &own);
-    begin_map(&html, map, own);
-    bool ok = add_cells(&html, &cells, own, err);
-    add_border(&html, map);
-    for (int i = 0; i < map->path_count; i++) add_path(&html, map, &map->paths[i]);
-    text_add(&html, "</svg>");
-    for (int i = 0; i < map->path_count; i++) add_path_name(&html, map, &map->paths[i]);
-    text_add(&html, "</div>");
-    add_elevations(&html, map, &own);
-    add_azimuths(&html, map);
-    text_add(&html, "</div>\n");
-    arena_release(&own);
-    json_t *to = ok ? values_of(&html, map->of) : NULL;
-    json_t *holds_of = json_pack("{s:b, s:b, s:b}", "close", holds(map, VERDICT_TOO_CLOSE),
-                                 "hidden", holds(map, VERDICT_UNJUDGED), "gap",
-                                 holds(map, GAP));
-    json_object_set_new(to, "holds", holds_of);
+    json_t *to = values_of(map->of), *paths = json_array();
+    if (!set_map_cells(to, map, scratch, err)) {
+        json_decref(to);
+        return NULL;
+    }
+    set_axes(to, map);
+    page_set(to, "border", border(map, &scratch));
+    for (int i = 0; i < map->path_count; i++) add_path(paths, map, &map->paths[i], scratch);
+    json_object_set_new(to, "paths", paths);
+    json_object_set_new(to, "holds",
+                        json_pack("{s:b, s:b, s:b}", "close", holds(map, VERDICT_TOO_CLOSE),
+                                  "hidden", holds(map, VERDICT_UNJUDGED), "gap",
+                                  holds(map, GAP)));
     page_set_flag(to, "is_of_vehicle", map->is_of_vehicle);
     page_set_flag(to, "is_between_steps", map->is_between_steps);
     page_set_flag(to, "has_paths", map->path_count > 0);
@@ -345,31 +330,26 @@ static Picture calendar_picture(const ReviewCalendar *calendar, Arena *arena)
     return out;
 }
 
-static void add_months(Text *html, const ReviewCalendar *calendar)
+static json_t *months(const ReviewCalendar *calendar)
 {
     static const char *const NAMES[12] = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
                                           "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
-    int day = 0;
-    text_add(html, "<div class=\"x months\">");
+    json_t *list = json_array();
+    int     day = 0;
     for (int month = 0; month < 12; month++) {
         int length = calendar_days_of_month(calendar->year, month + 1);
         if (day + length / 2 < calendar->days)
-            add_tick(html, "left", (day + length / 2.0) / calendar->days, NAMES[month]);
+            page_set(add_tick(list, (day + length / 2.0) / calendar->days), "name",
+                     NAMES[month]);
         day += length;
     }
-    text_add(html, "</div>");
+    return list;
 }
 
-static void add_hours(Text *html, Arena *arena)
+static bool set_calendar_cells(json_t *to, const ReviewCalendar *calendar, Arena scratch,
+                               Error *err)
 {
-    text_add(html, "<div class=\"y\">");
-    for (int hour = 0; hour <= 24; hour += 6)
-        add_tick(html, "top", 1 - hour / 24.0, arena_format(arena, "%d h", hour));
-    text_add(html, "</div>");
-}
-
-static void begin_calendar(Text *html, const ReviewCalendar *calendar, Arena scratch)
-{
+    Picture        cells = calendar_picture(calendar, &scratch);
     size_t         days = (size_t)calendar->days, steps = (size_t)calendar->steps_a_day;
     unsigned char *codes = ARENA_NEW(&scratch, unsigned char, 2 * days * steps);
     for (size_t day = 0; day < days; day++)
@@ -378,27 +358,17 @@ static void begin_calendar(Text *html, const ReviewCalendar *calendar, Arena scr
             set_code(codes, step * days + day,
                      isnan(share) ? 0 : (unsigned)(1.5f + 10000 * share));
         }
-    text_format(html, "<div class=\"chart\"><div class=\"area\" data-kind=\"calendar\" "
-                "data-columns=\"%d\" data-rows=\"%d\" data-year=\"%d\" data-headings=\"%d\" "
-                "data-clock=\"", calendar->days, calendar->steps_a_day, calendar->year,
-                calendar->headings);
-    escape_markup(html, calendar->clock);
-    add_values(html, codes, days * steps);
+    return set_cells(to, &cells, codes, scratch, err);
 }
 
 json_t *review_calendar_values(const ReviewCalendar *calendar, Arena scratch, Error *err)
 {
-    Text    html = {.arena = &scratch};
-    Arena   own = arena_reserve(DRAWING_BYTES);
-    Picture cells = calendar_picture(calendar, &own);
-    begin_calendar(&html, calendar, own);
-    bool ok = add_cells(&html, &cells, own, err);
-    text_add(&html, "</svg></div>");
-    add_hours(&html, &own);
-    add_months(&html, calendar);
-    text_add(&html, "</div>\n");
-    arena_release(&own);
-    json_t *to = ok ? values_of(&html, calendar->of) : NULL;
+    json_t *to = values_of(calendar->of);
+    if (!set_calendar_cells(to, calendar, scratch, err)) {
+        json_decref(to);
+        return NULL;
+    }
+    json_object_set_new(to, "months", months(calendar));
     page_set_count(to, "year", calendar->year);
     page_set_count(to, "headings", calendar->headings);
     page_set_flag(to, "has_headings", calendar->headings > 1);
