@@ -16,17 +16,14 @@ extern "C" {
 
 /* Kinds of failure; the values are the exit status, unless another one is stated. */
 typedef enum ErrorCode {
-    ERROR_NONE = 0,
-    ERROR_DIFFERENT = 1,     /* done, and the answer is no */
-    ERROR_USAGE = 2,         /* the command line is wrong */
-    ERROR_INPUT = 3,         /* missing, malformed or not supported input */
-    ERROR_OUTPUT = 4,        /* an output cannot be written */
-    ERROR_LIBRARY = 5,       /* a library refused for a reason of its own: exit status 3 */
-    ERROR_MEMORY = 6,        /* out of memory: exit status 3 */
-    ERROR_MACHINE = 7,       /* this machine cannot, another may: exit status 5 */
-    ERROR_HUNG_UP = 129,     /* HUP */
-    ERROR_INTERRUPTED = 130, /* INT */
-    ERROR_TERMINATED = 143   /* TERM */
+    ERROR_NONE = 0,     /* also of what a signal stopped (signals_stopped) */
+    ERROR_UNUSABLE = 1, /* what it would write is not fit for use */
+    ERROR_USAGE = 2,    /* the command line is wrong */
+    ERROR_INPUT = 3,    /* missing, malformed or not supported input */
+    ERROR_OUTPUT = 4,   /* an output cannot be written */
+    ERROR_LIBRARY = 5,  /* a library refused for a reason of its own: exit status 3 */
+    ERROR_MEMORY = 6,   /* out of memory: exit status 3 */
+    ERROR_MACHINE = 7   /* this machine cannot, another may: exit status 5 */
 } ErrorCode;
 
 typedef struct Error {

@@ -404,7 +404,7 @@ static bool print_json(const Scene *scene, const Problems *problems, Arena *aren
 
 /* ---- the command ----------------------------------------------------------------------- */
 
-static bool run_check(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_check(int argc, char **argv, Arena *arena, Error *err)
 {
     const char *root = NULL;
     bool materials = false, is_strict = false;
@@ -426,11 +426,11 @@ static bool run_check(int argc, char **argv, Arena *arena, Error *err)
         "parhelion check scenes/car_dashboard.gltf scenes/noon.gltf", options,
         COUNT_OF(options), 1, -1};
     Cli cli;
-    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
-    if (cli.help_shown) return true;
+    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
+    if (cli.help_shown) return OUTCOME_DONE;
     Problems problems = problems_start(arena);
     SceneOptions files = {.root = root};
-    if (!scene_options_read(&words, &cli, arena, &files, err)) return false;
+    if (!scene_options_read(&words, &cli, arena, &files, err)) return OUTCOME_FAILED;
     Scene *scene = scene_survey(&files, cli.progress, arena, &problems);
     bool   done = true;
     hdri_warn(&scene->environment, &problems);
@@ -445,9 +445,9 @@ static bool run_check(int argc, char **argv, Arena *arena, Error *err)
         print_report(scene, &problems, arena);
     if (!cli.json && materials) print_problems(&problems);
     scene_close(scene);
-    if (!done || !problems.error_count) return done;
+    if (!done || !problems.error_count) return outcome_of(done);
     *err = (Error){.code = ERROR_INPUT}; /* said already, problem by problem */
-    return false;
+    return OUTCOME_FAILED;
 }
 
 const Command command_check = {

@@ -81,13 +81,6 @@ static bool answer_json(const CompareRequest *request, json_t *document, Error *
     return true;
 }
 
-/* The answer is on stdout: nothing more is to be said. */
-static bool answered(ErrorCode code, Error *err)
-{
-    *err = (Error){.code = code};
-    return code == ERROR_NONE;
-}
-
 /* ---- as text ----------------------------------------------------------------------------- */
 
 static bool is_known(const Comparison *c, Metric metric)
@@ -179,16 +172,16 @@ static void compare_print_line(const char *name, const Comparison *c)
 
 /* ---- two files --------------------------------------------------------------------------- */
 
-static bool compare_two(CompareRun *run, Error *err)
+static Outcome compare_two(CompareRun *run, Error *err)
 {
     const CompareRequest *r = run->request;
     Comparison            c;
-    if (!compare_files(r->reference, r->test, &r->options, run->arena, &c, err)) return false;
-    if (!collect(run, r->test, &c, &r->options, *run->arena, err) || !write_files(run, err) ||
+    if (!compare_files(r->reference, r->test, &r->options, run->arena, &c, err) ||
+        !collect(run, r->test, &c, &r->options, *run->arena, err) || !write_files(run, err) ||
         (wants_json(r) && !answer_json(r, comparison_json(&c, &r->options), err)))
-        return false;
+        return OUTCOME_FAILED;
     if (!r->cli.json) compare_print_pair(r, &c);
-    return answered(c.same ? ERROR_NONE : ERROR_DIFFERENT, err);
+    return c.same ? OUTCOME_DONE : OUTCOME_NO;
 }
 
 /* ---- two folders ------------------------------------------------------------------------- */
@@ -337,29 +330,30 @@ static bool print_total(const CompareRun *run, Error *err)
     return true;
 }
 
-static bool compare_folders(CompareRun *run, Error *err)
+static Outcome compare_folders(CompareRun *run, Error *err)
 {
     const CompareRequest *r = run->request;
     FolderPairs           pairs;
     if (!folders_match(r->reference, r->test, run->arena, &pairs, err) ||
         !check_pairs(r, &pairs, err) || !spare_pairs(r, &pairs, err))
-        return false;
+        return OUTCOME_FAILED;
     Progress progress = progress_start(r->cli.progress, "compare", "pairs", pairs.count);
     for (int i = 0; i < pairs.count; i++) {
         progress_clear(&progress);
-        if (!add_pair(run, &pairs.list[i], err)) return false;
+        if (!add_pair(run, &pairs.list[i], err)) return OUTCOME_FAILED;
         progress_update(&progress, i + 1);
     }
     progress_end(&progress, pairs.count);
     if (run->count == 0)
         return error_at(err, ERROR_INPUT, r->reference, "",
                         "there is no picture in this folder: nothing was compared");
-    if (!write_files(run, err) || !print_total(run, err)) return false;
-    if (run->failed) return answered(run->first_failure, err);
-    return answered(run->different ? ERROR_DIFFERENT : ERROR_NONE, err);
+    if (!write_files(run, err) || !print_total(run, err)) return OUTCOME_FAILED;
+    if (!run->failed) return run->different ? OUTCOME_NO : OUTCOME_DONE;
+    *err = (Error){.code = run->first_failure}; /* said already, pair by pair */
+    return OUTCOME_FAILED;
 }
 
-static bool compare(const CompareRequest *request, Arena *arena, Error *err)
+static Outcome compare(const CompareRequest *request, Arena *arena, Error *err)
 {
     bool both = is_folder(request->reference);
     if (is_folder(request->test) != both)
@@ -372,19 +366,19 @@ static bool compare(const CompareRequest *request, Arena *arena, Error *err)
     if ((request->report && !file_check_writable(request->report, err)) ||
         (request->junit && !file_check_writable(request->junit, err)) ||
         (request->answer && !file_check_writable(request->answer, err)))
-        return false;
+        return OUTCOME_FAILED;
     CompareRun run;
     start(request, both, arena, &run);
-    bool       ok = both ? compare_folders(&run, err) : compare_two(&run, err);
+    Outcome    outcome = both ? compare_folders(&run, err) : compare_two(&run, err);
     end(&run);
-    return ok;
+    return outcome;
 }
 
-static bool run_compare(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_compare(int argc, char **argv, Arena *arena, Error *err)
 {
     CompareRequest request = {0};
-    return compare_parse(argc, argv, arena, &request, err) &&
-           (request.cli.help_shown || compare(&request, arena, err));
+    if (!compare_parse(argc, argv, arena, &request, err)) return OUTCOME_FAILED;
+    return request.cli.help_shown ? OUTCOME_DONE : compare(&request, arena, err);
 }
 
 const Command command_compare = {

@@ -109,11 +109,11 @@ static bool develop(DevelopWords *typed, Arena *arena, Error *err)
     return true;
 }
 
-static bool run_develop(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_develop(int argc, char **argv, Arena *arena, Error *err)
 {
     DevelopWords typed = {0};
-    return parse(argc, argv, arena, &typed, err) &&
-           (typed.cli.help_shown || develop(&typed, arena, err));
+    return outcome_of(parse(argc, argv, arena, &typed, err) &&
+                      (typed.cli.help_shown || develop(&typed, arena, err)));
 }
 
 const Command command_develop = {"develop", "make a picture of a frame", run_develop};

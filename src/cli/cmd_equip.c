@@ -144,14 +144,14 @@ static bool apply(const EquipWords *words, Arena *arena, Error *err)
     return print_result(words, &result, arena, err);
 }
 
-static bool run_equip(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_equip(int argc, char **argv, Arena *arena, Error *err)
 {
     EquipWords words = {0};
-    if (!parse(argc, argv, arena, &words, err)) return false;
-    if (words.cli.help_shown) return true;
-    if (!reference_check_root(words.root, err)) return false;
+    if (!parse(argc, argv, arena, &words, err)) return OUTCOME_FAILED;
+    if (words.cli.help_shown) return OUTCOME_DONE;
+    if (!reference_check_root(words.root, err)) return OUTCOME_FAILED;
     words.reach = words.root ? words.root : equip_shipped_assets(arena);
-    return words.with ? apply(&words, arena, err) : make_page(&words, arena, err);
+    return outcome_of(words.with ? apply(&words, arena, err) : make_page(&words, arena, err));
 }
 
 const Command command_equip = {"equip", SUMMARY, run_equip};

@@ -108,7 +108,7 @@ static bool print_command(const Command *command, const HelpWords *words, Arena 
         if (!command) return false;
         line[0] = (char *)word;
     }
-    return command->run(2, line, arena, err);
+    return command->run(2, line, arena, err) == OUTCOME_DONE;
 }
 
 static bool print_guide(const Guide *guide, const HelpWords *words, Error *err)
@@ -165,7 +165,7 @@ static bool print_rows(const Command *const *list, int count, Arena *arena, Erro
     char *line[] = {NULL, (char *)help_words[HELP_COMPLETION], NULL};
     for (int i = 0; i < count; i++) {
         line[0] = (char *)list[i]->name;
-        if (!list[i]->run(2, line, arena, err) ||
+        if (list[i]->run(2, line, arena, err) != OUTCOME_DONE ||
             !print_rows(list[i]->sub, list[i]->sub_count, arena, err))
             return false;
     }
@@ -202,7 +202,7 @@ static bool help(const HelpWords *words, Arena *arena, Error *err)
     return is_word ? prints : unknown_name(cli->arguments[0], err);
 }
 
-static bool run_help(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_help(int argc, char **argv, Arena *arena, Error *err)
 {
     bool         is_man = false;
     int          shell = -1;
@@ -216,8 +216,8 @@ static bool run_help(int argc, char **argv, Arena *arena, Error *err)
         "help", "the commands and the guides, or one of them", "[COMMAND|GUIDE]",
         "parhelion help comparing", options, COUNT_OF(options), 0, WORDS_MAX};
     HelpWords words = {.form = HELP_TEXT};
-    if (!cli_parse(&command, argc, argv, arena, &words.cli, err)) return false;
-    if (words.cli.help_shown) return true;
+    if (!cli_parse(&command, argc, argv, arena, &words.cli, err)) return OUTCOME_FAILED;
+    if (words.cli.help_shown) return OUTCOME_DONE;
     if (is_man + (shell >= 0) + words.cli.json > 1)
         return error_set(err, ERROR_USAGE, "--man, --completion and --json exclude each other");
     if (shell >= 0 && words.cli.argument_count)
@@ -225,7 +225,7 @@ static bool run_help(int argc, char **argv, Arena *arena, Error *err)
                          words.cli.arguments[0]);
     if (is_man) words.form = HELP_MAN;
     if (shell >= 0) words.form = HELP_COMPLETION;
-    return help(&words, arena, err);
+    return outcome_of(help(&words, arena, err));
 }
 
 const Command command_help = {"help", "the commands and the guides, or one of them", run_help};

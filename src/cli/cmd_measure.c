@@ -382,11 +382,11 @@ static bool measure(const MeasureWords *typed, Arena *arena, Error *err)
     return true;
 }
 
-static bool run_measure(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_measure(int argc, char **argv, Arena *arena, Error *err)
 {
     MeasureWords typed = {.luxmeter = {.samples = 1 << 18}, .glare = GLARE_WORDS_DEFAULT};
-    return parse(argc, argv, arena, &typed, err) &&
-           (typed.cli.help_shown || measure(&typed, arena, err));
+    return outcome_of(parse(argc, argv, arena, &typed, err) &&
+                      (typed.cli.help_shown || measure(&typed, arena, err)));
 }
 
 const Command command_measure = {

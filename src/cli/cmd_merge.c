@@ -467,13 +467,13 @@ static bool merge(MergeRun *work, Error *err)
     return true;
 }
 
-static bool run_merge(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_merge(int argc, char **argv, Arena *arena, Error *err)
 {
     MergeRun  work = {.arena = arena};
-    if (!parse(argc, argv, &work, err)) return false;
-    if (work.cli.help_shown) return true;
+    if (!parse(argc, argv, &work, err)) return OUTCOME_FAILED;
+    if (work.cli.help_shown) return OUTCOME_DONE;
     return is_review(&work) ? job_review_merge(&work.job, &work.cli, work.output, arena, err)
-                            : merge(&work, err);
+                            : outcome_of(merge(&work, err));
 }
 
 const Command command_merge = {

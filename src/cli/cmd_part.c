@@ -66,7 +66,7 @@ static bool is_done(const PartRun *work)
     return false;
 }
 
-static bool render(PartRun *work, const Lines *folder, Error *err)
+static Outcome render(PartRun *work, const Lines *folder, Error *err)
 {
     const SharedJob *job = &work->job;
     const JobPart   *part = &job->parts[work->index];
@@ -86,35 +86,36 @@ static bool render(PartRun *work, const Lines *folder, Error *err)
     return cmd_render_run(words.count, words.list, &task, arena, err);
 }
 
-static bool run_one(PartRun *work, Error *err)
+static Outcome run_one(PartRun *work, Error *err)
 {
-    const SharedJob   *job = &work->job;
-    Lines          folder;
+    const SharedJob    *job = &work->job;
+    Lines               folder;
     const JobReviewPart part = {work->index, work->name, &folder};
-    return job_check_machine(job, work->name, err) && job_enter(job, *work->arena, err) &&
-           job_folder_list(job, work->arena, &folder, err) &&
-           (job->kind == JOB_REVIEW
-                ? job_review_part(job, &work->cli, &part, work->arena, err)
-                : render(work, &folder, err));
+    if (!job_check_machine(job, work->name, err) || !job_enter(job, *work->arena, err) ||
+        !job_folder_list(job, work->arena, &folder, err))
+        return OUTCOME_FAILED;
+    return job->kind == JOB_REVIEW ? job_review_part(job, &work->cli, &part, work->arena, err)
+                                   : render(work, &folder, err);
 }
 
 /* Whatever the words of the manifest did instead: nothing is done without the part. */
-static bool run_whole(PartRun *work, Error *err)
+static Outcome run_whole(PartRun *work, Error *err)
 {
-    Error why;
-    if (!run_one(work, err)) return false;
-    if (job_part_is_done(&work->job, work->index, false, *work->arena, &why)) return true;
+    Error   why;
+    Outcome outcome = run_one(work, err);
+    if (outcome != OUTCOME_DONE ||
+        job_part_is_done(&work->job, work->index, false, *work->arena, &why))
+        return outcome;
     return error_at(err, ERROR_INPUT, work->name, "", "is not done: the command of the job "
                     "ended well and made no such part");
 }
 
-/* Notes why a task failed. One that was stopped did not fail; nor did one that lost the race
- * to another that did the same part. */
+/* Notes why a task failed. One that lost the race to another that did the same part did not
+ * fail. */
 static bool end_badly(PartRun *work, Error *err)
 {
     Error ignored;
     char  line[2048];
-    if (!err->text[0]) return false;
     if (job_part_is_done(&work->job, work->index, false, *work->arena, &ignored)) {
         *err = (Error){0};
         return true;
@@ -139,27 +140,29 @@ static bool print_answer(const PartRun *work, Error *err)
     return true;
 }
 
-static bool do_part(PartRun *work, Error *err)
+static Outcome do_part(PartRun *work, Error *err)
 {
     if (!job_manifest_read(work->cli.arguments[0], work->arena, &work->job, err) ||
         !read_index(work, err))
-        return false;
+        return OUTCOME_FAILED;
     work->was_there = is_done(work);
     if (!work->was_there) {
         job_part_forget_failure(&work->job, work->index, *work->arena);
-        int  lock = job_part_begin(&work->job, work->index, *work->arena);
-        bool ok = run_whole(work, err) || end_badly(work, err);
+        int     lock = job_part_begin(&work->job, work->index, *work->arena);
+        Outcome outcome = run_whole(work, err);
+        if (outcome == OUTCOME_FAILED) outcome = outcome_of(end_badly(work, err));
         job_part_end(&work->job, work->index, lock, *work->arena);
-        if (!ok) return false;
+        if (outcome != OUTCOME_DONE) return outcome;
     }
     job_part_clean(&work->job, work->index, *work->arena);
-    return print_answer(work, err);
+    return outcome_of(print_answer(work, err));
 }
 
-static bool run_part(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_part(int argc, char **argv, Arena *arena, Error *err)
 {
     PartRun work = {.arena = arena};
-    return parse(argc, argv, &work, err) && (work.cli.help_shown || do_part(&work, err));
+    if (!parse(argc, argv, &work, err)) return OUTCOME_FAILED;
+    return work.cli.help_shown ? OUTCOME_DONE : do_part(&work, err);
 }
 
 const Command command_part = {

@@ -27,16 +27,16 @@ static const NamedFormat *find(const char *name, Arena *arena, Error *err)
     return NULL;
 }
 
-static bool run_schema(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_schema(int argc, char **argv, Arena *arena, Error *err)
 {
     const CliCommand command = {
         "schema", "the JSON Schema of a file format, for an editor or a script", "FORMAT",
         "parhelion schema profile", NULL, 0, 1, 1, "formats", each_format};
     Cli cli;
-    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
-    if (cli.help_shown) return true;
+    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
+    if (cli.help_shown) return OUTCOME_DONE;
     const NamedFormat *of = find(cli.arguments[0], arena, err);
-    return of && cli_print_json(record_schema(of->format, of->title), err);
+    return outcome_of(of && cli_print_json(record_schema(of->format, of->title), err));
 }
 
 const Command command_schema = {

@@ -453,7 +453,7 @@ static bool run(SkyRun *work, OutputKind kind, Error *err)
     return true;
 }
 
-static bool run_sky(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_sky(int argc, char **argv, Arena *arena, Error *err)
 {
     SkyRun  work = {.arena = arena, .size = {0, 0}};
     int   projection = 0;
@@ -474,8 +474,8 @@ static bool run_sky(int argc, char **argv, Arena *arena, Error *err)
         "parhelion sky --environment sky:clear --when 2026-06-21T08:30+02:00 "
         "--where 48.14,11.58,520 -o sky.png",
         options, COUNT_OF(options), 0, -1};
-    if (!cli_parse(&command, argc, argv, arena, &work.cli, err)) return false;
-    if (work.cli.help_shown) return true;
+    if (!cli_parse(&command, argc, argv, arena, &work.cli, err)) return OUTCOME_FAILED;
+    if (work.cli.help_shown) return OUTCOME_DONE;
     OutputKind kind = output_kind(work.output);
     if (kind == OUTPUT_WRONG)
         return error_set(err, ERROR_USAGE, "-o %s: required: an ending .exr, .png or .svg",
@@ -487,7 +487,7 @@ static bool run_sky(int argc, char **argv, Arena *arena, Error *err)
     }
     bool ok = run(&work, kind, err);
     if (work.scene && work.cli.argument_count) scene_close(work.scene);
-    return ok;
+    return outcome_of(ok);
 }
 
 const Command command_sky = {

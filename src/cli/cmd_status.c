@@ -158,21 +158,19 @@ static void print_lines(const StatusRun *work)
               job_merge_command(&work->job, work->arena));
 }
 
-/* 1 while something is left. */
-static bool report(StatusRun *work, Error *err)
+/* No while something is left. */
+static Outcome report(StatusRun *work, Error *err)
 {
-    if (!look(work, err)) return false;
-    if (work->cli.json && !print_json(work, err)) return false;
+    if (!look(work, err) || (work->cli.json && !print_json(work, err))) return OUTCOME_FAILED;
     if (!work->cli.json) print_lines(work);
-    err->code = is_all_done(work) ? ERROR_NONE : ERROR_DIFFERENT;
-    err->text[0] = '\0';
-    return is_all_done(work);
+    return is_all_done(work) ? OUTCOME_DONE : OUTCOME_NO;
 }
 
-static bool run_status(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_status(int argc, char **argv, Arena *arena, Error *err)
 {
     StatusRun work = {.arena = arena};
-    return parse(argc, argv, &work, err) && (work.cli.help_shown || report(&work, err));
+    if (!parse(argc, argv, &work, err)) return OUTCOME_FAILED;
+    return work.cli.help_shown ? OUTCOME_DONE : report(&work, err);
 }
 
 const Command command_status = {

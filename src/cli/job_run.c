@@ -92,8 +92,8 @@ bool job_check_machine(const SharedJob *job, const char *name, Error *err)
 }
 
 /* The mark comes last, and then the file gets its name. */
-bool job_review_part(const SharedJob *job, const Cli *cli, const JobReviewPart *part,
-                     Arena *arena, Error *err)
+Outcome job_review_part(const SharedJob *job, const Cli *cli, const JobReviewPart *part,
+                        Arena *arena, Error *err)
 {
     const char *own[] = {"review", "-o", job->output};
     const Lines *folder = part->folder;
@@ -109,9 +109,9 @@ bool job_review_part(const SharedJob *job, const Cli *cli, const JobReviewPart *
     for (int i = 0; i < folder->count; i++)
         if (job_is_checkpoint(folder->list[i], part->index))
             task.found[task.found_count++] = job_file(job, folder->list[i], arena);
-    if (!cmd_review_run(words.count, words.list, &task, arena, err)) return false;
-    return rename(answers, done) == 0 ||
-           error_at(err, ERROR_OUTPUT, done, "", "cannot be written: %s", strerror(errno));
+    Outcome outcome = cmd_review_run(words.count, words.list, &task, arena, err);
+    if (outcome != OUTCOME_DONE || rename(answers, done) == 0) return outcome;
+    return error_at(err, ERROR_OUTPUT, done, "", "cannot be written: %s", strerror(errno));
 }
 
 /* As seen from where the user is, who then goes elsewhere. */
@@ -128,11 +128,11 @@ static bool find_output(const char *typed, Arena *arena, const char **out, Error
     return true;
 }
 
-bool job_review_merge(const SharedJob *job, const Cli *cli, const char *output, Arena *arena,
-                      Error *err)
+Outcome job_review_merge(const SharedJob *job, const Cli *cli, const char *output,
+                         Arena *arena, Error *err)
 {
     if (!output) output = job->output;
-    else if (!find_output(output, arena, &output, err)) return false;
+    else if (!find_output(output, arena, &output, err)) return OUTCOME_FAILED;
     const char *own[] = {"review", "-o", output, "--json"};
     JobWords       words = job_words(job, cli, own, COUNT_OF(own) - !cli->json, arena);
     ReviewTask  task = {.name = job->dir, .identity = job->identity, .isa = job->isa,
@@ -142,6 +142,7 @@ bool job_review_merge(const SharedJob *job, const Cli *cli, const char *output, 
                         .resume_line = job_merge_command(job, arena)};
     for (int i = 0; i < job->part_count; i++)
         task.found[i] = job_part_file(job, i, job_part_ending(job), arena);
-    return job_check_machine(job, job->dir, err) && job_enter(job, *arena, err) &&
-           cmd_review_run(words.count, words.list, &task, arena, err);
+    if (!job_check_machine(job, job->dir, err) || !job_enter(job, *arena, err))
+        return OUTCOME_FAILED;
+    return cmd_review_run(words.count, words.list, &task, arena, err);
 }

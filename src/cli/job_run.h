@@ -38,9 +38,9 @@ typedef struct JobReviewPart {
 } JobReviewPart;
 
 /* The job's folder of names has been entered. */
-bool job_review_part(const SharedJob *job, const Cli *cli, const JobReviewPart *part,
-                     Arena *arena, Error *err);
+Outcome job_review_part(const SharedJob *job, const Cli *cli, const JobReviewPart *part,
+                        Arena *arena, Error *err);
 
-/* All parts are done. output: as typed; NULL: the job's. Its status is the review's. */
-bool job_review_merge(const SharedJob *job, const Cli *cli, const char *output, Arena *arena,
-                      Error *err);
+/* All parts are done. output: as typed; NULL: the job's. The outcome is the review's. */
+Outcome job_review_merge(const SharedJob *job, const Cli *cli, const char *output,
+                         Arena *arena, Error *err);

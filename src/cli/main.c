@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion: physically correct frames of dashboards with measured displays.
- * The sub-commands stand in commands.c; the exit status is the code of the error. */
+ * The sub-commands stand in commands.c; the exit status is that of their outcome. */
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -15,18 +15,19 @@
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "openimageio/image_file.h"
+#include "render/signals.h"
 #include "text/name_hint.h"
 
-static bool run_command(int argc, char **argv, Error *err)
+static Outcome run_command(int argc, char **argv, Error *err)
 {
     const Command *command = command_find(command_table, command_count, NULL, argv[1], err);
-    if (!command) return false;
+    if (!command) return OUTCOME_FAILED;
     image_file_take_share();
     /* address space: what is touched counts */
     Arena arena = arena_reserve(machine_memory_bytes());
-    bool  ok = command->run(argc - 1, argv + 1, &arena, err);
+    Outcome outcome = command->run(argc - 1, argv + 1, &arena, err);
     arena_release(&arena);
-    return ok;
+    return outcome;
 }
 
 static bool has_word(int argc, char **argv, const char *word)
@@ -94,32 +95,35 @@ static void add_hint(Error *err)
 static int report(Error *err, bool json)
 {
     add_hint(err);
-    if (err->text[0]) cli_report_error(err, json);
+    cli_report_error(err, json);
     return error_exit_status(err->code);
 }
 
-/* An answer that is "no" stands on stdout, without a line of its own, and has to get there. */
-static bool answers_no(const Error *err)
+static int exit_status(Outcome outcome, const Error *err)
 {
-    return !err->text[0] && (err->code == ERROR_DIFFERENT || err->code == ERROR_INPUT);
+    if (outcome == OUTCOME_STOPPED) return 128 + signals_stop_requested();
+    return outcome == OUTCOME_FAILED ? error_exit_status(err->code) : outcome == OUTCOME_NO;
 }
 
 int main(int argc, char **argv)
 {
     Error err = {0};
     ignore_deadly_signals();
-    bool has_stdout = fill_streams(), done = true;
+    bool    has_stdout = fill_streams();
+    Outcome outcome = OUTCOME_DONE;
     if (argc < 2) {
         cmd_help_print(stderr);
         return error_exit_status(ERROR_USAGE);
     }
     if (cli_is_version(argv[1])) version_print();
     else if (cli_help_form(argv[1]) == HELP_TEXT) cmd_help_print(stdout);
-    else done = run_command(argc, argv, &err);
+    else outcome = run_command(argc, argv, &err);
     bool wants_json = has_word(argc, argv, "--json");
-    if (!done && !answers_no(&err)) return report(&err, wants_json);
+    if (outcome == OUTCOME_FAILED && err.text[0]) return report(&err, wants_json);
+    int status = exit_status(outcome, &err);
+    if (outcome == OUTCOME_STOPPED) return status;
     /* what -o names is the answer; the line about it may go nowhere where nobody wants one */
     if (!has_stdout && !wants_json && has_word(argc, argv, "-o"))
-        return error_exit_status(err.code);
-    return check_stdout(&err) ? error_exit_status(err.code) : report(&err, false);
+        return status;
+    return check_stdout(&err) ? status : report(&err, false);
 }

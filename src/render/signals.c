@@ -41,6 +41,12 @@ int signals_stop_requested(void)
     return atomic_load(&stop_signal);
 }
 
+bool signals_stopped(Error *err)
+{
+    *err = (Error){.code = ERROR_NONE};
+    return false;
+}
+
 bool signals_take_snapshot(void)
 {
     return atomic_exchange(&snapshot_wanted, false);

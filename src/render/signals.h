@@ -11,13 +11,16 @@
  *          is handed nothing else.
  */
 #pragma once
-#include <stdbool.h>
+#include "base/error.h"
 
 /* From now on; earlier requests are forgotten. */
 void signals_watch(void);
 
 /* 0, or the number of the signal (SIGINT, SIGTERM, SIGHUP) that asks to stop. */
 int signals_stop_requested(void);
+
+/* For `return signals_stopped(err)`, where one asked: false without an error. */
+bool signals_stopped(Error *err);
 
 /* "INT", "TERM" or "HUP", for messages. */
 const char *signals_name(int signal);

@@ -548,9 +548,8 @@ TEST(a_long_error_is_cut_and_stays_a_string)
 TEST(exit_statuses_follow_the_codes)
 {
     static const struct { ErrorCode code; int status; } cases[] = {
-        {ERROR_NONE, 0}, {ERROR_DIFFERENT, 1}, {ERROR_USAGE, 2}, {ERROR_INPUT, 3},
-        {ERROR_OUTPUT, 4}, {ERROR_LIBRARY, 3}, {ERROR_MEMORY, 3}, {ERROR_INTERRUPTED, 130},
-        {ERROR_TERMINATED, 143}};
+        {ERROR_NONE, 0}, {ERROR_UNUSABLE, 1}, {ERROR_USAGE, 2}, {ERROR_INPUT, 3},
+        {ERROR_OUTPUT, 4}, {ERROR_LIBRARY, 3}, {ERROR_MEMORY, 3}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         if (error_exit_status(cases[i].code) != cases[i].status)
             fail_msg("code %d: status %d, required: %d", (int)cases[i].code,

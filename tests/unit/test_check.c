@@ -8,16 +8,16 @@
 #include "cli/commands.h"
 #include "gltf_maker.h"
 
-typedef struct Outcome {
+typedef struct Checked {
     bool is_ok;
     Error err;
     char text[8192]; /* what went to stdout */
-} Outcome;
+} Checked;
 
 /* Runs the command with stdout led into a file of the test's folder. */
-static Outcome run(const char *path, const char *option)
+static Checked run(const char *path, const char *option)
 {
-    Outcome outcome = {0};
+    Checked outcome = {0};
     char log[300], *argv[3] = {"check", (char *)(uintptr_t)path, (char *)(uintptr_t)option};
     snprintf(log, sizeof log, "%s/log", maker.folder);
     fflush(stdout);
@@ -57,7 +57,7 @@ static const char *lit_scene(void)
 
 TEST_WITH(people_read_everything_with_its_unit, maker_reset, NULL)
 {
-    Outcome outcome = run(lit_scene(), NULL);
+    Checked outcome = run(lit_scene(), NULL);
     static const char *const LINES[] = {
         "triangles    1 (1 opaque) in 1 parts",
         "size         1 x 1 x 0 m",
@@ -75,7 +75,7 @@ TEST_WITH(people_read_everything_with_its_unit, maker_reset, NULL)
 
 TEST_WITH(scripts_read_one_document, maker_reset, NULL)
 {
-    Outcome outcome = run(lit_scene(), "--json");
+    Checked outcome = run(lit_scene(), "--json");
     json_auto_t *document = json_loads(outcome.text, 0, NULL);
     assert_true(outcome.is_ok);
     assert_non_null(document);
@@ -106,9 +106,9 @@ TEST_WITH(materials_whose_backs_other_viewers_leave_out_are_named, maker_reset, 
         "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'material':0},"
         "{'attributes':{'POSITION':0},'material':1}]}],'scenes':[{'nodes':[0]}],"
         "'nodes':[{'mesh':0}]");
-    Outcome plain = run(path, NULL);
+    Checked plain = run(path, NULL);
     assert_non_null(strstr(plain.text, "one-sided    lining: their backs are seen"));
-    Outcome outcome = run(path, "--json");
+    Checked outcome = run(path, "--json");
     json_auto_t *document = json_loads(outcome.text, 0, NULL);
     json_t      *list = json_object_get(document, "material_list");
     for (size_t i = 0; i < 3; i++)
@@ -119,14 +119,14 @@ TEST_WITH(materials_whose_backs_other_viewers_leave_out_are_named, maker_reset, 
 TEST_WITH(all_problems_are_told_and_the_status_is_3, maker_reset, NULL)
 {
     const char *path = maker_gltf(NULL, 0, "'nodes':[{'mesh':5},{'camera':1,'colour':2}]");
-    Outcome plain = run(path, NULL);
+    Checked plain = run(path, NULL);
     assert_false(plain.is_ok);
     assert_int_equal(error_exit_status(plain.err.code), 3);
     assert_string_equal(plain.err.text, ""); /* nothing is said twice */
     assert_non_null(strstr(plain.text, "is 5, but there are 0 in meshes (/nodes/0/mesh)"));
     assert_non_null(strstr(plain.text, "(/nodes/1/camera)"));
     assert_non_null(strstr(plain.text, "NOT OK: 2 errors, 1 warnings"));
-    Outcome outcome = run(path, "--json");
+    Checked outcome = run(path, "--json");
     json_auto_t *document = json_loads(outcome.text, 0, NULL);
     json_t *first = json_array_get(json_object_get(document, "problems"), 0);
     assert_true(json_is_false(json_object_get(document, "ok")));

@@ -212,9 +212,9 @@ ARENA_TEST(answers_with_any_bytes_do_no_harm)
     assert_done(run_kept(&arena, &again, &kept, &err));
     assert_int_equal(kept, count);
     assert_true(again.review.cases[0].contrast_ratio == first.review.cases[0].contrast_ratio);
-    for (int i = 0; i < 2 * COUNT_OF(words); i++) {
+    for (int i = 0; i < COUNT_OF(words); i++) {
         Arena room = arena;
-        patch(&file, words[i / 2], i % 2 ? 8 : 0, room);
+        patch(&file, words[i], i % 2 ? 8 : 0, room);
         if (!run_kept(&room, &again, &kept, why())) assert_true(why()->text[0]);
         else assert_int_equal(again.review.case_count, first.review.case_count);
     }

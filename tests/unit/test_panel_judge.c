@@ -119,7 +119,7 @@ static void fit(const Fault *fault, const char *manifest, bool force)
     write_text(path, manifest);
     assert_done(measurement_read(path, test_memory(), set, &err));
     if (!panel_fit(set, &options, panel, test_memory(), &work.report, why()) &&
-        why()->code != ERROR_DIFFERENT)
+        why()->code != ERROR_UNUSABLE)
         fail_told("panel_fit", why());
     work.written = file_exists(panel);
 }
@@ -200,7 +200,7 @@ TEST(what_is_not_usable_is_not_written_unless_forced)
     Fault fault = {.factor = 1000};
     fit(&fault, REFLECTION, false);
     assert_false(work.written);
-    assert_int_equal(why()->code, ERROR_DIFFERENT);
+    assert_int_equal(why()->code, ERROR_UNUSABLE);
     assert_non_null(strstr(why()->text, "--force"));
     fit(&fault, REFLECTION, true);
     assert_true(work.written);

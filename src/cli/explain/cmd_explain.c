@@ -547,24 +547,24 @@ static bool write_outlook(const ExplainWords *words, const Explained *explained,
     return picture_write(words->outlook, &picture, file, *arena, err);
 }
 
-static bool run(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run(int argc, char **argv, Arena *arena, Error *err)
 {
     Problems     problems = problems_start(arena);
     ExplainWords words = {.scene = {.uv = {0, 0, 1, 1}, .paths = 65536, .problems = &problems}};
     Explained    explained;
-    if (!parse(argc, argv, arena, &words, err)) return false;
-    if (words.cli.help_shown) return true;
+    if (!parse(argc, argv, arena, &words, err)) return OUTCOME_FAILED;
+    if (words.cli.help_shown) return OUTCOME_DONE;
     if (!(is_review(&words)
               ? review_question(&words, arena, &explained, err)
               : explain_scene(&words.scene, arena, &explained, err)))
-        return false;
+        return OUTCOME_FAILED;
     if (words.outlook && !explained.has_outlook)
         return error_set(err, ERROR_INPUT, "--outlook %s: the eye meets no surface there, "
                          "required: one to look out from", words.outlook);
     cli_print_warnings(&problems);
-    return (!words.rays || ray_file_write(&explained.of, words.rays, err)) &&
-           write_outlook(&words, &explained, arena, err) &&
-           explain_answer(&words.cli, &explained, arena, err);
+    return outcome_of((!words.rays || ray_file_write(&explained.of, words.rays, err)) &&
+                      write_outlook(&words, &explained, arena, err) &&
+                      explain_answer(&words.cli, &explained, arena, err));
 }
 
 const Command command_explain = {

@@ -439,20 +439,20 @@ static bool probe(const ProbeWords *words, const Scene *scene, Problems *problem
            probe_answer(&words->cli, &found, arena, err);
 }
 
-static bool run(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run(int argc, char **argv, Arena *arena, Error *err)
 {
     Problems   problems = problems_start(arena);
     Scene     *scene = NULL;
     ProbeWords words = {.spp = SPP, .ways = WAYS,
                         .max_bounces = BOUNCES};
-    if (!parse(argc, argv, arena, &words, err)) return false;
-    if (words.cli.help_shown) return true;
+    if (!parse(argc, argv, arena, &words, err)) return OUTCOME_FAILED;
+    if (words.cli.help_shown) return OUTCOME_DONE;
     const SceneAsked asked = {&words.scene, &words.environment, words.cli.progress,
                               &words.cli.outputs};
     bool ok = scene_options_load(&asked, arena, &problems, &scene, err) &&
               probe(&words, scene, &problems, arena, err);
     scene_close(scene);
-    return ok;
+    return outcome_of(ok);
 }
 
 const Command command_probe = {

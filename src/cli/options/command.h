@@ -12,12 +12,26 @@
 #include "base/arena.h"
 #include "base/error.h"
 
+/* How a command ended, and its exit status. */
+typedef enum Outcome {
+    OUTCOME_FAILED, /* 0, so that `return error_set(...)`: *err says why, unless that is said
+                       already; error_exit_status */
+    OUTCOME_DONE,   /* 0 */
+    OUTCOME_NO,     /* done, and the answer is no: 1 */
+    OUTCOME_STOPPED /* by a signal, of which a line is printed: 128 and its number */
+} Outcome;
+
+static inline Outcome outcome_of(bool is_done)
+{
+    return is_done ? OUTCOME_DONE : OUTCOME_FAILED;
+}
+
 typedef struct Command {
     const char *name;
     const char *summary; /* one line, lower case, no full stop */
     /* argv[0] is the command's name; everything it keeps lies in the arena, which its caller
-     * releases. True: exit status 0; else the status of err->code. */
-    bool (*run)(int argc, char **argv, Arena *arena, Error *err);
+     * releases. */
+    Outcome (*run)(int argc, char **argv, Arena *arena, Error *err);
     const struct Command *const *sub; /* its own commands, or NULL */
     int sub_count;
 } Command;

@@ -41,14 +41,14 @@ static void print_help(HelpForm form)
     else print_text();
 }
 
-static bool run_panel(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_panel(int argc, char **argv, Arena *arena, Error *err)
 {
     const char *word = argc > 1 ? argv[1] : "";
-    if (cli_is_version(word)) return version_print(), true;
+    if (cli_is_version(word)) return version_print(), OUTCOME_DONE;
     HelpForm form = strcmp(word, "help") ? cli_help_form(word) : HELP_TEXT;
-    if (form) return print_help(form), true;
+    if (form) return print_help(form), OUTCOME_DONE;
     const Command *command = command_find(commands, COMMAND_COUNT, "panel", word, err);
-    return command && command->run(argc - 1, argv + 1, arena, err);
+    return command ? command->run(argc - 1, argv + 1, arena, err) : OUTCOME_FAILED;
 }
 
 const Command command_panel = {"panel", "fit, look into and evaluate a measured display panel",

@@ -428,7 +428,7 @@ static bool check_request(const EvalRequest *request, const Cli *cli, Error *err
     return true;
 }
 
-static bool run_eval(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_eval(int argc, char **argv, Arena *arena, Error *err)
 {
     Cli     cli;
     EvalRequest r = {.question = {.rgb = {255, 255, 255}, .incidence_phi = 180,
@@ -473,10 +473,10 @@ static bool run_eval(int argc, char **argv, Arena *arena, Error *err)
         "X.panel --theta T --phi P --rgb R,G,B | --brdf --incidence T --theta T --phi P",
         "parhelion panel eval assets/panels/ips_cluster.panel --theta 30 --phi 0 "
         "--rgb 255,255,255", options, COUNT_OF(options), 1, 1};
-    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
-    if (cli.help_shown) return true;
-    return check_request(&r, &cli, err) &&
-           answer(cli.arguments[0], &r, &cli, arena, err);
+    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
+    if (cli.help_shown) return OUTCOME_DONE;
+    return outcome_of(check_request(&r, &cli, err) &&
+                      answer(cli.arguments[0], &r, &cli, arena, err));
 }
 
 const Command command_panel_eval = {

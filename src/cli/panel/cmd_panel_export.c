@@ -58,7 +58,7 @@ static bool print_done(const ExportRequest *request, const Cli *cli, Error *err)
     return true;
 }
 
-static bool run_export(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_export(int argc, char **argv, Arena *arena, Error *err)
 {
     Cli     cli;
     ExportRequest r = {.options = {.mirror_fwhm_deg = -1}};
@@ -86,13 +86,14 @@ static bool run_export(int argc, char **argv, Arena *arena, Error *err)
         "X.panel -o DIR | --table NAME -o TABLE.csv",
         "parhelion panel export assets/panels/ips_cluster.panel --table 'red 255' -o red.csv",
         options, COUNT_OF(options), 1, 1};
-    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
-    if (cli.help_shown) return true;
+    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
+    if (cli.help_shown) return OUTCOME_DONE;
     if (!r.output)
         return error_set(err, ERROR_USAGE,
                          "panel export wants -o DIR (or --table NAME -o TABLE.csv)");
     r.options.progress = cli.progress;
-    return export_from(cli.arguments[0], &r, arena, err) && print_done(&r, &cli, err);
+    return outcome_of(export_from(cli.arguments[0], &r, arena, err) &&
+                      print_done(&r, &cli, err));
 }
 
 const Command command_panel_export = {

@@ -120,21 +120,17 @@ static bool add_facts(const char *path, json_t *report, Arena *arena, Error *err
 }
 
 /* As JSON the report of a panel that is not written is the answer; stderr has the reason. */
-static bool print_refused(json_t *report, Error *err)
+static Outcome print_refused(json_t *report, Error *err)
 {
     cli_report_error(err, false);
-    *err = (Error){.code = ERROR_DIFFERENT};
-    Error unprinted;
-    if (panel_print_report(report, true, &unprinted)) return false;
-    *err = unprinted;
-    return false;
+    return panel_print_report(report, true, err) ? OUTCOME_NO : OUTCOME_FAILED;
 }
 
-static bool run_fit(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_fit(int argc, char **argv, Arena *arena, Error *err)
 {
     FitWords words = {0};
-    if (!parse(argc, argv, arena, &words, err)) return false;
-    if (words.cli.help_shown) return true;
+    if (!parse(argc, argv, arena, &words, err)) return OUTCOME_FAILED;
+    if (words.cli.help_shown) return OUTCOME_DONE;
     FitOptions   fit = options_of(&words);
     Measurement *set = ARENA_NEW(arena, Measurement, 1);
     json_t      *report = NULL;
@@ -146,15 +142,15 @@ static bool run_fit(int argc, char **argv, Arena *arena, Error *err)
               panel_fit(set, &fit, words.output, arena, &report, err);
     if (!ok && (!report || !words.cli.json)) {
         json_decref(report);
-        return false;
+        return OUTCOME_FAILED;
     }
     add_usage(report);
     if (!ok) return print_refused(report, err);
     if (!add_facts(words.output, report, arena, err)) {
         json_decref(report);
-        return false;
+        return OUTCOME_FAILED;
     }
-    return panel_print_report(report, words.cli.json, err);
+    return outcome_of(panel_print_report(report, words.cli.json, err));
 }
 
 const Command command_panel_fit = {

@@ -296,7 +296,7 @@ static bool run(const Cli *cli, const Words *words, Arena *arena, Error *err)
     return true;
 }
 
-static bool run_import(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_import(int argc, char **argv, Arena *arena, Error *err)
 {
     Cli    cli;
     Words *words = ARENA_NEW(arena, Words, 1);
@@ -307,11 +307,11 @@ static bool run_import(int argc, char **argv, Arena *arena, Error *err)
         "FILE... -o MANIFEST.json [options]",
         "parhelion panel import ips_cluster/emission/*.csv ips_cluster/brdf/*.csv "
         "-o again/MANIFEST.json", options, count, 1, -1, "formats", each_format};
-    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
-    if (cli.help_shown) return true;
+    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
+    if (cli.help_shown) return OUTCOME_DONE;
     if (!words->output)
         return error_set(err, ERROR_USAGE, "panel import wants -o MANIFEST.json");
-    return run(&cli, words, arena, err);
+    return outcome_of(run(&cli, words, arena, err));
 }
 
 const Command command_panel_import = {

@@ -53,7 +53,7 @@ static bool print_report(const Panel *panel, const Cli *cli, Error *err)
     return panel_print_report(report, cli->json, err);
 }
 
-static bool run_info(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_info(int argc, char **argv, Arena *arena, Error *err)
 {
     Cli     cli;
     Panel  *panel = NULL;
@@ -66,13 +66,13 @@ static bool run_info(int argc, char **argv, Arena *arena, Error *err)
     const CliCommand command = {"panel info", "what a panel file holds, its sizes and errors",
         "X.panel [--levels]", "parhelion panel info assets/panels/ips_cluster.panel", options,
         COUNT_OF(options), 1, 1};
-    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
-    if (cli.help_shown) return true;
-    if (!panel_open(cli.arguments[0], arena, &panel, err)) return false;
+    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
+    if (cli.help_shown) return OUTCOME_DONE;
+    if (!panel_open(cli.arguments[0], arena, &panel, err)) return OUTCOME_FAILED;
     bool ok = wants_levels ? print_levels(panel, &cli, arena, err)
                            : print_report(panel, &cli, err);
     panel_close(panel);
-    return ok;
+    return outcome_of(ok);
 }
 
 const Command command_panel_info = {

@@ -110,7 +110,7 @@ static bool run(PlotRequest *request, const Cli *cli, Arena *arena, Error *err)
     return true;
 }
 
-static bool run_plot(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_plot(int argc, char **argv, Arena *arena, Error *err)
 {
     Cli     cli;
     PlotRequest request = {0};
@@ -141,17 +141,17 @@ static bool run_plot(int argc, char **argv, Arena *arena, Error *err)
         "X.panel -o X.svg|X.png [--kind KIND] [--measured MANIFEST.json]",
         "parhelion panel plot assets/panels/ips_cluster.panel --kind luminance "
         "-o luminance.png", options, COUNT_OF(options), 1, 1};
-    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
-    if (cli.help_shown) return true;
+    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
+    if (cli.help_shown) return OUTCOME_DONE;
     request.panel = cli.arguments[0];
     request.options.kind = (PlotKind)kind;
     request.options.width = size[0];
     request.options.height = size[1];
     request.options.incidence_phi = radians_from_degrees(incidence_phi);
     request.options.threads = cli.threads;
-    return check_request(&request, err) && read_lists(&request, err) &&
-           reference_check_root(request.root, err) &&
-           run(&request, &cli, arena, err);
+    return outcome_of(check_request(&request, err) && read_lists(&request, err) &&
+                      reference_check_root(request.root, err) &&
+                      run(&request, &cli, arena, err));
 }
 
 const Command command_panel_plot = {

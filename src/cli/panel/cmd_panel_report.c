@@ -64,7 +64,7 @@ static bool run(ReportRequest *request, const Cli *cli, Arena *arena, Error *err
     return true;
 }
 
-static bool run_report(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_report(int argc, char **argv, Arena *arena, Error *err)
 {
     Cli           cli;
     ReportRequest request = {0};
@@ -95,15 +95,16 @@ static bool run_report(int argc, char **argv, Arena *arena, Error *err)
         "X.panel -o X.html [--csv DIR] [--measured MANIFEST.json]",
         "parhelion panel report assets/panels/ips_cluster.panel -o ips.html --csv ips_tables",
         options, COUNT_OF(options), 1, 1};
-    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
-    if (cli.help_shown) return true;
+    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
+    if (cli.help_shown) return OUTCOME_DONE;
     request.panel = cli.arguments[0];
     plot->incidence_phi = radians_from_degrees(incidence_phi);
     plot->threads = cli.threads;
-    return check_request(&request, &cli, err) &&
-           (!request.contours || plot_contours_read(request.contours, &plot->contours, err)) &&
-           plot_ambient_read(request.ambient, request.directed, &plot->ambient, err) &&
-           run(&request, &cli, arena, err);
+    if (!check_request(&request, &cli, err) ||
+        (request.contours && !plot_contours_read(request.contours, &plot->contours, err)) ||
+        !plot_ambient_read(request.ambient, request.directed, &plot->ambient, err))
+        return OUTCOME_FAILED;
+    return outcome_of(run(&request, &cli, arena, err));
 }
 
 const Command command_panel_report = {

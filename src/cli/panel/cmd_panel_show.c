@@ -224,16 +224,17 @@ static void print_about(const ShowRun *work, const Arena *arena)
           scene->ambient_lx, directed);
 }
 
-static bool show(ShowRun *work, Arena *arena, Error *err)
+static Outcome show(ShowRun *work, Arena *arena, Error *err)
 {
     RenderRequest *request = &work->request;
     set_scene(work, arena);
-    if (!set_render(work, arena, err)) return false;
+    if (!set_render(work, arena, err)) return OUTCOME_FAILED;
     request->about = about(work);
-    bool done = cmd_render_request(request, NULL, arena, err);
+    Outcome outcome = cmd_render_request(request, NULL, arena, err);
     json_decref(request->about);
-    if (done && !request->cli.json && !request->cli.quiet) print_about(work, arena);
-    return done;
+    bool is_told = request->cli.json || request->cli.quiet;
+    if (outcome == OUTCOME_DONE && !is_told) print_about(work, arena);
+    return outcome;
 }
 
 /* ---- the command line -------------------------------------------------------------------- */
@@ -299,11 +300,11 @@ static bool parse(int argc, char **argv, Arena *arena, ShowRun *work, Error *err
     return cli_parse(&command, argc, argv, arena, &request->cli, err);
 }
 
-static bool run_show(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_show(int argc, char **argv, Arena *arena, Error *err)
 {
     ShowRun work = {.words = {.distance_m = USUAL_DISTANCE_M, .spp = 32}};
-    if (!parse(argc, argv, arena, &work, err)) return false;
-    if (work.request.cli.help_shown) return true;
+    if (!parse(argc, argv, arena, &work, err)) return OUTCOME_FAILED;
+    if (work.request.cli.help_shown) return OUTCOME_DONE;
     if (!work.words.content)
         return error_set(err, ERROR_USAGE, "panel show wants --content PICTURE");
     if (!check_outputs(&work.request, err) || !find_eye(&work, err) ||
@@ -311,7 +312,7 @@ static bool run_show(int argc, char **argv, Arena *arena, Error *err)
         !find_display(&work, work.request.cli.arguments[0], *arena, err) ||
         !show_frame(&work.scene, work.words.has_size, work.words.size,
                     &work.request.camera.fov_deg, err))
-        return false;
+        return OUTCOME_FAILED;
     set_words(&work, argc, argv, arena);
     return show(&work, arena, err);
 }

@@ -55,7 +55,7 @@ static bool set_grid(SyntheticInstrument *instrument, const int grid[2], Error *
     return true;
 }
 
-static bool run_simulate(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_simulate(int argc, char **argv, Arena *arena, Error *err)
 {
     Cli         cli;
     SyntheticPanel panel;
@@ -84,8 +84,8 @@ static bool run_simulate(int argc, char **argv, Arena *arena, Error *err)
         "RECIPE.json -o DIR",
         "parhelion panel simulate assets/panels/ips_cluster.recipe.json -o ips_cluster",
         options, COUNT_OF(options), 1, 1};
-    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
-    if (cli.help_shown) return true;
+    if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
+    if (cli.help_shown) return OUTCOME_DONE;
     if (!folder && !wants_truth)
         return error_set(err, ERROR_USAGE, "panel simulate wants -o DIR");
     if (has_place && !wants_truth)
@@ -98,7 +98,7 @@ static bool run_simulate(int argc, char **argv, Arena *arena, Error *err)
         ok = print_closed_form(&local, at, err);
     }
     if (ok && folder) ok = simulate_measurement(&panel, folder, cli.progress, err);
-    return ok;
+    return outcome_of(ok);
 }
 
 const Command command_panel_simulate = {

@@ -224,11 +224,11 @@ static bool parse(int argc, char **argv, Arena *arena, WaveletWords *out, Error 
     return true;
 }
 
-static bool run_wavelets(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_wavelets(int argc, char **argv, Arena *arena, Error *err)
 {
     WaveletWords words = {.level = -1};
-    if (!parse(argc, argv, arena, &words, err)) return false;
-    if (words.cli.help_shown) return true;
+    if (!parse(argc, argv, arena, &words, err)) return OUTCOME_FAILED;
+    if (words.cli.help_shown) return OUTCOME_DONE;
     Measurement  *set = ARENA_NEW(arena, Measurement, 1);
     WaveletStudy *study = ARENA_NEW(arena, WaveletStudy, 1);
     if (words.folder) note_files(words.folder, arena, &words.cli.outputs);
@@ -236,13 +236,13 @@ static bool run_wavelets(int argc, char **argv, Arena *arena, Error *err)
         !measurement_read_below(words.cli.arguments[0], words.root, arena, set, err) ||
         !outputs_spare(&words.cli.outputs, set->inputs.list, set->inputs.count, err) ||
         !wavelet_study(set, &words.options, arena, study, err))
-        return false;
+        return OUTCOME_FAILED;
     json_t *answer = answer_of(study);
     bool ok = !words.folder || write_folder(study, answer, words.folder, arena, err);
-    if (ok && words.cli.json) return cli_print_json(answer, err);
+    if (ok && words.cli.json) return outcome_of(cli_print_json(answer, err));
     if (ok && !words.cli.quiet) print_answer(answer);
     json_decref(answer);
-    return ok;
+    return outcome_of(ok);
 }
 
 const Command command_panel_wavelets = {

@@ -426,16 +426,12 @@ static void print_interruption(const RenderRun *work, const RenderResult *result
              is_kept ? line : "");
 }
 
-/* The partial frame is written and the answer given: only the line, which may be longer than
- * an error's text, and the status are left. */
-static bool report_interruption(const RenderRun *work, const RenderResult *result, bool is_kept,
-                                Error *err)
+/* The partial frame is written and the answer given: only the line is left. */
+static Outcome report_interruption(const RenderRun *work, const RenderResult *result,
+                                   bool is_kept)
 {
-    const char *name = signals_name(result->stopped_by);
-    print_interruption(work, result, name, is_kept);
-    err->code = (ErrorCode)(128 + result->stopped_by); /* ERROR_INTERRUPTED and its like */
-    err->text[0] = '\0';
-    return false;
+    print_interruption(work, result, signals_name(result->stopped_by), is_kept);
+    return OUTCOME_STOPPED;
 }
 
 static bool develop(const RenderRun *work, const RenderResult *result, Error *err)
@@ -455,24 +451,26 @@ static bool develop(const RenderRun *work, const RenderResult *result, Error *er
 }
 
 /* The checkpoint comes first: who stopped the render may not wait for long. */
-static bool hand_over(RenderRun *work, const RenderResult *result, Error *err)
+static Outcome hand_over(RenderRun *work, const RenderResult *result, Error *err)
 {
-    if (!check_dropped(work, result, err)) return false;
+    if (!check_dropped(work, result, err)) return OUTCOME_FAILED;
     warn_of_dropped(work, result);
     warn_of_noise(work, result);
     warn_of_favour(work, result);
     if (work->request.replays)
-        return render_print_replay(&work->request, work->scene, result, work->arena, err);
+        return outcome_of(render_print_replay(&work->request, work->scene, result, work->arena,
+                                              err));
     bool is_kept = !result->complete && keep_checkpoint(work, result);
-    if (work->task && !result->complete) return report_interruption(work, result, is_kept, err);
-    if (!write_frame(work, result, err)) return false;
+    if (work->task && !result->complete) return report_interruption(work, result, is_kept);
+    if (!write_frame(work, result, err)) return OUTCOME_FAILED;
     if (result->complete) render_remove_checkpoint(&work->request);
-    if (work->task) return true;
+    if (work->task) return OUTCOME_DONE;
     show_end(work, result);
-    if (work->request.png && !develop(work, result, err)) return false;
-    if (!render_print_answer(&work->request, result, render_live_seconds(&work->live),
-                             &work->problems, err)) return false;
-    return result->complete || report_interruption(work, result, is_kept, err);
+    if ((work->request.png && !develop(work, result, err)) ||
+        !render_print_answer(&work->request, result, render_live_seconds(&work->live),
+                             &work->problems, err))
+        return OUTCOME_FAILED;
+    return result->complete ? OUTCOME_DONE : report_interruption(work, result, is_kept);
 }
 
 /* A pixel that is replayed has samples; a Radiance picture can say the view. */
@@ -489,7 +487,7 @@ static bool check_view(const RenderRun *work, Error *err)
                      "— add --projection equidistant, or -o FRAME.exr", work->request.output);
 }
 
-static bool run(RenderRun *work, Error *err)
+static Outcome run(RenderRun *work, Error *err)
 {
     RenderOptions *options = &work->request.render;
     RenderResult   result;
@@ -503,39 +501,40 @@ static bool run(RenderRun *work, Error *err)
                       err) ||
         !check_outputs(&work->request, err) ||
         !check_look(&work->request, *work->arena, err) || !load(work, err))
-        return false;
-    if (!check_view(work, err)) return false;
-    if (work->request.share.parts) return share(work, err);
-    if (!check_task(work, err)) return false;
+        return OUTCOME_FAILED;
+    if (!check_view(work, err)) return OUTCOME_FAILED;
+    if (work->request.share.parts) return outcome_of(share(work, err));
+    if (!check_task(work, err)) return OUTCOME_FAILED;
     find_viewer(work);
     if (!render_prepare(work->scene, &work->camera, options, work->arena, &work->setup, err))
-        return false;
+        return OUTCOME_FAILED;
     render_live_find_displays(&work->live, work->scene, &work->setup.camera, work->arena);
     bool done = find_lights(work, err) && identify(work, err);
     if (done) warn_of_memory(work);
     done = done && render_prepared(&work->setup, options, work->arena, &result, err);
     render_setup_end(&work->setup);
-    return done && hand_over(work, &result, err);
+    return done ? hand_over(work, &result, err) : OUTCOME_FAILED;
 }
 
-bool cmd_render_request(const RenderRequest *request, const RenderTask *task, Arena *arena,
-                        Error *err)
+Outcome cmd_render_request(const RenderRequest *request, const RenderTask *task, Arena *arena,
+                           Error *err)
 {
-    RenderRun  work = {.request = *request, .arena = arena, .task = task};
-    bool  done = run(&work, err);
+    RenderRun work = {.request = *request, .arena = arena, .task = task};
+    Outcome   outcome = run(&work, err);
     render_live_close(&work.live);
     scene_close(work.scene);
-    return done;
+    return outcome;
 }
 
-bool cmd_render_run(int argc, char **argv, const RenderTask *task, Arena *arena, Error *err)
+Outcome cmd_render_run(int argc, char **argv, const RenderTask *task, Arena *arena, Error *err)
 {
     RenderRequest request;
-    return render_request_parse(argc, argv, arena, &request, err) &&
-           (request.cli.help_shown || cmd_render_request(&request, task, arena, err));
+    if (!render_request_parse(argc, argv, arena, &request, err)) return OUTCOME_FAILED;
+    return request.cli.help_shown ? OUTCOME_DONE
+                                  : cmd_render_request(&request, task, arena, err);
 }
 
-static bool run_render(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_render(int argc, char **argv, Arena *arena, Error *err)
 {
     return cmd_render_run(argc, argv, NULL, arena, err);
 }

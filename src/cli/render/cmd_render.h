@@ -19,10 +19,10 @@ typedef struct RenderTask {
 /* argv as the command's. task NULL: the command itself. Else the scene and the program have to
  * be what was planned (ERROR_INPUT), only a whole frame is written, no snapshot, and there is
  * no answer. */
-bool cmd_render_run(int argc, char **argv, const RenderTask *task, Arena *arena, Error *err);
+Outcome cmd_render_run(int argc, char **argv, const RenderTask *task, Arena *arena, Error *err);
 
 /* The same of a request that was not typed. */
-bool cmd_render_request(const RenderRequest *request, const RenderTask *task, Arena *arena,
-                        Error *err);
+Outcome cmd_render_request(const RenderRequest *request, const RenderTask *task, Arena *arena,
+                           Error *err);
 
 extern const Command command_render;

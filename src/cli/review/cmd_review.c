@@ -184,23 +184,24 @@ static bool start(const ReviewWords *words, Arena *arena, Error *err)
 /* ---- the command ------------------------------------------------------------------------- */
 
 /* The line may be longer than an error's text. */
-static void report_stopped(const ReviewFolder *folder, Error *err, Arena *arena)
+static Outcome report_stopped(const ReviewFolder *folder, Arena *arena)
 {
-    const char *name = signals_name((int)err->code - 128);
+    const char *name = signals_name(signals_stop_requested());
     print_to(stderr,
              "parhelion: %s: stopped by %s; what is done is kept in %s — the same command goes "
              "on: %s\n",
              folder->target, name, folder->draft.unfinished,
              review_folder_command(folder, arena));
-    err->text[0] = '\0';
+    return OUTCOME_STOPPED;
 }
 
-static void tell_kept(const ReviewFolder *folder, Error *err)
+static Outcome tell_kept(const ReviewFolder *folder, Error *err)
 {
     const Error before = *err;
     if (err->code == ERROR_OUTPUT && journal_count(folder->draft.journal))
         error_at(err, before.code, before.file, before.path,
                  "%.900s — what is done is kept: the same command goes on", before.text);
+    return OUTCOME_FAILED;
 }
 
 /* ---- what is known so far ---------------------------------------------------------------- */
@@ -261,7 +262,7 @@ static bool make_all(const ReviewWords *words, ReviewFolder *folder, ReviewRun *
     SoFar so_far = {.folder = folder, .arena = arena, .watch = words->watch,
                     .problems = run->problems, .shown_s = monotonic_seconds()};
     const ReviewSteps steps = {.is_strict = words->is_strict,
-                               .with_sensitivities = !words->is_alone, .mend = folder->mend,
+                               .with_sensitivities = !words->is_alone,
                                .on_step = write_step, .user = &so_far};
     run->news = (ReviewNews){write_so_far, note_files, &so_far};
     bool ok = review_run(run, &steps, arena, outcome, err);
@@ -280,14 +281,14 @@ static bool take_found(const ReviewFolder *folder, const ReviewTask *task, Arena
            review_take_responses(folder->responses, task, scratch, err);
 }
 
-static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run, Arena *arena,
-                 Error *err)
+static Outcome make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
+                    Arena *arena, Error *err)
 {
-    ReviewOutcome outcome;
+    ReviewOutcome found;
     signals_watch();
     if (!review_variants_check(run, err) ||
         !review_folder_open(folder, arena, run->problems, err))
-        return false;
+        return OUTCOME_FAILED;
     folder->work = run->work;
     run->folder = folder->name;
     run->unfinished = folder->draft.unfinished;
@@ -296,19 +297,16 @@ static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
     run->means.journal = folder->draft.journal;
     if (!run->means.lessons) run->means.lessons = folder->draft.unfinished;
     if (!take_found(folder, words->task, *arena, err) ||
-        !make_all(words, folder, run, &outcome, arena, err)) {
-        if (err->code > 128) report_stopped(folder, err, arena);
-        else tell_kept(folder, err);
+        !make_all(words, folder, run, &found, arena, err)) {
+        Outcome outcome = err->code ? tell_kept(folder, err) : report_stopped(folder, arena);
         review_folder_close(folder);
-        return false;
+        return outcome;
     }
     work_end(run->work);
     if (words->watch) review_folder_close(folder); /* answers are asked for again */
     else review_folder_finish(folder);
-    if (!review_print(&words->cli, &outcome.review, *arena, err)) return false;
-    if (outcome.review.pass) return true;
-    *err = (Error){.code = ERROR_DIFFERENT};
-    return false;
+    if (!review_print(&words->cli, &found.review, *arena, err)) return OUTCOME_FAILED;
+    return found.review.pass ? OUTCOME_DONE : OUTCOME_NO;
 }
 
 static bool find_parameter(const ReviewRequest *request, const char *name, Arena scratch,
@@ -348,7 +346,7 @@ static bool check_symbol(const ReviewRequest *request, const char *name, Arena s
                                                         advice, sizeof advice));
 }
 
-static bool review(const ReviewWords *words, Arena *arena, Error *err)
+static Outcome review(const ReviewWords *words, Arena *arena, Error *err)
 {
     const char    *file = words->cli.arguments[0];
     Problems       problems = problems_start(arena);
@@ -362,30 +360,31 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
                              .is_strict = words->is_strict,
                              .summary = words->summary, .is_alone = words->is_alone,
                              .is_self_contained = words->is_self_contained};
-    if (!review_request_read(file, words->root, arena, &problems, &request, err)) return false;
+    if (!review_request_read(file, words->root, arena, &problems, &request, err))
+        return OUTCOME_FAILED;
     const Lines files = review_request_files(&request, arena);
     for (int i = 0; i < files.count && words->watch; i++)
         review_watch_add(words->watch, files.list[i]);
     if (!profile_load(words->profile ? words->profile : request.profile, arena, &profile, err))
-        return words->profile ? false : error_in_file(err, request.file);
+        return words->profile ? OUTCOME_FAILED : error_in_file(err, request.file);
     request.decide_times = words->decide_times ? words->decide_times
                            : words->decides    ? DECIDE_TIMES
                                                : 0;
     if (words->mend && !find_parameter(&request, words->mend, *arena, &folder.mend, err))
-        return false;
+        return OUTCOME_FAILED;
     if (words->is_alone) {
         request.variant_count = 0;
         if (!words->mend) request.parameter_count = 0; /* else they are checked with it */
         request.is_compared = words->mend != NULL;
     }
-    if (words->summary && !check_symbol(&request, words->summary, *arena, err)) return false;
-    if (!review_check(&request, *arena, err) ||
+    if ((words->summary && !check_symbol(&request, words->summary, *arena, err)) ||
+        !review_check(&request, *arena, err) ||
         (folder.target && (!review_files_check(folder.target, &request, *arena, err) ||
                            !review_files_spare(folder.target, &request, &files, *arena, err))))
-        return false;
+        return OUTCOME_FAILED;
     WorkPlan all = work_of_review(&request, folder.mend);
     Work     work = work_start(words->cli.progress, &all);
-    ReviewRun run = {.request = &request, .profile = profile,
+    ReviewRun run = {.request = &request, .profile = profile, .mend = folder.mend,
                      .means = {.root = words->root, .state = words->state,
                                .threads = words->cli.threads, .isa = words->isa},
                      .problems = &problems, .work = &work};
@@ -396,8 +395,9 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
     if (words->task && words->task->share.count)
         return review_part(&run, words->task, words->responses, arena, err);
     if (words->share.parts)
-        return review_share(&words->share, &folder, &run, words->cli.json, arena, err);
-    return words->dry_run ? plan(words, &folder, &run, arena, err)
+        return outcome_of(review_share(&words->share, &folder, &run, words->cli.json, arena,
+                                       err));
+    return words->dry_run ? outcome_of(plan(words, &folder, &run, arena, err))
                           : make(words, &folder, &run, arena, err);
 }
 
@@ -408,12 +408,11 @@ static bool review_once(const ReviewWords *words, Error *err)
 {
     Arena once = arena_reserve(machine_memory_bytes());
     *err = (Error){0};
-    bool  ok = review(words, &once, err);
-    bool  is_stopped = !ok && err->code > 128;
-    if (!ok && !is_stopped && err->text[0]) cli_report_error(err, words->cli.json);
+    Outcome outcome = review(words, &once, err);
+    if (outcome == OUTCOME_FAILED) cli_report_error(err, words->cli.json);
     fflush(stdout);
     arena_release(&once);
-    return !is_stopped;
+    return outcome != OUTCOME_STOPPED;
 }
 
 /* The answers that were kept for the next time go with the last. */
@@ -428,7 +427,7 @@ static void forget_answers(const ReviewWords *words)
     arena_release(&scratch);
 }
 
-static bool watch(ReviewWords *words, Error *err)
+static Outcome watch(ReviewWords *words, Error *err)
 {
     ReviewWatch files = review_watch_start();
     const char *changed = words->cli.arguments[0];
@@ -444,25 +443,25 @@ static bool watch(ReviewWords *words, Error *err)
         goes_on = review_once(words, err);
     }
     review_watch_end(&files);
-    if (!goes_on) return false;
+    if (!goes_on) return OUTCOME_STOPPED;
     forget_answers(words);
-    *err = (Error){0};
-    return true;
+    return OUTCOME_DONE;
 }
 
-bool cmd_review_run(int argc, char **argv, const ReviewTask *task, Arena *arena, Error *err)
+Outcome cmd_review_run(int argc, char **argv, const ReviewTask *task, Arena *arena,
+                       Error *err)
 {
     ReviewWords words = {.task = task};
-    if (!parse(argc, argv, arena, &words, err)) return false;
-    if (words.cli.help_shown) return true;
+    if (!parse(argc, argv, arena, &words, err)) return OUTCOME_FAILED;
+    if (words.cli.help_shown) return OUTCOME_DONE;
     if (task && !words.isa) words.isa = task->isa;
     if (words.share.parts)
         review_share_set(&words.share, argc, argv, words.folder, &words.cli, arena);
     if (words.watches) return watch(&words, err);
-    return words.init ? start(&words, arena, err) : review(&words, arena, err);
+    return words.init ? outcome_of(start(&words, arena, err)) : review(&words, arena, err);
 }
 
-static bool run(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run(int argc, char **argv, Arena *arena, Error *err)
 {
     return cmd_review_run(argc, argv, NULL, arena, err);
 }

@@ -5,6 +5,7 @@
 #include "cli/review/review_job.h"
 
 /* argv as the command's. Of a part there is no answer, and no file but those of the task. */
-bool cmd_review_run(int argc, char **argv, const ReviewTask *task, Arena *arena, Error *err);
+Outcome cmd_review_run(int argc, char **argv, const ReviewTask *task, Arena *arena,
+                       Error *err);
 
 extern const Command command_review;

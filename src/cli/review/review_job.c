@@ -59,15 +59,15 @@ static bool answer(ReviewRun *run, const ReviewTask *task, Arena *arena, Error *
     return journal_ok(run->means.journal, err);
 }
 
-static void report_stopped(const ReviewTask *task, Error *err)
+static Outcome report_stopped(const ReviewTask *task)
 {
     print_to(stderr, "parhelion: %s: stopped by %s; what is done is kept — go on with: %s\n",
-             task->name, signals_name((int)err->code - 128), task->resume_line);
-    err->text[0] = '\0';
+             task->name, signals_name(signals_stop_requested()), task->resume_line);
+    return OUTCOME_STOPPED;
 }
 
-bool review_part(ReviewRun *run, const ReviewTask *task, const char *responses, Arena *arena,
-                 Error *err)
+Outcome review_part(ReviewRun *run, const ReviewTask *task, const char *responses,
+                    Arena *arena, Error *err)
 {
     signals_watch();
     run->share = task->share;
@@ -76,15 +76,14 @@ bool review_part(ReviewRun *run, const ReviewTask *task, const char *responses, 
     run->means.lessons = task->responses;
     if (!folder_make(run->responses, err) || !folder_make(run->means.lessons, err) ||
         !journal_open(task->answers, arena, run->problems, &run->means.journal, err))
-        return false;
+        return OUTCOME_FAILED;
     WorkPlan all = work_of_conditions(run->request, false), part = {{0}};
     work_plan_add(&part, &all, 1.0 / run->share.count);
     run->work->planned = part;
     bool ok = answer(run, task, arena, err);
     if (ok) work_end(run->work);
     journal_close(run->means.journal);
-    if (!ok && err->code > 128) report_stopped(task, err);
-    return ok;
+    return ok || err->code ? outcome_of(ok) : report_stopped(task);
 }
 
 bool review_share_check(const ShareRequest *share, const char *not_traced, Error *err)

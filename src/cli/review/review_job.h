@@ -30,8 +30,8 @@ typedef struct ReviewTask {
 } ReviewTask;
 
 /* Answers the part's questions. responses: the folder that was typed; NULL: the task's. */
-bool review_part(ReviewRun *run, const ReviewTask *task, const char *responses, Arena *arena,
-                 Error *err);
+Outcome review_part(ReviewRun *run, const ReviewTask *task, const char *responses,
+                    Arena *arena, Error *err);
 
 /* Takes the answers found before, as far as they are whole. */
 void review_take_answers(Journal *journal, const ReviewTask *task);

@@ -94,7 +94,7 @@ static bool refuse(const json_t *report, const char *path, Error *err)
 {
     const json_t *reasons = json_object_get(report, "reasons");
     const char   *reason = json_string_value(json_array_get(reasons, 0));
-    return error_at(err, ERROR_DIFFERENT, path, "", "is not written, for the panel would not "
+    return error_at(err, ERROR_UNUSABLE, path, "", "is not written, for the panel would not "
                     "be usable: %s; --force writes it all the same", reason ? reason : "");
 }
 
@@ -380,7 +380,7 @@ static bool fit_whole(FitRun *run, const Measurement *set, FitPlaces *places, js
               finish_panel(&parts, &target, run->arena, report, run->err) &&
               file_write(run->path, target.bytes, target.size, run->err);
     json_decref(spots);
-    if (!ok && *report && run->err->code != ERROR_DIFFERENT) {
+    if (!ok && *report && run->err->code != ERROR_UNUSABLE) {
         json_decref(*report);
         *report = NULL;
     }

@@ -9,7 +9,7 @@
  * out first.
  *
  * Memory   the arena's. Threads: one fit at a time per arena.
- * Fails    with the file that cannot be written; with ERROR_DIFFERENT, and the report, where
+ * Fails    with the file that cannot be written; with ERROR_UNUSABLE, and the report, where
  *          the panel is judged not usable (fit_judge.h) and options->force is false.
  */
 #pragma once

@@ -13,38 +13,10 @@
 
 /* A step after all conditions are reviewed; they run in turn. */
 typedef struct LaterStep {
-    bool (*make)(const ReviewRun *run, const ReviewSteps *steps, ReviewOutcome *outcome,
-                 Arena *arena, Error *err);
+    bool (*make)(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Error *err);
     const char *what;
     bool        is_wanted;
 } LaterStep;
-
-static bool make_variants(const ReviewRun *run, const ReviewSteps *steps,
-                          ReviewOutcome *outcome, Arena *arena, Error *err)
-{
-    (void)steps;
-    return review_variants(run, outcome, arena, err);
-}
-
-static bool make_sensitivities(const ReviewRun *run, const ReviewSteps *steps,
-                               ReviewOutcome *outcome, Arena *arena, Error *err)
-{
-    (void)steps;
-    return review_sensitivities(run, outcome, arena, err);
-}
-
-static bool make_mend(const ReviewRun *run, const ReviewSteps *steps, ReviewOutcome *outcome,
-                      Arena *arena, Error *err)
-{
-    return review_mend(run, steps->mend, outcome, arena, err);
-}
-
-static bool make_frames(const ReviewRun *run, const ReviewSteps *steps, ReviewOutcome *outcome,
-                        Arena *arena, Error *err)
-{
-    (void)steps;
-    return review_frames(run, outcome, arena, err);
-}
 
 /* NULL: nothing. */
 static const char *still_to_come(const LaterStep *steps, int first, int count, Arena *arena)
@@ -66,14 +38,14 @@ static bool run_steps(const ReviewRun *run, const ReviewSteps *steps, ReviewOutc
 {
     const ReviewRequest *request = run->request;
     const LaterStep later[] = {
-        {make_variants, "variants", request->variant_count > 0},
-        {make_sensitivities, "sensitivity",
+        {review_variants, "variants", request->variant_count > 0},
+        {review_sensitivities, "sensitivity",
          request->parameter_count > 0 && steps->with_sensitivities},
-        {make_mend, "remedy", steps->mend != NULL},
-        {make_frames, "pictures", request->frames.worst > 0}};
+        {review_mend, "remedy", run->mend != NULL},
+        {review_frames, "pictures", request->frames.worst > 0}};
     for (int i = -1; i < COUNT_OF(later); i++) {
         if (i >= 0 && !later[i].is_wanted) continue;
-        if (i >= 0 && !later[i].make(run, steps, outcome, arena, err)) return false;
+        if (i >= 0 && !later[i].make(run, outcome, arena, err)) return false;
         if (!review_goes_on(run->means.journal, err)) return false;
         outcome->review.to_come = still_to_come(later, i + 1, COUNT_OF(later), arena);
         if (steps->on_step && !steps->on_step(steps->user, outcome, err)) return false;

@@ -16,8 +16,6 @@
 typedef struct ReviewSteps {
     bool is_strict;          /* as in review_decide */
     bool with_sensitivities; /* the request's; else its parameters serve the remedy alone */
-    const ReviewParameter *mend; /* of it the smallest change is sought that makes all pass;
-                                    NULL: of none */
     /* After all conditions, and after each later step: outcome->review.to_come names those that
      * are missing, NULL after the last. NULL: nobody listens. */
     bool (*on_step)(void *user, ReviewOutcome *outcome, Error *err);

@@ -5,7 +5,5 @@
 
 bool review_goes_on(const Journal *journal, Error *err)
 {
-    int stop = signals_stop_requested();
-    if (stop) return error_set(err, (ErrorCode)(128 + stop), "stopped");
-    return journal_ok(journal, err);
+    return signals_stop_requested() ? signals_stopped(err) : journal_ok(journal, err);
 }

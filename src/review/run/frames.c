@@ -9,6 +9,7 @@
 #include "keep/journal.h"
 #include "render/identity.h"
 #include "render/render.h"
+#include "render/signals.h"
 #include "render/train.h"
 #include "review/light/setup_eyes.h"
 #include "review/keep/frame_kept.h"
@@ -202,7 +203,7 @@ static bool render(const FrameAsk *ask, FrameKept *kept, const SceneCamera *came
         !render_prepared(&render, options, arena, result, err))
         return false;
     if (!result->stopped_by) return true;
-    return error_set(err, (ErrorCode)(128 + result->stopped_by), "stopped");
+    return signals_stopped(err);
 }
 
 bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)

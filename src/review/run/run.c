@@ -86,7 +86,7 @@ static bool ride_moment(const CaseTools *base_tools, const ReviewRider *rider,
     bool        ok = setup_cases(&tools, arena, cases, err);
     if (ok) keep_names(cases, count, arena);
     if (ok) review->case_count += count;
-    else if (err->code <= 128) error_prefix(err, "variant '%.100s'", rider->variant->name);
+    else if (err->code) error_prefix(err, "variant '%.100s'", rider->variant->name);
     arena_release(&of_context);
     return ok;
 }

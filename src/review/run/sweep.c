@@ -365,7 +365,7 @@ static bool report_asked(Sweep *sweep, SweepReport *to, int count, const Sight *
     }
     for (int i = 0; i < count; i++) {
         if (report_sight(&to[i], sight, &asked, err)) continue;
-        return err->code > 128 || !to[i].rider
+        return !err->code || !to[i].rider
                    ? false
                    : error_prefix(err, "variant '%.100s'", to[i].rider->variant->name);
     }

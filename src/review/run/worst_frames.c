@@ -241,7 +241,7 @@ static bool make_pair(const FrameWork *before, int number, ReviewVariantFound *v
     work.name = arena_format(arena, "%s-variant-%d-%s", name, number + 1,
                              words_file_name(variant->name, arena));
     if (!make_frame(&work, NULL, arena, &variant->frame, err))
-        return err->code > 128 ? false
+        return !err->code ? false
                                : error_prefix(err, "variant '%.100s'", variant->name);
     variant->frame_before = work.of->of->frame;
     variant->seen = work.of->of;

@@ -195,9 +195,9 @@ static bool search(Mending *m, Error *err)
     return true;
 }
 
-bool review_mend(const ReviewRun *run, const ReviewParameter *parameter,
-                 ReviewOutcome *outcome, Arena *arena, Error *err)
+bool review_mend(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Error *err)
 {
+    const ReviewParameter *parameter = run->mend;
     Review *review = &outcome->review;
     Mending m = {.run = run, .parameter = parameter, .base = review, .arena = arena,
                  .trial = work_of_trial(run->request, parameter), .to_come = WORK_TRIALS};

@@ -14,6 +14,5 @@
 #pragma once
 #include "review/run/job.h"
 
-/* The review must be complete. parameter: the request's; adds to outcome->review.mends. */
-bool review_mend(const ReviewRun *run, const ReviewParameter *parameter,
-                 ReviewOutcome *outcome, Arena *arena, Error *err);
+/* The review must be complete. Of run->mend; adds to outcome->review.mends. */
+bool review_mend(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Error *err);

@@ -208,7 +208,7 @@ static bool run_variant(const ReviewRun *run, const ReviewVariant *variant, cons
     *request = review_request_variant(run->request, variant, arena);
     ReviewRun own = review_run_of(run, request, base);
     return review_run_conditions(&own, arena, out, err) ||
-           (err->code <= 128 && error_prefix(err, "variant '%.100s'", variant->name));
+           (err->code && error_prefix(err, "variant '%.100s'", variant->name));
 }
 
 bool review_variant(const ReviewRun *run, const ReviewVariant *variant, const Review *base,
