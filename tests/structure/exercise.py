@@ -84,7 +84,7 @@ EXERCISES = {
         ["test_record"], ["test_record"]),
     # The width of a symbol's strokes.
     "stroke_arcmin": Exercise(
-        "A figure of a case", 5, {},
+        "A figure of a case", 7, {},
         [("src/review/verdict.h", "    double  stroke_ratio; ",
           "    double  stroke_arcmin; /* width of its strokes */\n"),
          ("src/review/verdict.c", "c.height_arcmin = c.stroke_ratio =", "c.stroke_arcmin = "),
@@ -92,6 +92,9 @@ EXERCISES = {
           "    c->stroke_arcmin = c->height_arcmin * symbol_stroke_ratio(look->symbol);\n"),
          ("src/review/output/review_json.c", '    LATER("stroke_ratio", FIGURE,',
           '    LATER("stroke_arcmin", FIGURE, ReviewCase, stroke_arcmin),\n'),
+         ("assets/schemas/json_answers.md", "`height_arcmin`, `stroke_ratio` (stroke",
+          "`stroke_arcmin`, "),
+         ("tests/unit/test_review_output.c", '"stroke_ratio", "dgi",', '"stroke_arcmin", '),
          ("assets/pages/card.html", "    {{#height_arcmin}}\n",
           "    {{#stroke_arcmin}}\n    <dt>Stroke</dt><dd>{{stroke_arcmin|figure}} arc minutes"
           "</dd>\n    {{/stroke_arcmin}}\n")],
