@@ -188,7 +188,6 @@ typedef struct Site {
     const Wavelengths   *wavelengths;
     Spectrum             base_color;
     float                transmission, metallic, alpha; /* alpha: GGX */
-    bool                 passes_only; /* nothing but what goes straight through is asked for */
 } Site;
 
 static void read_site(Site *site, const TrianglePoint *point, const float texel[4])
@@ -417,7 +416,6 @@ static void set_glazing(const Site *site, Surface *surface)
         model->coating = coating->pane;
         model->wavelengths = site->wavelengths;
     }
-    if (site->passes_only) return;
     set_bend(site, surface, model);
     for (int i = 0; i < 2; i++) {
         if (pane->wedge[i] == 0) continue;
@@ -478,62 +476,43 @@ static void set_display(const Site *site, Vec3 wo, Surface *surface)
     model->matte_alpha = display->finish.alpha;
 }
 
-/* Where it is, how it lies and how much of it is there; texel: of its base colour. */
-static void set_place(const Site *site, Vec3 wo, float texel[4], Surface *out)
+void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit, Vec3 wo,
+                const Wavelengths *wavelengths, Surface *out)
 {
-    const Material *m = site->material;
-    const Hit      *hit = site->hit;
+    int part_id = (int)scene->triangles[hit->triangle].part_id;
+    const Material *m = &scene->materials[scene->parts[part_id].material_id];
+    float texel[4];
+    out->point = triangle_point(scene, hit->triangle, hit->u, hit->v);
     out->position = out->point.position;
     out->ng = out->point.ng;
-    coverage_texel(site->scene, m, hit, &out->point, texel);
+    out->part_id = part_id;
+    out->triangle = hit->triangle;
+    out->material_id = scene->parts[part_id].material_id;
+    out->is_grey = tables->is_grey[out->material_id];
+    out->emits = triangle_emits_to(scene, hit->triangle, &out->point, wo);
+    coverage_texel(scene, m, hit, &out->point, texel);
     out->alpha = coverage_alpha(m, texel[3]);
     bool keeps_outside = m->is_solid && !material_is_translucent_solid(m);
     Vec3 side = vec3_dot(out->ng, wo) < 0 && !keeps_outside ? vec3_neg(out->ng) : out->ng;
     Vec3 eye = vec3_dot(side, wo) < 0 ? vec3_neg(wo) : wo;
     Vec3 ns = m->display_id != NO_ID /* a panel was measured with its surface */
                   ? out->point.ns
-                  : mapped_normal(site->scene, &m->normal_texture, m->normal_scale,
-                                  hit->triangle, &out->point);
+                  : mapped_normal(scene, &m->normal_texture, m->normal_scale, hit->triangle,
+                                  &out->point);
     out->frame = frame_from_z(oriented_normal(ns, side, eye));
-}
-
-static void set_model(Site *site, Vec3 wo, const float texel[4], Surface *out)
-{
-    const Material *m = site->material;
+    Site site = {.scene = scene, .tables = tables, .material = m, .hit = hit,
+                 .wavelengths = wavelengths};
     if (m->display_id != NO_ID) {
-        set_display(site, wo, out);
+        set_display(&site, wo, out);
     } else if (m->unlit) {
         bsdf_be_black(&out->bsdf);
     } else if (m->glazing) {
-        set_glazing(site, out);
+        set_glazing(&site, out);
     } else {
-        read_site(site, &out->point, texel);
-        set_bsdf(site, out);
+        read_site(&site, &out->point, texel);
+        set_bsdf(&site, out);
     }
     out->local_wo = frame_to_local(&out->frame, wo);
-}
-
-static Site site_of(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
-                    const Wavelengths *wavelengths, Surface *out)
-{
-    out->part_id = (int)scene->triangles[hit->triangle].part_id;
-    out->triangle = hit->triangle;
-    out->material_id = scene->parts[out->part_id].material_id;
-    out->point = triangle_point(scene, hit->triangle, hit->u, hit->v);
-    return (Site){.scene = scene, .tables = tables,
-                  .material = &scene->materials[out->material_id], .hit = hit,
-                  .wavelengths = wavelengths};
-}
-
-void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit, Vec3 wo,
-                const Wavelengths *wavelengths, Surface *out)
-{
-    Site  site = site_of(scene, tables, hit, wavelengths, out);
-    float texel[4];
-    out->is_grey = tables->is_grey[out->material_id];
-    out->emits = triangle_emits_to(scene, hit->triangle, &out->point, wo);
-    set_place(&site, wo, texel, out);
-    set_model(&site, wo, texel, out);
 }
 
 /* A head may be put on a surface: its rays start off that. */
@@ -563,15 +542,13 @@ Spectrum surface_pass(const Scene *scene, const SurfaceTables *tables, const Hit
                       Vec3 direction, const Wavelengths *wavelengths)
 {
     Surface surface;
-    Vec3    wo = vec3_neg(direction);
-    Site    site = site_of(scene, tables, hit, wavelengths, &surface);
-    float   texel[4];
-    site.passes_only = true;
-    if (!lets_light_through(site.material))
-        return spectrum_all(1 - coverage_at(scene, hit, &surface.point));
-    set_place(&site, wo, texel, &surface);
+    int     material = scene_part(scene, hit->triangle)->material_id;
+    if (!lets_light_through(&scene->materials[material])) {
+        TrianglePoint point = triangle_point(scene, hit->triangle, hit->u, hit->v);
+        return spectrum_all(1 - coverage_at(scene, hit, &point));
+    }
+    surface_at(scene, tables, hit, vec3_neg(direction), wavelengths, &surface);
     if (surface.alpha <= 0) return spectrum_all(1);
-    set_model(&site, wo, texel, &surface);
     Spectrum through = bsdf_pass(&surface.bsdf, surface.local_wo);
     return spectrum_all(1 - surface.alpha) + spectrum_all(surface.alpha) * through;
 }
