@@ -116,7 +116,7 @@ def check_init(report, reviewer):
     report.claim("proposed eye (eye), the others as given" in found["rests_on_line"] and
                  facts(found, "eye") == [("proposed", "eye", 1, 1), ("given", "by hand", 1, 1)],
                  found["rests_on_line"])
-    for wrong, words in ((3, "is a number"), ("", "is empty")):
+    for wrong, words in ((3, "is a number"), ("", "is an empty text")):
         reviewer.write("r.json", asked(eyes={"eye": {"camera": "eye", "proposed_from": wrong}}))
         done = reviewer.run("review", "r.json", "--dry-run")
         report.claim(done.returncode == 3 and "/eyes/eye/proposed_from" in done.stderr and
