@@ -32,7 +32,7 @@ static bool is_odd(float whole)
 static PixelPlace pixel_place(const CloseView *view)
 {
     Vec2       uv = slot_uv(&view->display->content, view->point);
-    float      at[2] = {uv.x, uv.y};
+    float      at[2] = {uv.x + view->beside.x, uv.y + view->beside.y};
     PixelPlace out;
     for (int k = 0; k < 2; k++) {
         float x = at[k] * (float)view->display->subpixels->pixels[k];

@@ -38,6 +38,8 @@ typedef struct CloseView {
     Vec3                 across[2]; /* local, m: what lies between neighbouring pixels of the
                                        frame, in two directions; along the ray nothing counts.
                                        0: it is no frame's ray, NaN: not known */
+    Vec2                 beside;    /* from the point to where in its pixels the layout is
+                                       sampled, in the content's coordinates */
 } CloseView;
 
 /* Codes and how much each counts; weights add up to one and may be negative, the sum of

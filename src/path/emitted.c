@@ -111,6 +111,8 @@ static bool comes_close(const PathState *path, const Surface *surface, uint32_t 
     *out = (CloseView){.scene = scene, .display = display, .point = &surface->point,
                        .triangle = triangle, .local = frame_to_local(&frame, wo)};
     footprint_across(footprint, path->straight, &frame, out->across);
+    out->beside = footprint_exact(footprint, scene, surface, &display->content, wo,
+                                  path->straight);
     return true;
 }
 

@@ -149,7 +149,7 @@ TEST(rays_beside_go_where_the_footprint_says)
         ray.way[2] = up; /* the solid lies below */
         normalize3(ray.way);
         for (int k = 0; k < 3; k++) ray.at[k] -= distance * ray.way[k];
-        RayFootprint footprint;
+        RayFootprint footprint = {.place = {{0}}};
         Frame     frame = frame_from_z(vec3((float)ray.way[0], (float)ray.way[1],
                                             (float)ray.way[2]));
         for (int i = 0; i < 2; i++) {
@@ -218,6 +218,27 @@ TEST(behind_flat_mirrors_a_pixel_covers_what_the_whole_way_says)
         assert_true(turn(scene_of(&flat, false), &ray, &behind, 0.7, &footprint));
         assert_width(&footprint, &behind, 0.9, 0.001 + 0.01 * (0.7 + 0.9));
     }
+}
+
+/* Beside an edge a mirrored ray starts off it; the exact one starts where the mirror is met. */
+TEST(the_exact_ray_starts_where_it_meets_the_mirror)
+{
+    arena = test_arena(state);
+    const double beside = 1e-6;
+    Ray3         down = {{0.3, beside, 0}, {0, 0, -1}}, up = {{0.3, beside, 0}, {0, 0, 1}};
+    RayFootprint footprint = camera_at(&down, (RayCone){0.001f, 0.01f});
+    Scene       *scene = scene_of(&flat, false);
+    TextureSlot  slot = builder_no_texture(); /* its u and v are x and y, m */
+    Surface      surface = {.triangle = 0, .ng = vec3(0, 0, 1)};
+    Vec3         wo = vec3(0, 0, -1);
+    TrianglePoint met = triangle_point(scene, 0, 0.3f, (float)beside);
+    double inset = (double)ray_inset(&met, sqrtf(2));
+    Vec2 before = footprint_exact(&footprint, scene, &surface, &slot, wo, 0.7f);
+    assert_true(before.x == 0 && before.y == 0);
+    assert_true(turn(scene, &down, &up, 0.7, &footprint));
+    Vec2 exact = footprint_exact(&footprint, scene, &surface, &slot, wo, 0.9f);
+    assert_near(exact.x, 0, 1e-3 * inset);
+    assert_near(exact.y, beside - inset, 1e-3 * inset);
 }
 
 /* Seen upright, glass counts by its thickness over the index. */

@@ -466,7 +466,7 @@ TEST(a_mirror_shows_what_its_image_of_the_camera_sees)
         print_message("%.3g display pixels: off by %.2g, the mean by %.2g\n", parts[i],
                       off / sum[1], sum[0] / sum[1] - 1);
         assert_close(sum[0], sum[1], 1e-3);
-        assert_true(off < 0.05 * sum[1]); /* edges within the rounding of a ray's origin */
+        assert_true(off < 0.005 * sum[1]); /* edges within the rounding of a ray's way */
         assert_true(most > 1.1 * sum[1] / FRAME / FRAME);
     }
 }
