@@ -29,7 +29,7 @@ struct Progress {
     double       left_from;  /* as of so much done; left_s 0: nobody does */
     double       more_s;     /* that the part in hand takes beyond that, by its own pace */
     double       begun_s, shown_s; /* seconds of the monotonic clock */
-    double       interval_s;       /* wanted between two lines */
+    double       interval_s;       /* requested between two lines */
     bool         has_colour;
     int          shown_columns;    /* of the bar's longest line so far */
     Progress    *outer;            /* this is a part of that; or NULL */

@@ -308,7 +308,7 @@ bool bvh_build(const Scene *scene, int threads, const char *isa, ProgressMode pr
     if (check_device(bvh->device, &first)) build_scene(bvh, scene, progress);
     rtcSetDeviceErrorFunction(bvh->device, NULL, NULL);
     if (first.code != ERROR_NONE) {
-        /* Mostly for want of memory. Embree and oneTBB allocate while they clean up, and end
+        /* Mostly for lack of memory. Embree and oneTBB allocate while they clean up, and end
          * the program where they cannot: what stands half-built is left to the system. */
         *err = first;
         return false;

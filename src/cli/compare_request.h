@@ -2,8 +2,8 @@
 /* compare_request.h -- what was asked of `parhelion compare`.
  *
  * Memory   texts are the command line's or the arena's. Threads: one at a time.
- * Fails    ERROR_USAGE with the option, what was found and what was wanted; ERROR_INPUT with a
- *          line of --pairs.
+ * Fails    ERROR_USAGE with the option, what was found and what was required; ERROR_INPUT with
+ *          a line of --pairs.
  */
 #pragma once
 #include "cli/options/cli.h"

@@ -31,7 +31,7 @@ typedef struct FilmSample {
     int   part_id;         /* scene part, -1 where nothing was hit */
     int   display_id;      /* scene display, -1 off displays; else: */
     float emitted[3];      /* XYZ, cd m^-2: what the panel itself sends to the eye */
-    float mirror[3];       /* XYZ, cd m^-2: what came by way of the panel's mirror, */
+    float mirror[3];       /* XYZ, cd m^-2: what came via the panel's mirror, */
     float lambertian[3];   /* and what its lambertian part scattered */
     float white[3], black[3]; /* XYZ it would send for full white and for black */
     float extrapolated[2]; /* luminance, cd m^-2, by directions that were not measured: of what

@@ -3,7 +3,7 @@
  * file of options that a laboratory writes once.
  *
  * Memory   texts from the arena or the caller's. Threads: one at a time.
- * Fails    with the file, the JSON path, what was found and what was wanted.
+ * Fails    with the file, the JSON path, what was found and what was required.
  */
 #pragma once
 #include "import/set/import_beside.h"

@@ -323,7 +323,7 @@ static int first_sun_from(const ProbeSuns *suns, float y)
     return low;
 }
 
-/* By way of the first surface's mirror into each disc that the direction meets. */
+/* Via the first surface's mirror into each disc that the direction meets. */
 static void add_escaped_sun(void *user, Vec3 direction, int bounce, const float *share,
                             float pdf)
 {

@@ -53,11 +53,11 @@ typedef struct ProbeOwn {
 /* The light that one path found, XYZ. */
 typedef struct ProbeLook {
     float reflected[3]; /* all but what the first surface emits; of a luxmeter all */
-    float mirror[3];    /* of it, by way of a display's mirror */
+    float mirror[3];    /* of it, via a display's mirror */
     bool  is_found;     /* the first surface is a display, or a luxmeter's; else these are 0 */
     int   target;       /* of the aim, that it went to; of a luxmeter or a pixel 0 */
     ProbeOwn display[PROBE_DISPLAYS]; /* of these, what each of the scene's displays sends, if
-                                         the aim wants it; else 0 */
+                                         the aim requests it; else 0 */
 } ProbeLook;
 
 /* HOT. Path i of [first, end) fills out[i - first]. */

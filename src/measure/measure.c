@@ -59,7 +59,7 @@ typedef struct PixelShare {
     double      area;        /* 1, or a display's coverage */
     double      rgb[3], luminance; /* means over it */
     double      variance[3]; /* of area times rgb; NaN: not known */
-    DisplayPart own;         /* of the display that is wanted, or else of the pixel's */
+    DisplayPart own;         /* of the display that is measured, or else of the pixel's */
 } PixelShare;
 
 static DisplayPart part_at(const RegionPlanes *planes, size_t i)

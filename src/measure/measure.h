@@ -53,7 +53,7 @@ typedef struct FrameMeasurement {
     bool     has_contrast; /* some of the pixels show a display and the layers are there */
     long     display_pixels;
     double   white, black, reflected; /* means over the display's parts of pixels, cd m^-2 */
-    double   mirror;   /* of the reflected, by way of the panel's mirror; NaN: not known */
+    double   mirror;   /* of the reflected, via the panel's mirror; NaN: not known */
     double   lambertian; /* and what its lambertian part scattered; NaN: not known */
     double   extrapolated_shown, extrapolated_reflected; /* shares of what is shown and of what
                                 is reflected, by directions that were not measured; NaN: not

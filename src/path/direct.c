@@ -328,7 +328,7 @@ static void add_light_sample(PathState *path, const Surface *surface, Vec3 wo,
     add_arriving(path, surface, wo, guiding, &asked);
 }
 
-/* ---- the sun by way of one mirror -------------------------------------------------------- */
+/* ---- the sun via one mirror -------------------------------------------------------------- */
 
 /* A lit surface that asks its mirrors one by one. */
 typedef struct MirrorWalk {
@@ -338,7 +338,7 @@ typedef struct MirrorWalk {
     SunMirrorQuestion question;
 } MirrorWalk;
 
-/* The two shadow rays of light by way of a mirror. */
+/* The two shadow rays of light via a mirror. */
 typedef struct MirrorRays {
     ShadowRay to_mirror, to_sun;
 } MirrorRays;

@@ -2,7 +2,7 @@
 /* mirror_beams.h -- which mirrors send the sun to which part of the scene, and how much.
  *
  * Before the first path some rays of the sun are followed to every mirror, and by it to what
- * they light. A part asks those mirrors alone whose rays came to it: any other light by way of
+ * they light. A part asks those mirrors alone whose rays came to it: any other light via
  * a mirror is rare, and left to chance. Where these rays bring a place little light beside the
  * lights themselves, mirrors are asked less often there, and count more when they are.
  *

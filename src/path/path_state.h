@@ -90,7 +90,7 @@ typedef struct PathVertex {
 
 /* The first surface that an eye sees: windows passed and holes do not count. */
 typedef struct PathFirst {
-    bool     is_awaited; /* it is wanted, and not met yet */
+    bool     is_awaited; /* it is awaited, and not met yet */
     bool     is_met;
     Hit      hit;        /* t counted from the ray's origin */
     Vec3     direction;  /* of the ray there */
@@ -114,7 +114,7 @@ typedef struct PathState {
     const Wavelengths    *wavelengths;
     Sampler              *sampler;
     PathStatistics       *statistics;
-    struct PathCollector *collector; /* NULL: the light alone is wanted */
+    struct PathCollector *collector; /* NULL: the light alone is requested */
     PathManner manner;
     Ray        ray;
     Spectrum   throughput; /* of the path so far, per lane */

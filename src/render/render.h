@@ -41,7 +41,7 @@ typedef struct RenderOptions {
     int      max_bounces;      /* 0: emission only, 1: plus direct light */
     const PolarisedEye *eye;   /* how light is polarised counts for it (its directions are
                                   replaced by the camera's); NULL: unpolarised */
-    bool     no_mirrors;       /* sunlight by way of mirrors is left to chance */
+    bool     no_mirrors;       /* sunlight via mirrors is left to chance */
     unsigned layers;           /* FilmLayer bits; */
     const LightGroups *lights; /* of LAYER_LIGHT; NULL: none */
     int      threads;          /* at least 1 */

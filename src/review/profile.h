@@ -7,7 +7,7 @@
  * Units    those of each kind of limit; lx.
  * Memory   texts and lists live in the arena.
  * Threads  plain data.
- * Fails    loading does, with file, place, found and wanted.
+ * Fails    loading does, with file, place, found and required.
  */
 #pragma once
 #include <stdint.h>

@@ -310,7 +310,7 @@ bool review_case_counts(const ReviewCase *c);
 /* The veil in the eye, by where its light begins: the parts add up to it. */
 typedef struct GazeVeil {
     double sun, sky, lamps; /* seen straight or through glass; lamps: displays too */
-    double glints;          /* sun, lamps and displays by way of mirrors and panes alone */
+    double glints;          /* sun, lamps and displays via mirrors and panes alone */
     double surfaces;        /* all else: what is lit, and the sky in mirrors */
     double near;            /* sky and surfaces within 1 degree: what the eye looks at */
 } GazeVeil;

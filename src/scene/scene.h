@@ -249,7 +249,7 @@ typedef struct Environment {
     float hdri_rotation;
     double hdri_unit_cd_m2;      /* luminance of a white whose stored values are 1 */
     float hdri_scale;
-    float horizontal_illuminance_lx; /* hdri: wanted instead of scale; 0 = use scale */
+    float horizontal_illuminance_lx; /* hdri: required instead of scale; 0 = use scale */
     DaylightInput daylight;        /* cie, perez, sky: all but the sun below */
     EnvironmentWeather weather;    /* perez: where its irradiances came from */
     bool  has_sun;

@@ -197,8 +197,9 @@ static float alpha_of_film(int i)
     return 0.1f + 0.07f * (float)i;
 }
 
-/* n films and, if wanted, a pane amid them before what shines: prod(1 - alpha) of it is seen,
- * and arrives at a luxmeter by light samples, chance hits and both; T of the pane besides. */
+/* n films and, if requested, a pane amid them before what shines: prod(1 - alpha) of it is
+ * seen, and arrives at a luxmeter by light samples, chance hits and both; T of the pane
+ * besides. */
 static void check_films(const Place *place, int sheets, bool has_pane)
 {
     ENDS_BY(world_end) World world = world_start();

@@ -17,7 +17,7 @@
  *     if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
  *     if (cli.help_shown) return true;
  *
- * Fails    ERROR_USAGE with a text that holds the option, the value found and what is wanted;
+ * Fails    ERROR_USAGE with a text that holds the option, the value found and what is required;
  *          ERROR_OUTPUT where an output is a file that another word names (outputs.h).
  */
 #pragma once

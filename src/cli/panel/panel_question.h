@@ -3,7 +3,7 @@
  *
  * Units    degrees; codes 0 to 255; XYZ with Y in cd m^-2; BRDF in sr^-1 without the cosine;
  *          mirror reflectance without unit; nm.
- * Fails    with the member's name, what was found and what was wanted.
+ * Fails    with the member's name, what was found and what was required.
  */
 #pragma once
 #include <jansson.h>

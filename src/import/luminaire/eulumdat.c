@@ -266,7 +266,8 @@ static bool read_eulumdat(const char *file, const ImportOptions *options, Import
            luminaire_add(&luminaire, options, set, err);
 }
 
-/* No mark in the file: its name, or whole numbers where the second to fourth line want them. */
+/* No mark in the file: its name, or whole numbers where the second to fourth line require
+ * them. */
 static bool is_eulumdat(const char *file, const char *head, size_t size)
 {
     if (!strcasecmp(path_ending(file), ".ldt")) return true;

@@ -73,7 +73,7 @@ static void send_way(const DistantCollector *questions, const PathState *from,
     path_follow(&path, surface, wo, &next);
 }
 
-/* Few paths go on by a mirror, each in one direction: sunlight by way of a pane or of a satin
+/* Few paths go on by a mirror, each in one direction: sunlight via a pane or of a satin
  * ring would depend on a handful of paths. Ways cost a ray or two; a vertex asks hundreds. */
 static void send_ways(const DistantCollector *questions, const PathState *path,
                       const Surface *surface, Vec3 wo, const Guiding *guiding)

@@ -12,7 +12,7 @@
 typedef struct PathDistant {
     const Vec3 *towards; /* unit; every scattering vertex asks all of them */
     int         count;
-    /* share: of the radiance from towards[i], per steradian, what comes to the eye by way of
+    /* share: of the radiance from towards[i], per steradian, what comes to the eye via
      * vertex `bounce` (0: the first surface that scatters), per lane; of a luxmeter to
      * tristimulus values in lx. pdf: with which ways find that direction from there, too,
      * sr^-1; 0: none does. */

@@ -35,11 +35,12 @@ typedef struct PathHistory {
                                        towards it */
     bool     is_distant;
     bool     is_extrapolated;       /* the first step sent it on as its panel extrapolates it
-                                       (bsdf_is_extrapolated); only where that is wanted */
+                                       (bsdf_is_extrapolated); only where that is requested */
     float    sr;                    /* of the field of view, that a light sample stands for; 0:
                                        the path met the light itself, or it has no extent */
     const float       *lanes;       /* its radiance, W m^-2 sr^-1 nm^-1 per lane; of a display
-                                       that is seen by its measured XYZ NULL, unless wanted */
+                                       that is seen by its measured XYZ NULL, unless
+                                       requested */
     const Wavelengths *wavelengths; /* of the lanes */
 } PathHistory;
 
@@ -64,11 +65,11 @@ typedef enum PathReach {
 typedef struct PathListener {
     void (*on_light)(void *user, const PathHistory *history, const float xyz[3]);
     /* A mirror, the last step, turned it towards there (unit); the eye sees this share of what
-     * comes from there, in its brightest lane. NULL: nobody wants to know. */
+     * comes from there, in its brightest lane. NULL: not requested. */
     void (*on_mirror)(void *user, const PathHistory *history, Vec3 towards, float share);
     void  *user;
-    bool   with_lanes;  /* displays' lanes are wanted, too */
-    bool   with_extrapolated; /* is_extrapolated is wanted, too */
+    bool   with_lanes;  /* displays' lanes are requested, too */
+    bool   with_extrapolated; /* is_extrapolated is requested, too */
     bool   of_emitters; /* it gets these alone */
     PathReach reach;
 } PathListener;

@@ -31,7 +31,7 @@ typedef struct PlotSource {
     bool               wants_maps;    /* samples emission over the hemisphere */
     bool               wants_reflectance; /* into every angle, though no ambient is given */
     int                threads;
-    PlotContours       contours;      /* lines that the user wants in place of ours */
+    PlotContours       contours;      /* lines that the user requests in place of ours */
     PlotAmbient        ambient;       /* light in which contrast is asked besides the dark */
 } PlotSource;
 

@@ -9,7 +9,7 @@
 
 #define SEED 0x66616c73u
 #define BLOCK 10       /* rays along each side of a block: BLOCK_DEG by FALSE_SUN_STEP_DEG */
-#define ENOUGH 5       /* images a ray, on the average, that are wanted of a block */
+#define ENOUGH 5       /* images a ray, on the average, that are required of a block */
 #define RAYS_MOST 32   /* rays a direction */
 
 /* ---- rays -------------------------------------------------------------------------------- */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* false_suns.h -- where the sun has to stand for a smooth surface to throw it into an eye.
  *
- * Rays from the eye, close together, are followed by way of mirrors, glass and the fronts of
+ * Rays from the eye, close together, are followed via mirrors, glass and the fronts of
  * displays until they leave the scene. Where they leave to is where the sun stands when the eye
  * sees its image there: the whole answer for any sun, without a path for each. Light keeps its
  * radiance, so that an image gives the eye the sun's illuminance by the share of the sun's disc

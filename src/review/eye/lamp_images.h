@@ -8,7 +8,7 @@
  * thousandth of a degree is found. Rays go by sure mirrors (PATH_BY_SURE_MIRRORS); where a
  * laminated pane shows one of two images by chance, each is the mean of many.
  *
- * Told         lamps by way of opaque mirrors; the first may be a thin pane. What comes by
+ * Told         lamps via opaque mirrors; the first may be a thin pane. What comes by
  *              solids of glass, or by a pane that stands behind a mirror, is not.
  * Approximate  a mirror narrower than a cell of the first picture may be missed.
  * Units        cd m^-2, sr, metres, scene.

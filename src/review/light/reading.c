@@ -243,7 +243,7 @@ static Reading take_planned(const ProbeAim *aim, const ReadingGoal *goal,
     return reading;
 }
 
-/* parts: NULL: nobody wants them. */
+/* parts: NULL: not requested. */
 static Reading take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
                     ReadingParts *parts, Arena scratch)
 {

@@ -395,7 +395,7 @@ static double fit_of(const NearCell *near, int count, const double *values)
     return fit_value(&fit);
 }
 
-/* Each group's part of white light by way of further vertices. */
+/* Each group's part of white light via further vertices. */
 static const float *rest_groups(const Response *response, int cell)
 {
     return response->groups + ((size_t)cell * 2 + 1) * RESPONSE_GROUPS;
@@ -415,7 +415,7 @@ static double white_fit(const Response *response, const NearCell *near, int coun
     return fit_of(near, count, values);
 }
 
-/* The groups' parts of a reading by way of each triangle: a wave asks that with the paths of
+/* The groups' parts of a reading via each triangle: a wave asks that with the paths of
  * one chunk. */
 static void add_samples(const Response *response, const NearCell *near, int count,
                         double reading, BrightSamples *to)

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* response.h -- what a probe would read for light from any direction outside.
  *
- * The light that an eye sees by way of a surface is linear in what shines from outside. Paths
+ * The light that an eye sees via a surface is linear in what shines from outside. Paths
  * from the eye ask every triangle of a sphere (probe.h) once; a sky is then a sum over
  * triangles, a sun what its direction gets, and no path is traced again. The first vertex's
  * own answer to a sun is exact for any direction (response_suns.h); what comes by further
  * vertices is a mean over the triangle and those about it, as wide as the triangles are.
  *
- * Approximate  glints by way of a further mirror are spread over that width.
+ * Approximate  glints via a further mirror are spread over that width.
  * Spectrum     16 bands, those of the lanes of a path. Light is given by the luminance of each
  *              of its bands (light_bands.h), so that bands add up to it; a response is the
  *              share of that, a mean over the band.

@@ -321,7 +321,7 @@ typedef struct ReviewRequest {
     int              condition_count;
     ReviewWeather   *weathers;
     int              weather_count;
-    double           precision_contrast; /* relative standard error wanted */
+    double           precision_contrast; /* relative standard error required */
     double           precision_clear;    /* enough where the verdict is clear; at least that */
     long             decide_times; /* reads on where too close to call, until a case has had
                                       so many times precision_paths; 0: does not */

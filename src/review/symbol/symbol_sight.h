@@ -22,7 +22,7 @@ typedef struct SymbolVisibility {
                              equal energy by V(lambda); NaN where nothing is visible */
 } SymbolVisibility;
 
-/* is_visible: [surface->point_count], filled; NULL: not wanted. */
+/* is_visible: [surface->point_count], filled; NULL: not requested. */
 SymbolVisibility symbol_visibility(const SymbolSurface *surface, const PathContext *context,
                                    Vec3 eye, bool *is_visible);
 

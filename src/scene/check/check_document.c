@@ -281,7 +281,7 @@ static void check_members(const DocumentCheck *check, const GltfValue *environme
     }
 }
 
-/* ISO 8601 with minutes, and seconds if wanted, and the offset from UTC. */
+/* ISO 8601 with minutes, and optional seconds, and the offset from UTC. */
 static bool is_moment(const char *text)
 {
     int year, month, day, hour, minute, second = 0, used = 0, more = 0, off_hour, off_minute,
