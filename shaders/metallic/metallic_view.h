@@ -3,8 +3,8 @@
  * point as one eye sees it.
  *
  * What each member means to the picture: the user page on top of metallic_roughness.c. The
- * view is what eval, sample and lobes need of wo alone. One vertex of a path asks them several
- * times: bsdf_look (bsdf.h) keeps it for all of them.
+ * view is what eval, sample and lobes need of wo alone. One vertex of a path evaluates them
+ * several times: bsdf_look (bsdf.h) keeps it for all of them.
  */
 #pragma once
 #include "base/vec.h"

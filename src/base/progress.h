@@ -3,7 +3,7 @@
  *
  * On a terminal a bar with percent, rate, elapsed and remaining time; in a pipe, a file or a
  * terminal that cannot write a line anew (TERM dumb or missing) a plain line now and then,
- * also where a bar is asked for; or one JSON object a line; or nothing. Always on stderr:
+ * also where a bar is requested; or one JSON object a line; or nothing. Always on stderr:
  * results own stdout. Colour only on such a terminal and without NO_COLOR; no other escape
  * codes anywhere.
  *

@@ -5,7 +5,7 @@
  * other one still, so that noise does not choose itself.
  *
  * Memory   of the guide's variance: the arena.
- * Threads  as many as asked; the same bits for any number.
+ * Threads  as many as requested; the same bits for any number.
  */
 #pragma once
 #include "denoise/patch_weights.h"

@@ -14,7 +14,7 @@
 typedef struct EstimatePlan {
     long  pilot;       /* its paths, at first */
     long  least, most; /* that are told: least, doubled as often as it takes, up to most */
-    int   reach;       /* the pilot grows until it asks for no more than so many times its own:
+    int   reach;       /* the pilot grows until it requires no more than so many times its own:
                           the number that a shorter one finds is too uncertain, a longer one
                           costs more than it saves */
     void *user;

@@ -63,7 +63,7 @@ typedef struct LightGuide {
     GuideNode *nodes; /* the first is the root */
     GuideCell *cells;
     uint32_t   node_count, cell_count;
-    bool       asks; /* the cells know how often to ask the lights */
+    bool       asks; /* the cells know how often to sample the lights */
     Spectrum   bin[3][GUIDE_SIDE]; /* x, y, z of every bin's middle, a unit vector */
 } LightGuide;
 

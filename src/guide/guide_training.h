@@ -18,7 +18,7 @@ typedef struct GuidePlace {
 
 #define GUIDE_POINTS 4 /* of a cell in a round */
 
-/* Points of one cell that a round asks from, and what was found. */
+/* Points of one cell that a round traces from, and what was found. */
 typedef struct GuideLesson {
     GuidePlace points[GUIDE_POINTS];
     int        point_count;

@@ -49,7 +49,7 @@ typedef struct Geodesic {
 
 /* Where a direction lies: the triangle and the coordinates in its corners. */
 typedef struct GeodesicPoint {
-    uint32_t id;       /* triangle of the level asked for, all octants */
+    uint32_t id;       /* triangle of the level requested, all octants */
     float    weight[3]; /* barycentric in the plane of the three unit corners; sum to 1 */
 } GeodesicPoint;
 

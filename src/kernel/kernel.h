@@ -63,7 +63,7 @@ typedef struct Kernel {
     void (*find_places)(const LessonJob *job, FilmRect rect, PathStatistics *statistics);
     /* Measures the light that arrives in a cell from every direction. */
     void (*learn)(const LessonJob *job, uint32_t cell, PathStatistics *statistics);
-    /* Takes light samples in a cell: they decide how often it asks each set of lights. */
+    /* Takes light samples in a cell: they decide how often it samples each set of lights. */
     void (*try_lights)(const LessonJob *job, uint32_t cell, PathStatistics *statistics);
     /* The functions of probe.h. */
     void (*look)(const ProbeAim *aim, int first, int end, ProbeLook *out,

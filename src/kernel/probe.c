@@ -187,7 +187,7 @@ void probe_trace(const ProbeAim *asked, int first, int end, const PathListener *
 
 /* ---- by light from anywhere -------------------------------------------------------------- */
 
-/* Traces a dark path (PathManner), which asks for light by the collector. */
+/* Traces a dark path (PathManner), which gets light by the collector. */
 static void ask(const ProbeAim *aim, int path, PathCollector *collector,
                 PathStatistics *statistics)
 {
@@ -241,13 +241,13 @@ static float *cell_sums(const CellSums *to, int order, int cell)
     return to->sums + at * SPECTRUM_LANES;
 }
 
-/* One over the density with which calls ask a direction, sr. */
+/* One over the density with which calls sample a direction, sr. */
 static float sr_of_cell(const ProbeCells *cells, int cell)
 {
     return cells->samplers[cell % (cells->count / 2)].area * cells->every[cell];
 }
 
-/* The balance heuristic (Veach 1997, 9.2.2) of asking and of ways. */
+/* The balance heuristic (Veach 1997, 9.2.2) of light samples and of ways. */
 static void add_cell(void *user, int i, int bounce, const float *share, float pdf)
 {
     const CellSums *to = user;

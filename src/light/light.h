@@ -92,7 +92,7 @@ bool lights_sample_known(const Lights *lights, const PunctualKnown *known, LitPo
  * 0. */
 void lights_sky_towards(const Lights *lights, Vec3 direction, Vec3 ns, LightSample *sample);
 
-/* Radiance of a sample, to be asked once it is known to arrive: most are in shadow. */
+/* Radiance of a sample, to be evaluated once it is known to arrive: most are in shadow. */
 Spectrum lights_radiance(const Lights *lights, const LightSample *sample,
                          const Wavelengths *wavelengths);
 

@@ -51,5 +51,5 @@ FrameImage display_part_frame(const FrameImage *frame, const DisplayLayers *laye
 typedef enum RimCount {
     RIM_BY_COVERAGE, /* by their part */
     RIM_LEFT_OUT,    /* pixels that show nothing else count alone */
-    RIM_WHOLE        /* with what is around; and wherever no display was asked for */
+    RIM_WHOLE        /* with what is around; and wherever no display was requested */
 } RimCount;

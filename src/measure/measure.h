@@ -24,7 +24,7 @@
  *          count whole, and have the light of what is around.
  * Pixels   outside a fisheye's circle are none.
  * Threads  pure functions.
- * Fails    when the frame lacks what is asked for: the text names what to render again.
+ * Fails    when the frame lacks what is requested: the text names what to render again.
  */
 #pragma once
 #include "image/content_contrast.h"
@@ -62,7 +62,7 @@ typedef struct FrameMeasurement {
     bool     has_errors; /* what the display shows is in the frame: */
     double   shown;      /* cd m^-2 */
     Measured luminance_error, colour_error; /* of what is seen against what is shown */
-    bool     has_content; /* a region or a display was asked for */
+    bool     has_content; /* a region or a display was requested */
     ContentContrast content; /* of what is shown there: characters on their ground */
 } FrameMeasurement;
 

@@ -130,7 +130,7 @@ static bool is_plain(const Scene *scene, const Surface *mirror, Vec3 wo)
     return is_outside && vec3_dot(apart, apart) < UNBENT2;
 }
 
-/* Did the pair's part ask for the sun that a ray in air, which came along -wo, finds behind
+/* Did the pair's part sample the sun that a ray in air, which came along -wo, finds behind
  * this mirror? The pair's triangle is the mirror's. */
 static bool mirror_is_known(const Scene *scene, const Mirrors *mirrors, MirrorPair pair,
                             const Surface *mirror, Vec3 wo)
@@ -178,7 +178,7 @@ static bool mirror_at(const SunMirrorQuestion *question, const Hit *mirror, floa
     return !spectrum_is_zero(out->radiance);
 }
 
-/* The rest of f = bsdf_eval at a rough mirror that was asked: left to sun samples and
+/* The rest of f = bsdf_eval at a rough mirror that was sampled: left to sun samples and
  * chance. */
 static Spectrum mirror_left(const Bsdf *mirror, Vec3 local_wo, Vec3 local_wi, Spectrum f)
 {
@@ -203,7 +203,7 @@ static bool asks_mirrors(const PathContext *context)
            lights_has(context->lights, LIGHTS_SUN);
 }
 
-/* Did the vertex before ask for the sun in this mirror, smooth or rough? */
+/* Did the vertex before sample the sun in this mirror, smooth or rough? */
 static bool mirror_was_asked(const PathState *path, const Surface *surface, Vec3 wo,
                              bool is_rough)
 {
@@ -330,7 +330,7 @@ static void add_light_sample(PathState *path, const Surface *surface, Vec3 wo,
 
 /* ---- the sun via one mirror -------------------------------------------------------------- */
 
-/* A lit surface that asks its mirrors one by one. */
+/* A lit surface that samples its mirrors one by one. */
 typedef struct MirrorWalk {
     PathState        *path;
     const Surface    *surface;
@@ -402,7 +402,7 @@ static void ask_mirrors(PathState *path, const Surface *surface, Vec3 wo, const 
     mirrors_find(context->beams.mirrors, &query, add_mirrored_sun, &asked);
 }
 
-/* The mirror is one more vertex: none is asked where the path would end before it. */
+/* The mirror is one more vertex: none is sampled where the path would end before it. */
 static void add_mirrored_suns(PathState *path, const Surface *surface, Vec3 wo)
 {
     const PathContext *context = path->context;

@@ -85,7 +85,7 @@ typedef struct PathVertex {
     bool     is_delta;  /* no light sample could have found what comes now */
     bool     samples_map; /* where it could (sunlit.h) */
     SunlitPair before;  /* it and the vertex before it */
-    Spectrum sun_share; /* of the sun, if met next; the vertex before asked for the rest */
+    Spectrum sun_share; /* of the sun, if met next; the vertex before sampled the rest */
 } PathVertex;
 
 /* The first surface that an eye sees: windows passed and holes do not count. */
@@ -102,7 +102,7 @@ typedef struct PathFirst {
 
 /* Departures of a path from the plain one that gathers light. */
 typedef struct PathManner {
-    bool is_dark;   /* emission does not count: the path asks for distant light */
+    bool is_dark;   /* emission does not count: the path samples distant light */
     bool is_spared; /* no roulette ends it */
     bool has_sheets; /* thin sheets' own light is followed in every sample, not in some */
 } PathManner;

@@ -188,7 +188,7 @@ typedef struct Site {
     const Wavelengths   *wavelengths;
     Spectrum             base_color;
     float                transmission, metallic, alpha; /* alpha: GGX */
-    bool                 passes_only; /* nothing but what goes straight through is asked for */
+    bool                 passes_only; /* nothing but what goes straight through is required */
 } Site;
 
 static void read_site(Site *site, const TrianglePoint *point, const float texel[4])

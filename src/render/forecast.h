@@ -3,7 +3,7 @@
  *
  * The error of equal samples falls with the square root of their count. What is measured of it
  * early is too small, though: the rare bright samples that make most of the noise have not been
- * seen yet. So the samples that an error seems to ask for grow while a frame is rendered: on
+ * seen yet. So the samples that an error seems to require grow while a frame is rendered: on
  * the shipped scenes by 35 % from 4 to 8 samples a pixel, 20 % from 8 to 16, 12 % from 32 to
  * 64, 9 % from 64 to 128, each doubling by some 0.6 of the one before. A Forecast watches that
  * growth and goes on with it.

@@ -10,7 +10,7 @@
  * Memory   film and lights come from the arena; Embree's memory is gone on return.
  * Threads  starts `threads` of its own for every pass.
  * Signals  from the first pass to the end of the process INT and TERM stop after the pass in
- *          hand, and USR1 asks for a snapshot (signals.h).
+ *          hand, and USR1 requests a snapshot (signals.h).
  */
 #pragma once
 #include "base/progress.h"

@@ -14,7 +14,7 @@
 typedef struct TrainOptions {
     const Kernel *kernel;
     int           threads;
-    bool          stops_at_once; /* where it is asked to stop (signals.h): the guide is NULL */
+    bool          stops_at_once; /* where a stop is requested (signals.h): the guide is NULL */
 } TrainOptions;
 
 /* The facts of this light that a guide from a file must match. */

@@ -14,9 +14,9 @@
 #include "base/confidence.h"
 #include "base/vec.h"
 
-/* The four outcomes. Pass: the whole 95 % interval of each figure that is asked for keeps its
+/* The four outcomes. Pass: the whole 95 % interval of each figure that is required keeps its
  * limit; fail: that of one breaks it; too close: a limit lies within; unjudged: something that
- * is asked for is not known, and Unjudged says why. */
+ * is required is not known, and Unjudged says why. */
 typedef enum Verdict {
     VERDICT_PASS, VERDICT_FAIL, VERDICT_TOO_CLOSE, VERDICT_UNJUDGED
 } Verdict;
@@ -79,7 +79,7 @@ typedef struct LimitVerdict {
     double      value;        /* the limit */
     bool        read_in_the_standard;
     bool        is_upper;     /* the most, not the least */
-    bool        is_advice;    /* preferred, not asked: shown, and not counted */
+    bool        is_advice;    /* preferred, not required: shown, and not counted */
     double      found;        /* NaN: nothing to hold against it */
     double      low, high;    /* 95 % interval of `found`; equal where it is exact */
     double      margin;       /* above; NaN where `found` is */
@@ -268,7 +268,7 @@ typedef struct ReviewCase {
     double  display_lux;         /* illuminance of the display's face */
     const LimitVerdict *limits;  /* all that apply */
     int     limit_count;
-    int     limit_id;            /* the contrast limit that was asked most of; -1: none */
+    int     limit_id;            /* the contrast limit that required the most; -1: none */
     double  margin;              /* of that limit; NaN: there is none */
     Verdict verdict;             /* the worst of its limits' that count */
     Unjudged unjudged;           /* why it cannot be judged */
@@ -303,8 +303,8 @@ bool case_is_undecidable(const ReviewCase *c);
 /* A case of which no figure is known: all are NaN, and nothing is seen. */
 ReviewCase review_case_unknown(void);
 
-/* Does it count? Not where a symbol that need not be seen is hidden, nor where nothing is asked
- * of it. */
+/* Does it count? Not where a symbol that need not be seen is hidden, nor where nothing is
+ * required of it. */
 bool review_case_counts(const ReviewCase *c);
 
 /* The veil in the eye, by where its light begins: the parts add up to it. */
@@ -505,7 +505,7 @@ struct Review {
     int             rests_on_count;
     ReviewFile     *inputs;       /* every file that was read, once each */
     int             input_count;
-    bool            pass;         /* nothing fails, and all that is asked could be judged;
+    bool            pass;         /* nothing fails, and all that is required could be judged;
                                      strict: nor is anything too close, or of a material
                                      without data */
     bool            is_strict;

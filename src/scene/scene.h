@@ -152,7 +152,7 @@ typedef struct Material {
     const OpticalConstants *conductor; /* of the metal share; NULL: by its base colour */
     const Curve *index;        /* of a solid, in place of ior; NULL: ior at all wavelengths */
     bool  is_emitter;          /* some of its surface may emit */
-    bool  lets_light_through;  /* alpha below 1 or a thin window: shadow rays must ask */
+    bool  lets_light_through;  /* alpha below 1 or a thin window: shadow rays must test it */
 } Material;
 
 /* A rough surface in place of a display's clear one, modelled (shaders/display.c). */
@@ -226,7 +226,7 @@ typedef struct EnvironmentWeather {
     const char  *file;
     int          line, month, day;
     double       label_h;   /* end of the row's hour, hours after midnight */
-    double       apart_min; /* from the moment asked for to the row's instant */
+    double       apart_min; /* from the moment requested to the row's instant */
     double       file_lux[2]; /* the file's own direct and diffuse columns; negative: missing */
     WeatherClock clock;
 } EnvironmentWeather;
@@ -267,7 +267,7 @@ typedef struct Scene {
     Vec3     *positions; /* m; of all vertices. Shared with the ray tracer, which reads
                             past the last: there is room for one more */
     uint32_t  vertex_count;
-    Triangle *triangles; /* opaque ones first: [0, opaque_count) need no asking */
+    Triangle *triangles; /* opaque ones first: [0, opaque_count) need no test */
     uint32_t  triangle_count, opaque_count;
     Part     *parts;
     int       part_count;

@@ -177,7 +177,7 @@ static inline const char *read_text(const char *path, Arena *arena)
 
 /* ---- errors ------------------------------------------------------------------------------ */
 
-/* Where a call says why it failed, for what asks later: f(..., why()). */
+/* Where a call says why it failed, for what checks it later: f(..., why()). */
 static inline Error *why(void)
 {
     static Error err;

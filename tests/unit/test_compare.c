@@ -408,7 +408,7 @@ ARENA_TEST(regions_select_and_displays_are_known)
     assert_int_equal(selection.pixels, 7);
 }
 
-/* Sizes alone decide it: nothing of the pixels is asked. */
+/* Sizes alone decide it: nothing of the pixels is read. */
 TEST(frames_that_cannot_fit_are_refused_by_a_line)
 {
     Error          err = {0};

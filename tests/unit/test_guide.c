@@ -12,7 +12,7 @@
 
 enum { CELLS = 3, BOUNCES = 64 };
 
-/* A guide that has learnt nonsense: three cells, most bins dark, lights asked at odds. */
+/* A guide that has learnt nonsense: three cells, most bins dark, lights sampled at odds. */
 static LightGuide *odd_guide(Arena *arena)
 {
     LightGuide *guide = ARENA_NEW(arena, LightGuide, 1);
@@ -284,7 +284,7 @@ ARENA_TEST(cells_part_the_places_among_them)
     assert_int_equal(training->first_place[guide->cell_count], PLACES);
 }
 
-/* However small the cells that are asked for. None has far more than its share, but where all
+/* However small the cells that are requested. None has far more than its share, but where all
  * places coincide. */
 ARENA_TEST(cells_are_no_more_than_a_guide_holds)
 {

@@ -2,7 +2,7 @@
 /* Narrow beams of an emission, which no tree of triangles resolves: every sample, directions
  * between them, the light over the hemisphere, and what a damaged beam is refused for.
  *
- * PARHELION_BEAMS in the environment: all of them; tests/long.sh asks for that. */
+ * PARHELION_BEAMS in the environment: all of them; tests/long.sh does that. */
 #include "panel_fixture.h"
 
 #include "panel/shape/panel_beam.h"

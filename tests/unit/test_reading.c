@@ -122,7 +122,7 @@ TEST(an_askers_scratch_is_not_the_readings)
     other.is_decided = is_clear_with_scratch;
     goal.question = &other;
     Reading b = read_ball(&world, 8, &goal);
-    assert_true(a.paths > READING_ASKED_LEAST); /* asked more than once */
+    assert_true(a.paths > READING_ASKED_LEAST); /* sampled more than once */
     assert_same(a, b);
 }
 

@@ -208,7 +208,7 @@ TEST(json_is_read_back)
     }
 }
 
-/* Reached or not: what paths did not do stands beside what was asked. */
+/* Reached or not: what paths did not do stands beside what was requested. */
 TEST(a_precision_that_was_not_reached_is_named)
 {
     ReviewCase c = {.precision_asked = 0.01, .precision_reached = 0.0234};

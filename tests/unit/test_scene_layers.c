@@ -185,7 +185,7 @@ TEST_WITH(solids_of_glass_are_filmed_and_brushed_without_a_word, maker_reset, NU
     assert_int_equal(found.problems.count, 0);
 }
 
-/* Beside a clear solid: what is asked for, where it stands, and what is said of it. */
+/* Beside a clear solid: what is requested, where it stands, and what is said of it. */
 static const struct {
     const char *core, *extension, *members, *place, *text;
 } NOT_ON_SOLIDS[] = {

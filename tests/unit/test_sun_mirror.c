@@ -60,7 +60,7 @@ static World ring_world(double sun_radius_degrees)
     return world;
 }
 
-/* Windows, lacquer, metal: what is asked for and what is left to chance add up to what chance
+/* Windows, lacquer, metal: what is sampled and what is left to chance add up to what chance
  * alone finds. The sun is made large, so that chance finds it. */
 TEST(asking_mirrors_leaves_the_mean_as_it_is)
 {

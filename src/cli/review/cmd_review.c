@@ -303,7 +303,7 @@ static Outcome make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *r
         return outcome;
     }
     work_end(run->work);
-    if (words->watch) review_folder_close(folder); /* answers are asked for again */
+    if (words->watch) review_folder_close(folder); /* answers are looked up again */
     else review_folder_finish(folder);
     if (!review_print(&words->cli, &found.review, *arena, err)) return OUTCOME_FAILED;
     return found.review.pass ? OUTCOME_DONE : OUTCOME_NO;

@@ -3,7 +3,7 @@
  * job's folder (job/job_share.h), what was planned, what a part does, what the whole takes.
  *
  * Memory   the command's arena.
- * Fails    as job_share, and as the review does; when the user asks to stop, after a line on
+ * Fails    as job_share, and as the review does; when the user stops it, after a line on
  *          how to go on.
  */
 #pragma once

@@ -50,7 +50,7 @@ JudgeGrade judge_reason_grade(double value, double care, double unusable);
 #define JUDGE_INTEGRAL_CARE 0.05
 #define JUDGE_INTEGRAL_UNUSABLE 0.25
 
-/* Directional-hemispherical reflectance that the tables ask for. Nothing gives back more light
+/* Directional-hemispherical reflectance that the tables state. Nothing gives back more light
  * than it got: 1 % is what sums over tables err by; a quarter too much is no noise but another
  * unit (BRDF times pi, a reflectance factor, per cent). */
 #define JUDGE_ALBEDO_CARE 1.01

@@ -52,11 +52,12 @@ static inline int path_steps_kept(const PathHistory *history)
 /* How far a listener's paths go. Through clear solids they always go on. */
 typedef enum PathReach {
     PATH_TO_ITS_END,
-    PATH_TO_SUNLIT_SURFACE, /* until a surface scatters or mirrors, which asks the sun alone */
+    PATH_TO_SUNLIT_SURFACE, /* until a surface scatters or mirrors, which samples the sun
+                               alone */
     PATH_TO_SURFACE,        /* or nobody */
     PATH_BY_MIRRORS,        /* from mirror to mirror and through panes, of which thin ones show
-                               both ways always, until a surface scatters; that asks nobody: all
-                               light that comes without being scattered, for little time */
+                               both ways always, until a surface scatters; that samples none:
+                               all light that comes without being scattered, for little time */
     PATH_BY_SURE_MIRRORS    /* the same, but what is opaque and mirrors always does, by as much
                                as it mirrors: what a ray finds is no matter of chance. A coat
                                whose normals are others than its base's is left out */

@@ -29,7 +29,7 @@
 typedef struct ChainLink {
     int part_id; /* the first of those that count as one */
     int event;   /* PathEvent */
-    int pane_id; /* the last pane before it; NO_ID: none; at the first link only if asked */
+    int pane_id; /* the last pane before it; NO_ID: none; at the first link only if requested */
 } ChainLink;
 
 /* Plain numbers, zero behind count: keys are compared as bytes. */
@@ -92,7 +92,7 @@ typedef struct Chains {
     double     *by_part; /* cd m^-2 that came by each part of the scene, surface or pane, behind
                             what is seen first; of parts that count as one at their first */
     ChainGroups groups;
-    PlaceSums   places; /* of an ask that has some */
+    PlaceSums   places; /* of a request that has some */
     const int  *alike;  /* [part] the first of those that count as one */
     long        paths;
 } Chains;

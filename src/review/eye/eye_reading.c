@@ -58,7 +58,7 @@ static Vec3 local_direction(double theta, double phi)
                 (float)cos(theta));
 }
 
-/* u, shifted round the unit circle as the round asks for that axis. */
+/* u, shifted round the unit circle as the round requires for that axis. */
 static double shifted(double u, int round, uint32_t axis)
 {
     double by = hash_combine(hash_u32(SHIFT_SEED + axis), (uint32_t)round) * 0x1p-32;

@@ -29,6 +29,6 @@ void   inherited_keep_guide(Inherited *inherited, int condition_id, const LightG
 const LightGuide *inherited_guide(const Inherited *inherited, const ReviewRequest *variant,
                                   int condition_id, const GuideScene *scene);
 
-/* daylight_build of a clear sky whose sun has no time, once for all who ask for it. Lasts until
- * the next is asked for. NULL: that failed. */
+/* daylight_build of a clear sky whose sun has no time, once for all who need it. Lasts until
+ * the next is requested. NULL: that failed. */
 const Daylight *inherited_sky(Inherited *inherited, const DaylightInput *input, Error *err);

@@ -94,7 +94,8 @@ static void add_inputs(const ReviewRequest *request, bool with_request, Text *te
 }
 
 /* The identity has the setup's scene; keys other files, too; plans the request as well. What is
- * asked stands in each key, so that a changed word of the request keeps the other answers. */
+ * requested stands in each key, so that a changed word of the request keeps the other
+ * answers. */
 static void identify(Setup *setup, const SceneOptions *options, Arena *arena)
 {
     Text own = {.arena = arena}, files = {.arena = arena}, all = {.arena = arena};

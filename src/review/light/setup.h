@@ -39,7 +39,7 @@ typedef struct Setup {
     const char  *lessons;      /* SetupOptions' */
     Inherited   *inherited;
     JournalKey   planned;      /* program, files and request */
-    bool         is_shared;    /* its readings will be asked for under other levels, too */
+    bool         is_shared;    /* its readings will be requested under other levels, too */
     SetupOther  *other;        /* levels for readings; NULL: as it is lit */
 } Setup;
 
@@ -126,8 +126,8 @@ Reading setup_ask(const Setup *setup, const ProbeAim *aim, const ReadingGoal *go
 Reading setup_field(const Setup *setup, const ProbeAim *aim, long paths, double known,
                     TargetLight *targets, Arena scratch);
 
-/* Lights a setup beside another for its own levels, for who asks for more than readings; until
- * setup_unlight no other may be asked. */
+/* Lights a setup beside another for its own levels, for who needs more than readings; until
+ * setup_unlight no other may be requested. */
 Setup setup_lit(const Setup *setup);
 void  setup_unlight(const Setup *setup);
 

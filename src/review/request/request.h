@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* request.h -- what a review is asked: REVIEW.json as plain arrays.
+/* request.h -- what a review has to do: REVIEW.json as plain arrays.
  *
  * request_read.h reads it, request_check.h holds it against the scene.
  *

@@ -16,7 +16,7 @@
 #include "review/run/cases.h"
 #include "review/run/job.h"
 
-/* Can the condition be swept? To be asked before long work; the error names its place. */
+/* Can the condition be swept? To be checked before long work; the error names its place. */
 bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, Error *err);
 
 /* The clear sky of the setup's sweep under one of its suns; that of its weather file, where the

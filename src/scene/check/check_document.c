@@ -72,7 +72,7 @@ static void check_pointer(const DocumentCheck *check, const GltfValue *pointer)
     }
 }
 
-/* Only the first of two variants with one name can be asked for. */
+/* Only the first of two variants with one name can be selected. */
 void check_variant_names(const DocumentCheck *check, const GltfValue *extension)
 {
     const GltfValue *variants = tree_member(extension, "variants");

@@ -138,7 +138,7 @@ static void loosen(ReflectionModel *model)
 }
 
 /* The coder's steps are as fine as the tightest places need, and may then be too fine for the
- * largest details: it is asked for less until it can do what it is asked for. */
+ * largest details: less is required of it until it reaches what is required. */
 static bool build_tree(ReflectionModel *model, Error *err)
 {
     bool ok = false;
