@@ -55,7 +55,7 @@ void progress_clear(const Progress *progress);
 double monotonic_seconds(void);
 
 /* Seconds that the calling thread has been ready to run while others ran; 0 where the system
- * does not tell. */
+ * does not report. */
 double thread_waited_seconds(void);
 
 /* A rate with three digits, ready for its unit: "950 ", "12.3 k", "4.56 M". */

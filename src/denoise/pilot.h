@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* pilot.h -- a filtered frame as the guide of the next filter.
  *
- * Patches of filtered light tell likeness far better than noisy ones. Each half guides the
+ * Patches of filtered light show likeness far better than noisy ones. Each half guides the
  * other one still, so that noise does not choose itself.
  *
  * Memory   of the guide's variance: the arena.

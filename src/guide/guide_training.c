@@ -127,7 +127,7 @@ GuideTraining *guide_training_start(GuidePlace *places, uint32_t count, uint32_t
     return training;
 }
 
-/* ---- lessons ----------------------------------------------------------------------------- */
+/* ---- training passes --------------------------------------------------------------------- */
 
 void guide_training_ask(GuideTraining *training, int round)
 {
@@ -184,7 +184,8 @@ static double bin_light(const LightGuide *guide, const BinFinds *finds, int bin)
            ? finds->sum[bin] / finds->count[bin] * taxicab * taxicab * taxicab : 0;
 }
 
-/* A little is left everywhere: what the lesson did not find may be there all the same. */
+/* A little is left everywhere: what the training pass did not find may be there all the
+ * same. */
 static bool learn_aim(const GuideTraining *training, uint32_t cell, GuideAim aim,
                       GuideRow out[GUIDE_SIDE])
 {

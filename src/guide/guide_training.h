@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* guide_training.h -- a guide learns, cell by cell, from where light comes.
+/* guide_training.h -- trains a guide, cell by cell, on where light comes from.
  *
  * First the places where paths from the camera scatter make the tree, whose cells hold about as
  * many places each. Then, in rounds, light is looked for from some of the places of every cell
- * in all directions; what a round found guides the paths of the next. A cell's lesson is one
- * thread's, so that the threads decide nothing.
+ * in all directions; what a round found guides the paths of the next. A cell's training pass is
+ * one thread's, so that the threads decide nothing.
  *
  * Memory   from the arena.
  */
@@ -39,7 +39,7 @@ typedef struct GuideTraining {
 GuideTraining *guide_training_start(GuidePlace *places, uint32_t count, uint32_t most,
                                     Arena *arena);
 
-/* HOT. A ray of the cell's lesson into a bin found these luminances, cd m^-2. */
+/* HOT. A ray of the cell's training pass into a bin found these luminances, cd m^-2. */
 static inline void guide_lesson_add(const GuideLesson *lesson, int bin,
                                     const float cd_m2[GUIDE_AIMS])
 {
@@ -50,9 +50,10 @@ static inline void guide_lesson_add(const GuideLesson *lesson, int bin,
 /* Chooses points of every cell for the round. */
 void guide_training_ask(GuideTraining *training, int round);
 
-/* Makes a cell of the guide of what its lessons and its neighbours' found so far. Several
- * threads may do so at once. */
+/* Makes a cell of the guide of what its training passes and its neighbours' found so far.
+ * Several threads may do so at once. */
 void guide_training_learn(GuideTraining *training, uint32_t cell);
 
-/* Mean illuminance, lx, of the cell's points by what the lessons found, without the sky. */
+/* Mean illuminance, lx, of the cell's points by what the training passes found, without the
+ * sky. */
 double guide_training_illuminance(const GuideTraining *training, uint32_t cell);

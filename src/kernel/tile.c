@@ -247,7 +247,7 @@ static void tile_find_displays(const DisplaySearch *search, FilmRect part)
                           (size_t)(x - search->rect.x0)] = pixel_shows(search, &eye, x, y);
 }
 
-/* ---- lessons ----------------------------------------------------------------------------- */
+/* ---- training passes --------------------------------------------------------------------- */
 
 static void lesson_find_places(const LessonJob *job, FilmRect rect, PathStatistics *statistics)
 {
@@ -270,7 +270,7 @@ static void lesson_find_places(const LessonJob *job, FilmRect rect, PathStatisti
         }
 }
 
-/* Sends one ray from every point of the lesson into every bin above its horizon. */
+/* Sends one ray from every point of the training pass into every bin above its horizon. */
 static void lesson_learn(const LessonJob *job, uint32_t cell, PathStatistics *statistics)
 {
     const GuideLesson *lesson = &job->training->lessons[cell];

@@ -75,7 +75,7 @@ typedef struct LightSample {
     float    scale;    /* and lx per unit of its intensity, over its probability */
 } LightSample;
 
-/* The ray that tells whether a sample arrives at a place where a ray may start (ray_ends.h). It
+/* The ray that shows whether a sample arrives at a place where a ray may start (ray_ends.h). It
  * ends just before a triangle; before a lamp without a body, which may stand in a surface, by a
  * ten thousandth of its distance. */
 Ray lights_ray(Vec3 from, const LightSample *sample);

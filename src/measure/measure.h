@@ -15,12 +15,12 @@
  *          its contrast, too. A contrast falls as the reflected light rises: its interval goes
  *          from the one end of that light's to the other. The upper ends of that light and,
  *          from 16 pixels on, of the luminance have what few bright samples may have left out
- *          (confidence.h), as all estimates do (estimate/estimate.h); halves tell no skewness.
+ *          (confidence.h), as all estimates do (estimate/estimate.h); halves show no skewness.
  *          No interval of a display's luminance and colour is narrower than what channels in
  *          single precision leave, 1e-6 of the value.
  * Displays are measured by coverage (display_part.h): a pixel at the rim counts by its part,
  *          and with the display's own light, wherever the frame has the layers of it. Of frames
- *          that have not, rims are left out where display.coverage tells them; else pixels
+ *          that have not, rims are left out where display.coverage shows them; else pixels
  *          count whole, and have the light of what is around.
  * Pixels   outside a fisheye's circle are none.
  * Threads  pure functions.

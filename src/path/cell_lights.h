@@ -12,7 +12,7 @@
 #include "path/guiding.h"
 #include "sunlit/sunlit_way.h"
 
-#define LAMP_FINDS 16 /* lamps that a cell remembers while it learns */
+#define LAMP_FINDS 16 /* lamps that a cell remembers while it is trained */
 
 /* Sums over samples of one lamp, lx: of what it would give were nothing in the way, and of what
  * arrived. */

@@ -105,7 +105,7 @@ static LightFinds with_neighbours(const LightFinds *finds, int cell, int cells)
     return own;
 }
 
-/* Illuminance of a cell's points, lx, by what lessons and light samples found. */
+/* Illuminance of a cell's points, lx, by what training passes and light samples found. */
 static void find_light(void *context, int cell, int worker)
 {
     (void)worker;
@@ -117,8 +117,8 @@ static void find_light(void *context, int cell, int worker)
     lesson->light[cell] = total;
 }
 
-/* The median of the cell's and its neighbours': a lesson that met a small patch of sun by
- * chance makes one cell a hundred times too bright. */
+/* The median of the cell's and its neighbours': a training pass that met a small patch of sun
+ * by chance makes one cell a hundred times too bright. */
 static double usual_light(const Lesson *lesson, int cell)
 {
     double value[2 * NEIGHBOURS + 1];
@@ -155,7 +155,7 @@ static Lesson lesson_start(const Camera *camera, const TrainOptions *options, Ar
     return lesson;
 }
 
-/* Places of a cell, at most: a small frame is worth a short lesson. */
+/* Places of a cell, at most: a small frame is worth a short training pass. */
 static uint32_t places_a_cell(const Camera *camera, uint32_t places)
 {
     double pixels = (double)camera->width * (double)camera->height;

@@ -153,20 +153,20 @@ typedef struct CaseView {
     int    width, height;           /* pixels */
 } CaseView;
 
-/* What a designer could change, in the order in which it is told. */
+/* What a designer could change, in the order in which it is reported. */
 typedef enum RemedyKind {
     REMEDY_BRIGHTNESS, REMEDY_TILT, REMEDY_HOOD, REMEDY_COATING, REMEDY_PANEL, REMEDY_TRIM,
     REMEDY_KINDS
 } RemedyKind;
 extern const char *const remedy_kinds[REMEDY_KINDS + 1]; /* "brightness", "tilt", ... */
 
-/* A change that would mend the case, or help. */
+/* A change that would remedy the case, or help. */
 typedef struct CaseRemedy {
     RemedyKind  kind;
     const char *what;
     double      contrast_ratio; /* with it */
     double      level;          /* of the display with it; NaN: the figure has no meaning */
-    LimitVerdict then;          /* the limit that it is to mend, judged again with it */
+    LimitVerdict then;          /* the limit that it is to remedy, judged again with it */
     Verdict     verdict;        /* the case's with it */
 } CaseRemedy;
 
@@ -258,7 +258,7 @@ typedef struct ReviewCase {
     bool    is_optional;         /* the request says that this eye need not see it */
     double  level;               /* at which the display was set, 1: as measured */
     double  glasses_transmittance; /* luminous, of the observer's sunglasses; 1: none. All
-                                    luminances are told without that factor */
+                                    luminances are reported without that factor */
     const char *glasses;         /* the sunglasses in words; NULL: none */
     double  glasses_display_loss; /* the share of the symbol's own light that they take beyond
                                     what they take of any: by a polariser or their colour */

@@ -452,7 +452,7 @@ static About look_about(const SunlitWork *work, int i, int j)
     return about;
 }
 
-/* A few tries tell little of one pixel: half of its power is its neighbours' mean. One beside
+/* A few tries show little of one pixel: half of its power is its neighbours' mean. One beside
  * lit ones, none of whose rays were seen to come in, may have some that do: it is where its
  * neighbours are. */
 static SunlitPixel smoothed(const SunlitWork *work, int i, int j)

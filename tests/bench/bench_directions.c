@@ -23,7 +23,7 @@
 #include "panel/set/synthetic_panel.h"
 
 #define BANDS 46
-#define GRID_EVERY 4 /* directions that tell the grid's own error */
+#define GRID_EVERY 4 /* directions that show the grid's own error */
 
 /* One case: a colour, or an incidence. */
 typedef struct Case {

@@ -279,7 +279,7 @@ LAW(no_surface_sends_back_more_than_it_gets, energy_holds)
 LAW(albedo_is_a_fair_estimate, albedo_is_near)
 {
     bool tilted =
-        strstr(model->name, "tilted") != NULL; /* loses light, by how much is not told */
+        strstr(model->name, "tilted") != NULL; /* loses light, by how much is not known */
     if (model->bsdf.kind == BSDF_DIELECTRIC || tilted) return;
     Spectrum sent = furnace(model, wo, 4096), told = bsdf_albedo(&model->bsdf, wo);
     for (int k = 0; k < SPECTRUM_LANES; k += 5)

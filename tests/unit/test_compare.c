@@ -234,7 +234,7 @@ ARENA_TEST(gaps_of_surface_layers_must_coincide)
     }
 }
 
-/* Too few samples to tell the noise are no fault of the light. */
+/* Too few samples to show the noise are no fault of the light. */
 ARENA_TEST(noise_may_be_unknown)
 {
     static const char *const LAYERS[] = {"halves.R", "display.halves.R"};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A guide's samples follow its density, whatever it has learnt the light stays what it is, and
+/* A guide's samples follow its density, however it was trained the light stays what it is, and
  * its file is taken back as it was or not at all. */
 #include "fixture.h"
 
@@ -12,7 +12,7 @@
 
 enum { CELLS = 3, BOUNCES = 64 };
 
-/* A guide that has learnt nonsense: three cells, most bins dark, lights sampled at odds. */
+/* A guide that was trained on nonsense: three cells, most bins dark, lights sampled at odds. */
 static LightGuide *odd_guide(Arena *arena)
 {
     LightGuide *guide = ARENA_NEW(arena, LightGuide, 1);
@@ -177,7 +177,8 @@ TEST(a_furnace_shows_one_wherever_a_guide_leads)
     }
 }
 
-/* Mean luminance that rays from the middle of the world find, as a lesson or to their end. */
+/* Mean luminance that rays from the middle of the world find, as a training pass or to their
+ * end. */
 static double lesson_mean(const World *world, bool is_lesson)
 {
     enum { RAYS = 20000 };
@@ -201,7 +202,7 @@ static double lesson_mean(const World *world, bool is_lesson)
 }
 
 /* In a furnace the first dull wall shows what it emits and half of what the second emits; of
- * what comes to that one a lesson learns nothing. */
+ * what comes to that one a training ray finds nothing. */
 TEST(a_lesson_ends_at_the_second_dull_surface)
 {
     SCOPED_WORLD world = guided_furnace();
@@ -249,7 +250,7 @@ TEST(every_strategy_finds_the_same_light_with_a_guide_and_without)
     }
 }
 
-/* ---- learning ---------------------------------------------------------------------------- */
+/* ---- training ---------------------------------------------------------------------------- */
 
 enum { PLACES = 5000, MOST = 64 };
 

@@ -60,7 +60,7 @@ static double nearly_none(double theta)
     return cos(theta);
 }
 
-/* The last one ends in an edge between two rings, where ln E falls by 3: no grid tells its
+/* The last one ends in an edge between two rings, where ln E falls by 3: no grid shows its
  * place. The first two are what a short run fits. */
 static const Beam beams[] = {
     {30, 0, 900, gaussian, lambert, 1.6, 0.01},

@@ -73,9 +73,9 @@ TEST(paths_go_where_the_answer_is_not_clear)
                                            batches are known within half of themselves */
 }
 
-/* How many paths there are hangs on none of those that are told: these mean 95 %, and who goes
- * by them is wrong no more often than that. Limits near and far; a standard deviation of 400 is
- * 1.1 %. */
+/* How many paths there are hangs on none of those that are reported: these mean 95 %, and who
+ * goes by them is wrong no more often than that. Limits near and far; a standard deviation of
+ * 400 is 1.1 %. */
 TEST(intervals_of_what_a_question_ends_hold_as_often)
 {
     ENDS_BY(world_end) World world = closed_ball();

@@ -142,7 +142,7 @@ TEST_WITH(each_wrong_member_is_told, maker_reset, NULL)
     }
 }
 
-/* What is not shown beside something else is told once, by what hides it. */
+/* What is not shown beside something else is reported once, by what hides it. */
 static const struct {
     const char *extensions, *place, *text;
 } HIDDEN[] = {

@@ -30,7 +30,7 @@ typedef struct RenderRequest {
     CameraChoice  camera;
     EnvironmentChange environment;
     RenderOptions render;
-    uint64_t      field_hash; /* of what leads the paths, once it is learnt; 0: nothing does */
+    uint64_t      field_hash; /* of the guide, once it is trained; 0: none */
     NoiseGoal     noise;  /* goes into render once the scene is known, as does */
     FrameArea     favoured; /* what all samples are for; option NULL: the whole frame */
     bool          names_halves; /* --layers requests halves by name */

@@ -403,7 +403,7 @@ static Outcome review(const ReviewWords *words, Arena *arena, Error *err)
 
 /* ---- again and again --------------------------------------------------------------------- */
 
-/* A review that fails is reported, and its files are watched: the next save may mend it. */
+/* A review that fails is reported, and its files are watched: the next save may correct it. */
 static bool review_once(const ReviewWords *words, Error *err)
 {
     Arena once = arena_reserve(machine_memory_bytes());

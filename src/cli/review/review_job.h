@@ -25,7 +25,7 @@ typedef struct ReviewTask {
                                  be damaged, those of the whole may not */
     int          found_count;
     const char  *responses;   /* where the parts' are, unless the words name a folder; and what
-                                 they learnt */
+                                 they trained */
     const char  *resume_line; /* the command that goes on with it */
 } ReviewTask;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* lesson.h -- what a guide that is to learn asks of paths: where they scatter, and what arrives
+/* lesson.h -- what a guide's training takes from paths: where they scatter, and what arrives
  * there.
  *
  * Threads  one thread's, like the path.
@@ -25,7 +25,7 @@ LessonPlaces lesson_places(PathPlaces *out);
 
 /* Keeps the luminance, cd m^-2, of the sky that a path to a point (PathStart.from) sees
  * straight from there; 0: none. The path's own light is all other, and ends at the second
- * surface that scatters widely: a lesson, no measurement. */
+ * surface that scatters widely: a training pass, no measurement. */
 typedef struct LessonSky {
     PathCollector base;
     float        *sky_cd_m2;

@@ -81,7 +81,7 @@ FalseSunSight false_suns_at(const FalseSuns *suns, Vec3 towards);
 /* ---- searches that are kept -------------------------------------------------------------- */
 
 /* One serves all gazes, moments and sweeps in which the same eye sees the same scene: it takes
- * some 2 million rays; neither the sun nor any other light has a part in it. Where lessons are
+ * some 2 million rays; neither the sun nor any other light has a part in it. Where guides are
  * kept, in a review that machines share, the setup's journal keeps it, too. One thread at a
  * time. */
 typedef struct SunSearch SunSearch;

@@ -8,7 +8,7 @@
  * it, or there is no pane. Both add up to what a camera would see there, but for the sun's own
  * disc: that one is no background of anything.
  *
- * A pilot tells how many paths both figures take; fresh ones make them (estimate/estimate.h).
+ * A pilot shows how many paths both figures take; fresh ones make them (estimate/estimate.h).
  * Their upper ends have, besides, what the brightest lamp could send there that no path met,
  * straight or by mirrors and panes alone.
  *

@@ -53,7 +53,7 @@ static void train(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena)
     const char    *file = setup->lessons ? lesson_file(setup, eye, towards, arena) : NULL;
     if (file && read_lesson(setup, file, arena)) return;
     setup->context.guide = train_guide(&setup->context, &camera, &options, arena, &cost);
-    Error ignored; /* unkept, it is trained again: the same lesson, of the same seed */
+    Error ignored; /* unkept, it is trained again: the same guide, of the same seed */
     if (file && setup->context.guide) guide_write(file, setup->context.guide, *arena, &ignored);
 }
 

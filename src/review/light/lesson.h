@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* lesson.h -- what a setup's paths are taught of a condition's light before they are counted.
+/* lesson.h -- trains a guide for a setup's paths on a condition's light before any counts.
  *
  * Memory   the guide comes from the arena, or from the room that variants inherit it from
  *          (inherited.h).
@@ -12,6 +12,6 @@
  * there is none. */
 bool lesson_inherit(Setup *setup);
 
-/* A guide for an eye, m, that looks towards what is judged: from the setup's folder of lessons,
- * or a new one, which is kept there. One that is damaged is learnt again. */
+/* A guide for an eye, m, that looks towards what is judged: from the setup's folder of guides,
+ * or a new one, which is kept there. One that is damaged is trained again. */
 void lesson_take(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena);

@@ -88,7 +88,7 @@ Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const Reading
 bool reading_scaled(const ProbeAim *aim, const ReadingGoal *goal, const double *scale,
                     const ReadingTools *tools, Arena scratch, Reading *out);
 
-/* A reading that also tells which target sends how much: to find what is read then. */
+/* A reading that also reports which target sends how much: to find what is read then. */
 typedef struct FieldAsk {
     long          paths;     /* as many, whatever they find: a multiple of READING_BATCHES */
     double        known;     /* as a goal's */

@@ -50,8 +50,8 @@ typedef struct SetupMeans {
     int         threads;
     const char *isa;       /* kernel.h's; NULL: the best */
     Journal    *journal;   /* of readings that were taken before; NULL: none is kept */
-    const char *lessons;   /* folder of what paths were taught before (run/cases.h); NULL: it is
-                              not kept */
+    const char *lessons;   /* folder of guides that were trained before (run/cases.h); NULL: it
+                              is not kept */
     Inherited  *inherited; /* what variants take over from their review, or NULL */
 } SetupMeans;
 

@@ -401,7 +401,7 @@ static void set_to_decide(const ReviewRequest *request, DirectSun direct, Review
 }
 
 /* A variant has no causes, and its light may come by other materials than the review's:
- * its own paths tell, where any of them has no data. Of one whose levels alone differ, and to
+ * its own paths show, where any of them has no data. Of one whose levels alone differ, and to
  * find the worst of many points, the review's share counts. */
 static double data_share_of(const CaseTools *tools, const CaseLook *look, const ProbeAim *aim,
                             const ReviewCase *c, Arena scratch)

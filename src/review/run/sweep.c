@@ -132,7 +132,7 @@ static SunFigures judge_others(const SweepReport *to, const Sight *sight, const 
     return figures;
 }
 
-/* A sun about a step, and the margin there, as the probes tell it. */
+/* A sun about a step, and the margin there, as the probes show it. */
 typedef struct Refined {
     SweepSun sun;
     double   margin;
