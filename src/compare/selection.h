@@ -2,7 +2,7 @@
 /* selection.h -- which pixels count: a mask, a region, a display, a data window.
  *
  * Displays count by what they send themselves (measure/display_part.h) where both frames have
- *          the layers that show: all pixels in which either side sees some of it. Else the
+ *          the layers that show it: all pixels in which either side sees some of it. Else the
  *          reference's pixels that show it count, whole.
  * Layout   one byte a pixel of the display window, 0: left out.
  * Memory   from the arena. Threads: pure.

@@ -153,7 +153,7 @@ static bool is_known_twice(const RegionPlanes *planes, size_t i)
            isfinite(luminance_at(&planes->display_halves, i));
 }
 
-/* What a display shows is spread by its samples better than two halves of them can estimate. But
+/* What a display shows is spread by its samples better than its two halves can estimate. But
  * display.fine is the same by rays of other points, up to eight times as many: the distance of
  * the two has the samples' noise, and that of those rays, which is smaller. */
 static void add_known_twice(const RegionPlanes *planes, size_t i, PixelNoise *to)
