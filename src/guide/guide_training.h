@@ -19,18 +19,18 @@ typedef struct GuidePlace {
 #define GUIDE_POINTS 4 /* of a cell in a round */
 
 /* Points of one cell that a round traces from, and what was found. */
-typedef struct GuideLesson {
+typedef struct CellTraining {
     GuidePlace points[GUIDE_POINTS];
     int        point_count;
     float     *sums[GUIDE_AIMS]; /* of luminances, one a bin, over all rounds */
     uint32_t  *counts;
-} GuideLesson;
+} CellTraining;
 
 typedef struct GuideTraining {
-    LightGuide        guide;
-    GuidePlace  *places;
-    uint32_t    *first_place; /* of every cell; and behind the last */
-    GuideLesson *lessons;
+    LightGuide    guide;
+    GuidePlace   *places;
+    uint32_t     *first_place; /* of every cell; and behind the last */
+    CellTraining *cells;
 } GuideTraining;
 
 /* A guide that is not trained yet, over `count` places, which are put into another order. At
@@ -40,19 +40,19 @@ GuideTraining *guide_training_start(GuidePlace *places, uint32_t count, uint32_t
                                     Arena *arena);
 
 /* HOT. A ray of the cell's training pass into a bin found these luminances, cd m^-2. */
-static inline void guide_lesson_add(const GuideLesson *lesson, int bin,
-                                    const float cd_m2[GUIDE_AIMS])
+static inline void guide_training_add(const CellTraining *own, int bin,
+                                      const float cd_m2[GUIDE_AIMS])
 {
-    for (int aim = 0; aim < GUIDE_AIMS; aim++) lesson->sums[aim][bin] += cd_m2[aim];
-    lesson->counts[bin]++;
+    for (int aim = 0; aim < GUIDE_AIMS; aim++) own->sums[aim][bin] += cd_m2[aim];
+    own->counts[bin]++;
 }
 
 /* Chooses points of every cell for the round. */
-void guide_training_ask(GuideTraining *training, int round);
+void guide_training_choose(GuideTraining *training, int round);
 
 /* Makes a cell of the guide of what its training passes and its neighbours' found so far.
  * Several threads may do so at once. */
-void guide_training_learn(GuideTraining *training, uint32_t cell);
+void guide_training_update(GuideTraining *training, uint32_t cell);
 
 /* Mean illuminance, lx, of the cell's points by what the training passes found, without the
  * sky. */

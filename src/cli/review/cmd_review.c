@@ -295,7 +295,7 @@ static Outcome make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *r
     run->responses = folder->responses;
     run->responses_shown = folder->responses_shown;
     run->means.journal = folder->draft.journal;
-    if (!run->means.lessons) run->means.lessons = folder->draft.unfinished;
+    if (!run->means.guides) run->means.guides = folder->draft.unfinished;
     if (!take_found(folder, words->task, *arena, err) ||
         !make_all(words, folder, run, &found, arena, err)) {
         Outcome outcome = err->code ? tell_kept(folder, err) : report_stopped(folder, arena);
@@ -390,7 +390,7 @@ static Outcome review(const ReviewWords *words, Arena *arena, Error *err)
                      .problems = &problems, .work = &work};
     if (words->task) {
         run.identity = words->task->identity;
-        run.means.lessons = words->task->responses;
+        run.means.guides = words->task->responses;
     }
     if (words->task && words->task->share.count)
         return review_part(&run, words->task, words->responses, arena, err);

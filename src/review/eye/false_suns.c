@@ -391,9 +391,9 @@ const FalseSunRays *sun_searches_ask(SunSearches *searches, const Setup *setup, 
     *search = (SunSearch){.identity = arena_string(arena, setup->identity,
                                                    strlen(setup->identity)),
                           .eye = eye, .before = searches->last};
-    if (!setup->lessons || !find_kept(setup, eye, arena, &search->rays)) {
+    if (!setup->guides || !find_kept(setup, eye, arena, &search->rays)) {
         false_suns_search(setup, eye, arena, &search->rays);
-        if (setup->lessons) keep(setup, eye, &search->rays, *arena);
+        if (setup->guides) keep(setup, eye, &search->rays, *arena);
     }
     searches->last = search;
     return &search->rays;

@@ -133,7 +133,7 @@ bool setup_open(const SetupOptions *options, Arena *arena, Problems *problems, S
     *out = (Setup){.request = options->request, .condition = options->condition,
                    .tools = {.threads = options->means.threads,
                              .journal = options->means.journal},
-                   .sensor_lux = (double)NAN, .lessons = options->means.lessons,
+                   .sensor_lux = (double)NAN, .guides = options->means.guides,
                    .inherited = options->means.inherited};
     if (!kernel_choose(options->means.isa, &out->tools.kernel, err)) return false;
     if (!scene_load(&scene, arena, problems, &out->scene, err)) return false;

@@ -36,7 +36,7 @@ typedef struct Setup {
     double       sensor_lux;   /* NaN: no level follows the light */
     double      *scene_levels; /* the displays', before the condition's */
     const char  *identity;     /* program and scene (render/identity.h), not its light */
-    const char  *lessons;      /* SetupOptions' */
+    const char  *guides;       /* SetupOptions' */
     Inherited   *inherited;
     JournalKey   planned;      /* program, files and request */
     bool         is_shared;    /* its readings will be requested under other levels, too */
@@ -50,8 +50,8 @@ typedef struct SetupMeans {
     int         threads;
     const char *isa;       /* kernel.h's; NULL: the best */
     Journal    *journal;   /* of readings that were taken before; NULL: none is kept */
-    const char *lessons;   /* folder of guides that were trained before (run/cases.h); NULL: it
-                              is not kept */
+    const char *guides;    /* folder of guides that were trained before (run/cases.h); NULL:
+                              none is kept */
     Inherited  *inherited; /* what variants take over from their review, or NULL */
 } SetupMeans;
 

@@ -307,7 +307,7 @@ static bool plan_condition(const ReviewRun *run, const ReviewCondition *conditio
     Arena scratch = arena_reserve(SETUP_BYTES);
     Setup setup;
     options.means.journal = NULL; /* nothing is read */
-    options.means.lessons = NULL;
+    options.means.guides = NULL;
     options.means.inherited = NULL;
     bool  ok = setup_open(&options, &scratch, run->problems, &setup, err);
     if (ok) {
