@@ -109,10 +109,10 @@ static void look(const ProbeAim *aim, int path, ProbeLook *out, PathStatistics *
     float        emitted[3];
     OwnSums      sums = {aim->context->scene, false, out->display};
     PathListener listener = {.on_light = add_display, .user = &sums, .of_emitters = true};
-    SeenAsk      ask = {.listener = aim->by_display ? &listener : NULL};
+    SeenRequest  request = {.listener = aim->by_display ? &listener : NULL};
     *out = (ProbeLook){.is_found = false};
     start_path(aim, path, statistics, &own);
-    path_seen(&own.start, own.ray, &ask, &seen);
+    path_seen(&own.start, own.ray, &request, &seen);
     if (!seen.path.hit ||
         !path_display_emission(aim->context, &seen.path, &own.wavelengths, emitted)) {
         *out = (ProbeLook){.is_found = false};

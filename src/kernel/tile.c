@@ -69,10 +69,10 @@ static void add_fine_ray(const TileJob *job, Ray ray, const Wavelengths *wavelen
     PathStatistics counted = {0};
     PathStart      start = {.context = &eye, .wavelengths = wavelengths, .sampler = sampler,
                             .statistics = &counted};
-    const SeenAsk  ask = {.listener = NULL};
+    SeenRequest    request = {.listener = NULL};
     float          emitted[3];
     eye.max_bounces = 0;
-    path_seen(&start, ray, &ask, &seen);
+    path_seen(&start, ray, &request, &seen);
     statistics->camera_rays += counted.camera_rays;
     if (!seen.path.hit || !path_display_emission(&eye, &seen.path, wavelengths, emitted))
         return;
@@ -146,11 +146,11 @@ static void trace(TileWork *work, Ray ray, const Wavelengths *wavelengths, Sampl
 {
     const TileJob     *job = work->job;
     const PathListener listener = {.on_light = lights_add, .user = &work->lights};
-    const SeenAsk      ask = {job->with_lambertian, job->with_extrapolated,
-                                job->lights ? &listener : NULL};
+    const SeenRequest  request = {job->with_lambertian, job->with_extrapolated,
+                                  job->lights ? &listener : NULL};
     const PathStart    start = {.context = job->context, .wavelengths = wavelengths,
                                 .sampler = sampler, .statistics = work->statistics};
-    path_seen(&start, ray, &ask, out);
+    path_seen(&start, ray, &request, out);
 }
 
 static void tile_sample(TileWork *work, int x, int y, uint32_t index, FilmSample *out)
@@ -209,7 +209,7 @@ static void tile_render(const TileJob *job, FilmRect rect, PathStatistics *stati
 static bool ray_shows(const DisplaySearch *search, const PathContext *eye, Sampler *sampler,
                       Ray ray)
 {
-    const SeenAsk  ask = {.listener = NULL};
+    SeenRequest    request = {.listener = NULL};
     PathStatistics uncounted = {0};
     SeenLight      seen;
     PathFeatures   features;
@@ -217,7 +217,7 @@ static bool ray_shows(const DisplaySearch *search, const PathContext *eye, Sampl
     wavelengths_sample(sampler_1d(sampler), &wavelengths);
     PathStart start = {.context = eye, .wavelengths = &wavelengths, .sampler = sampler,
                        .statistics = &uncounted};
-    path_seen(&start, ray, &ask, &seen);
+    path_seen(&start, ray, &request, &seen);
     if (!seen.path.hit) return false;
     path_features(eye, &seen.path, &wavelengths, &features);
     return search->display == FILM_ANY_DISPLAY ? features.display_id != NO_ID

@@ -324,7 +324,7 @@ static void take_frame_at(Shown *shown, const Stand *stand, double parts, Layout
                              (float)(pixel / FRAME) + in.y);
         PathStart start = {.context = &context, .wavelengths = &w, .sampler = &sampler,
                            .statistics = &statistics};
-        path_seen(&start, ray, &(SeenAsk){.listener = NULL}, &seen);
+        path_seen(&start, ray, &(SeenRequest){.listener = NULL}, &seen);
         result = seen.path;
         assert_true(result.hit);
         if (!stand->bounces) {

@@ -8,11 +8,11 @@
 #include "path/collect/history.h"
 #include "path/path.h"
 
-typedef struct SeenAsk {
+typedef struct SeenRequest {
     bool                with_lambertian; /* of a display that the eye sees, without haze */
     bool                with_extrapolated; /* and by directions that were not measured */
     const PathListener *listener;        /* NULL: none */
-} SeenAsk;
+} SeenRequest;
 
 typedef struct SeenLight {
     PathResult path;
@@ -25,7 +25,7 @@ typedef struct SeenLight {
 } SeenLight;
 
 /* start: without collectors. The path does not depend on what is requested. */
-void path_seen(const PathStart *start, Ray ray, const SeenAsk *ask, SeenLight *out);
+void path_seen(const PathStart *start, Ray ray, const SeenRequest *request, SeenLight *out);
 
 /* The footprint of a pixel along a frame's ray (path/footprint.h), until that scatters: for
  * displays with sub-pixels. path_seen has it. */
