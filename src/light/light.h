@@ -66,13 +66,13 @@ typedef struct LightSample {
     float    distance; /* m, to the light; INFINITY for sun, sky and directional lights */
     float    pdf;      /* sr^-1; 1 for delta lights */
     bool     is_delta; /* a BSDF sample can never hit it */
-    bool     is_emitter; /* of a triangle: */
+    bool     is_emitter; /* of a triangle; else triangle .. point are unset */
     uint32_t triangle;
-    float    u, v;     /* which point of it: barycentric weights of vertices 1 and 2, */
-    TrianglePoint point; /* and what is known of that */
+    float    u, v;     /* barycentric weights of the triangle's vertices 1 and 2 */
+    TrianglePoint point; /* the geometry at u, v */
     Vec2     at;       /* of the sky: where in its picture */
-    int      light_id; /* of a punctual light: which, */
-    float    scale;    /* and lx per unit of its intensity, over its probability */
+    int      light_id; /* of a punctual light: which */
+    float    scale;    /* of a punctual light: lx per unit of its intensity, over its prob */
 } LightSample;
 
 /* The ray that shows whether a sample arrives at a place where a ray may start (ray_ends.h). It

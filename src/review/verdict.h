@@ -109,7 +109,7 @@ typedef struct CaseCause {
     const char *const *chain;
     int    links;
     double share;             /* of the reflected light, 0..1 */
-    double cd_m2, low, high;  /* and its 95 % interval */
+    double cd_m2, low, high;  /* the cause's light, and its 95 % interval */
     double contrast_without;  /* the case's contrast if this light were not; NaN: none */
     const CaseRay *rays;      /* some of it, drawn with a chance that goes with their light */
     int    ray_count;
@@ -179,15 +179,15 @@ typedef struct CaseGlare {
     double source_lx;        /* of the sources, on the pupil's plane */
     double smallest_sr, largest_sr; /* of a source; NaN: none */
     long   source_count;
-    bool   low_light;        /* DGP has its factor for low light, */
-    bool   small_sources;    /* UGR CIE 147's rule for small sources */
+    bool   low_light;        /* DGP has its factor for low light */
+    bool   small_sources;    /* UGR has CIE 147's rule for small sources */
     const char *none;        /* why there is no UGR; NULL: there is */
 } CaseGlare;
 
 typedef struct CaseLuminances {
     double foreground, background; /* emitted to the eye */
     double reflected;              /* by the part that is judged; all that is reflected */
-    double mirror, scattered;      /* its two parts */
+    double mirror, scattered;      /* the reflected light's two parts */
     double veil;                   /* that stray light lays over the gaze point, in the eye */
 } CaseLuminances;
 
@@ -204,7 +204,7 @@ typedef struct CaseWhole {
     MeanInterval reflected_range; /* 95 % */
     double  contrast_ratio;       /* by that mean, veil included where the profile counts it;
                                      NaN likewise */
-    double  lit_share;            /* of it, 0..1, in the direct sun; NaN: there is none */
+    double  lit_share;            /* of the whole, 0..1, in the direct sun; NaN: no sun */
 } CaseWhole;
 
 CaseWhole case_whole_unknown(void);
@@ -269,15 +269,15 @@ typedef struct ReviewCase {
     const LimitVerdict *limits;  /* all that apply */
     int     limit_count;
     int     limit_id;            /* the contrast limit that required the most; -1: none */
-    double  margin;              /* of that limit; NaN: there is none */
+    double  margin;              /* of the limit limit_id; NaN: there is none */
     Verdict verdict;             /* the worst of its limits' that count */
     Unjudged unjudged;           /* why it cannot be judged */
     const CaseCause  *causes;    /* greatest first */
     int     cause_count;
     CaseGroup groups[CAUSE_GROUPS];
-    double  without_data_share;  /* of the reflected light, via materials without data, */
-    double  guessed_share;       /* and via such as `equip` guessed */
-    double  extrapolated_share;  /* of the same, as the panel extrapolates what was measured */
+    double  without_data_share;  /* of the reflected light, via materials without data */
+    double  guessed_share;       /* of it, via materials that `equip` guessed */
+    double  extrapolated_share;  /* of it, as the panel extrapolates what was measured */
     const char *empty_seat;      /* its back, behind an eye where nobody sits, via which much of
                                     the reflected light comes; NULL: none */
     double  empty_seat_share;    /* of the reflected light */
@@ -324,8 +324,8 @@ typedef struct GazeFinding {
     MeanInterval veil_range;
     GazeVeil veil_parts;
     double   cornea_lux;     /* of the pupil's plane */
-    double   through;        /* cd m^-2 along the gaze: what it looks at, as it arrives; */
-    double   mirrored;       /* what a pane before it mirrors over that */
+    double   through;        /* cd m^-2 along the gaze: what it looks at, as it arrives */
+    double   mirrored;       /* cd m^-2, what a pane mirrors over `through` */
     MeanInterval mirrored_range;
     const char *mirrored_by; /* the pane that mirrors most; NULL: nothing is mirrored */
     const char *mirrored_from; /* what most of it shows; NULL likewise */
@@ -334,8 +334,8 @@ typedef struct GazeFinding {
      * veiling reflections), so that Weber's contrast (L - B)/B keeps B/(B + veils) of itself.
      * What is near is the background B, and no veil. NaN: no light. */
     double   contrast_behind_glass; /* what the mirrored light leaves; 1: all */
-    double   contrast_left;         /* and the veil in the eye with it */
-    MeanInterval contrast_range;        /* of the latter */
+    double   contrast_left;         /* what that and the veil in the eye leave together */
+    MeanInterval contrast_range;    /* of contrast_left */
     CaseGlare glare;
 } GazeFinding;
 
@@ -363,12 +363,12 @@ typedef struct ReviewFalseSun {
     double      share;         /* of the time (of a sweep without times: of the suns) */
     double      minutes;       /* all headings together; NaN: the sweep has no times */
     double      longest_minutes; /* at a stretch, under one heading; NaN likewise */
-    /* the worst of them: */
+    /* Of the time at which it is worst: */
     const char *when;          /* date, time, heading; NULL: the sweep has no times */
     double      sun_azimuth_deg, sun_elevation_deg; /* of the vehicle */
     double      lux;           /* at the eye, on a plane that faces the image */
     const char *gaze;          /* where the eye looks: a symbol's name or a gaze's */
-    double      angle_deg;     /* from there to the image */
+    double      angle_deg;     /* from the gaze to the image */
     double      veil_cd_m2;    /* that it lays over what is looked at */
 } ReviewFalseSun;
 

@@ -191,23 +191,23 @@ typedef struct PunctualLight {
     Vec3  direction;    /* unit: where the light goes to (the node's -Z) */
     float intensity[3]; /* linear Rec.709: cd (point, spot) or lx facing it (directional) */
     float cos_inner, cos_outer; /* spot */
-    const IntensityWeb *web; /* luminaire: intensity is the largest, in its frame: */
-    Vec3  axis_x, axis_y, axis_z; /* unit, world; the node's: a mirrored one mirrors */
-    LuminousOpening opening; /* luminaire: about `position`, in its frame */
+    const IntensityWeb *web; /* luminaire: `intensity` is its largest */
+    Vec3  axis_x, axis_y, axis_z; /* luminaire: its frame, unit, world; mirrored as its node */
+    LuminousOpening opening; /* luminaire: about `position`, in that frame */
     const char *node_name, *file; /* luminaire */
     float level;             /* luminaire: multiplies all intensities */
     bool  has_tilt;          /* luminaire: its file has factors for tilted lamps */
-    float tilt_factor, tilt_deg; /* multiplies too; and the angle that it belongs to */
+    float tilt_factor, tilt_deg; /* luminaire: multiplies too; the tilt that it is for */
     float color[3];          /* luminaire: linear Rec.709, multiplies too */
     float cct_k;             /* luminaire: 0: white (D65) */
-    const char *cct_text;    /* luminaire: its file's text about that, understood if cct_k > 0;
+    const char *cct_text;    /* luminaire: its file's text about cct_k, understood if > 0;
                                 "": it has none; NULL: from --light-cct */
     const Curve *white;      /* of cct_k, 1 cd m^-2; NULL: D65 */
 } PunctualLight;
 
 typedef struct SceneCamera {
     const char *node_name, *camera_name; /* "" where the file has none */
-    bool  is_perspective; /* rays from one point; */
+    bool  is_perspective; /* rays from one point */
     Fisheye fisheye;      /* not a file's, but a command's: half the space instead of yfov */
     float yfov;          /* radians, full vertical angle (perspective) */
     float ymag;          /* m, half the height (orthographic) */

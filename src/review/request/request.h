@@ -41,7 +41,7 @@ typedef struct ReviewLevel {
     const char       *name;
     ReviewFixedLevel *fixed;
     int               fixed_count;
-    /* or, of all displays, a curve: */
+    /* In place of fixed levels: a curve for all displays. */
     bool    is_curve;
     double  position_m[3], normal[3]; /* the sensor's, scene's frame; normal is unit */
     const ReviewLevelPoint *points;   /* lux rises, level does not fall */
@@ -240,8 +240,8 @@ typedef struct ReviewVariant {
     ReviewChange change;
     ReviewLevel *levels;       /* take the places of those of their names */
     int          level_count;
-    const char **scenes;       /* instead of the review's; */
-    int          scene_count;  /* 0: those */
+    const char **scenes;       /* in place of the review's */
+    int          scene_count;  /* 0: the review's scenes */
     const char **more;         /* files besides */
     int          more_count;
     double     (*eye_moves)[3]; /* m, one an eye */
