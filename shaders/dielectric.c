@@ -25,7 +25,7 @@
  * index 1 with a film of 1.33.
  *
  * Where the index differs by wavelength each lane is a boundary of its own. One lane is drawn,
- * by what the lanes still count, and is asked where it goes. A mirror sends all of them there.
+ * by what the lanes still count, and decides where it goes. A mirror sends all of them there.
  * Refraction sends each elsewhere: a smooth boundary goes on with the drawn one alone, divided
  * by its chance (straight through, with all); of a rough one all lanes go on that may have been
  * sent there, by the balance heuristic over them (Veach 1997, 9.2.2): eval over the mean

@@ -2,7 +2,7 @@
 /* solid_facet.h -- the boundary of a solid, what one facet of it reflects and lets through, and
  * what rough facets pass to one another.
  *
- * For dielectric.c, whose user page tells the parameters. Bare, coated, filmed. Frame: bsdf.h.
+ * For dielectric.c, whose user page gives the parameters. Bare, coated, filmed. Frame: bsdf.h.
  * Threads: pure functions.
  */
 #pragma once

@@ -41,7 +41,7 @@ typedef struct CoatingTables {
     const CoatingTable *total;   /* reflectance beyond the critical angle, over
                                     k / (k + n cosine) with k^2 = (n sine)^2 - 1, n the ratio
                                     of the indices */
-    const CoatingEnergy *energy; /* of front; NULL: not wanted */
+    const CoatingEnergy *energy; /* of front; NULL: not requested */
     Curve front_mean, back_mean, through_mean; /* over the hemisphere, weighted by the cosine */
 } CoatingTables;
 
@@ -65,7 +65,7 @@ typedef struct SurfaceCoating {
     const CoatingTables *cover; /* of a display */
     const PaneCoating   *sheet, *pane; /* of a thin sheet, of a laminated one */
     const CoatingWaves  *metal_waves, *glass_waves; /* of metal; of face or cover; NULL:
-                                                       polarisation is not wanted */
+                                                       polarisation is not requested */
 } SurfaceCoating;
 
 /* cosine in [0, 1]. */

@@ -179,7 +179,7 @@ static void mean_of(const Curve *row, int count, Curve *out)
 
 enum { KINDS = 3 }; /* front, back, through */
 
-/* A row of each table; NULL: not wanted. */
+/* A row of each table; NULL: not requested. */
 static void make_row(Curve *const out[KINDS], const CoatedBody *body, RowMaker *make,
                      double cosine)
 {
@@ -236,7 +236,7 @@ static const CoatingTable *table_of(const Curve *row, int count, Arena *arena)
     return table;
 }
 
-/* kinds: how many of front, back, through are wanted. */
+/* kinds: how many of front, back, through are requested. */
 static CoatingTables *tables_of(const CoatedBody *body, RowMaker *make, int kinds, Arena *arena)
 {
     int    count = 2;

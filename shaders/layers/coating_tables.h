@@ -23,7 +23,7 @@ const PaneCoating *coating_of_sheet(const LayerStack *stack, double ior, Arena *
 const CoatingTables *coating_of_metal(const LayerStack *stack, const OpticalConstants *metal,
                                       Arena *arena);
 
-/* The alphas that a boundary is asked for, in [0, 1]. */
+/* The alphas that a boundary is queried at, in [0, 1]. */
 typedef struct AlphaSpan {
     float least, most;
 } AlphaSpan;
@@ -31,7 +31,7 @@ typedef struct AlphaSpan {
 #define ALPHA_ALL (AlphaSpan){0, 1}
 
 /* The boundary of an opaque body seen from outside: front alone, with its energies of `alphas`;
- * of others they are 0 and must not be asked for. */
+ * of others they are 0 and must not be queried. */
 const CoatingTables *coating_of_face(const LayerStack *stack, double ior, AlphaSpan alphas,
                                      Arena *arena);
 

@@ -7,7 +7,7 @@
  * R(facet_cosine). A white metal's lobe has min(t(w), t(wi)) and R = 1 there instead; of the
  * light that coat and sheen let in along w, `lost` is what does not come back in that lobe.
  *
- * A table would have seven dimensions: it is integrated where it is asked for, over points of
+ * A table would have seven dimensions: it is integrated where it is evaluated, over points of
  * the lobe, but only for the differences of t and the sheen from their means over it; the rest
  * is lobe_facets.h's. That takes some microseconds.
  *

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* metallic_eval.h -- metallic_roughness as one eye sees it, made ready for all that is asked,
+/* metallic_eval.h -- metallic_roughness as one eye sees it, made ready for all evaluations,
  * and how much light it sends from a direction to that eye.
  *
  * Values are sr^-1 (bsdf.h's frame), pdf sr^-1, of choosing wi by MetallicChoices.

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* metallic_facet.h -- what one facet of metallic_roughness reflects and lets through.
  *
- * Asked by the cosine at which light meets the facet, [0, 1]: of the non-metal (solid or a thin
- * sheet), of the metal, each bare, under a thin film or coated. Spectra are shares of light,
- * [0, 1]; those of a part of the surface are times the part's share.
+ * Evaluated by the cosine at which light meets the facet, [0, 1]: of the non-metal (solid or a
+ * thin sheet), of the metal, each bare, under a thin film or coated. Spectra are shares of
+ * light, [0, 1]; those of a part of the surface are times the part's share.
  *
  * Threads  pure functions.  Fails  never.
  */

@@ -3,8 +3,8 @@
  * point as one eye sees it.
  *
  * What each member means to the picture: the user page on top of metallic_roughness.c. The
- * view is what eval, sample and lobes need of wo alone. One vertex of a path asks them several
- * times: bsdf_look (bsdf.h) keeps it for all of them.
+ * view is what eval, sample and lobes need of wo alone. One vertex of a path evaluates them
+ * several times: bsdf_look (bsdf.h) keeps it for all of them.
  */
 #pragma once
 #include "base/vec.h"
@@ -42,8 +42,8 @@ typedef struct MetallicRoughness {
     ThinFilm film;        /* where there is no coating; share 0: none */
     bool  seen_from_back;                /* of a coated sheet */
     float across;          /* [0, 1]: share of diffuse light that leaves on the other side */
-    float across_color[3]; /* its albedo, linear Rec.709, [0, 1]; wants wavelengths */
-    float sheen_color[3];  /* linear Rec.709, [0, 1]; 0: no sheen. Wants wavelengths */
+    float across_color[3]; /* its albedo, linear Rec.709, [0, 1]; needs wavelengths */
+    float sheen_color[3];  /* linear Rec.709, [0, 1]; 0: no sheen. Needs wavelengths */
     float sheen_alpha;     /* [SHEEN_LEAST_ALPHA, 1] where there is a sheen */
     const struct MetallicView *seen; /* by bsdf_look; else NULL */
 } MetallicRoughness;

@@ -25,7 +25,7 @@ static void exit_when_full(size_t bytes_wanted, size_t bytes_left)
 #define PAGE ((size_t)1 << 16)
 
 /* The most that one arena may take: libraries and further arenas need room too, and a file
- * that asks for more than there is should exhaust the arena, not the system, nor the container,
+ * that requests more than there is should exhaust the arena, not the system, nor the container,
  * which is killed then. */
 static size_t most_bytes(void)
 {

@@ -42,7 +42,7 @@ typedef struct BrightSamples {
 
 void bright_add(BrightSamples *samples, double light);
 
-/* The light that a mean over `count` samples may lack for want of bright ones: the upper end
+/* The light that a mean over `count` samples may lack for lack of bright ones: the upper end
  * of its interval has this more. repeated: the mean is over so many times these samples. */
 double bright_missing(const BrightSamples *samples, double count, double repeated);
 

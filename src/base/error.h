@@ -30,7 +30,7 @@ typedef struct Error {
     ErrorCode code;
     char file[512]; /* the file in question as the user named it, or "" */
     char path[256]; /* the place inside it ("/materials/3", "line 12"), or "" */
-    char text[1024]; /* what was found and what was wanted; outermost context first */
+    char text[1024]; /* what was found and what was required; outermost context first */
 } Error;
 
 /* Fills *err (file and path empty). Always returns false, so `return error_set(...)`. */

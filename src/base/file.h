@@ -3,7 +3,7 @@
  *
  * Memory   what is read lies in the arena that is passed in, with a zero byte behind it.
  * Threads  no shared state.
- * Fails    with the path as the user named it, the system's reason and what was wanted.
+ * Fails    with the path as the user named it, the system's reason and what was required.
  */
 #pragma once
 #include <stddef.h>

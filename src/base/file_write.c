@@ -265,7 +265,7 @@ void file_remove(const char *path)
     unlink(name);
 }
 
-/* ---- for a writer that wants a path of its own ------------------------------------------- */
+/* ---- for a writer that needs a path of its own ------------------------------------------- */
 
 bool file_commit(const char *temporary, const char *path, Error *err)
 {

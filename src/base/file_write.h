@@ -4,7 +4,7 @@
  *
  * Memory   temporary names lie in the arena that is passed in.
  * Threads  no shared state.
- * Fails    with the path as the user named it, the system's reason and what was wanted.
+ * Fails    with the path as the user named it, the system's reason and what was required.
  */
 #pragma once
 #include <stddef.h>
@@ -49,7 +49,7 @@ bool folder_make(const char *path, Error *err);
 /* Removes a file, and what a process that was killed may have left of its successor. */
 void file_remove(const char *path);
 
-/* A name beside `path`, for a library that wants a path; unlike any other process's, of this
+/* A name beside `path`, for a library that needs a path; unlike any other process's, of this
  * machine or of another that shares the folder. */
 char *file_temporary_name(const char *path, Arena *arena);
 

@@ -3,7 +3,7 @@
  *
  * On a terminal a bar with percent, rate, elapsed and remaining time; in a pipe, a file or a
  * terminal that cannot write a line anew (TERM dumb or missing) a plain line now and then,
- * also where a bar is asked for; or one JSON object a line; or nothing. Always on stderr:
+ * also where a bar is requested; or one JSON object a line; or nothing. Always on stderr:
  * results own stdout. Colour only on such a terminal and without NO_COLOR; no other escape
  * codes anywhere.
  *
@@ -29,7 +29,7 @@ struct Progress {
     double       left_from;  /* as of so much done; left_s 0: nobody does */
     double       more_s;     /* that the part in hand takes beyond that, by its own pace */
     double       begun_s, shown_s; /* seconds of the monotonic clock */
-    double       interval_s;       /* wanted between two lines */
+    double       interval_s;       /* requested between two lines */
     bool         has_colour;
     int          shown_columns;    /* of the bar's longest line so far */
     Progress    *outer;            /* this is a part of that; or NULL */
@@ -55,7 +55,7 @@ void progress_clear(const Progress *progress);
 double monotonic_seconds(void);
 
 /* Seconds that the calling thread has been ready to run while others ran; 0 where the system
- * does not tell. */
+ * does not report. */
 double thread_waited_seconds(void);
 
 /* A rate with three digits, ready for its unit: "950 ", "12.3 k", "4.56 M". */

@@ -10,7 +10,7 @@
  *
  * Memory   paths lie in the arena.
  * Threads  no shared state.
- * Fails    ERROR_INPUT with the path as it was written and what is wanted; file and place are
+ * Fails    ERROR_INPUT with the path as it was written and what is required; file and place are
  *          the caller's to add. What does not exist passes: opening it fails later.
  */
 #pragma once

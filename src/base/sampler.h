@@ -5,7 +5,7 @@
  * anew for every pair (Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4)):
  * every pair of numbers is a (0,2)-sequence over the samples of a pixel, and pairs and pixels
  * are independent. Numbers depend on (seed, pixel, sample, dimension) and on nothing else.
- * What is asked at one dimension in every sample is well spread over the samples.
+ * What is drawn at one dimension in every sample is well spread over the samples.
  *
  * Threads  a Sampler is a plain value; nothing is shared.
  */

@@ -62,7 +62,7 @@ static inline void embree_context_init(EmbreeContext *context)
 }
 #endif
 
-/* ---- asking ------------------------------------------------------------------------------ */
+/* ---- queries ----------------------------------------------------------------------------- */
 
 /* Two geometries: opaque triangles, which always stop light, and the others, for which shadow
  * rays call BvhPasses. Scene.triangles holds them in this order. */
@@ -155,9 +155,9 @@ void bvh_ask_sheets(const Bvh *bvh, Ray ray, BvhPasses *asked, void *user)
     embree_occluded(bvh->sheets, &context.embree, &query);
 }
 
-/* ---- what Embree asks along a ray ------------------------------------------------------- */
+/* ---- what Embree tests along a ray ------------------------------------------------------ */
 
-/* Called by Embree for asked triangles that a ray might meet first (always one ray at a time),
+/* Called by Embree for tested triangles that a ray might meet first (always one ray at a time),
  * where there are sheets. */
 static void skip_sheets(const struct RTCFilterFunctionNArguments *args)
 {
@@ -166,7 +166,7 @@ static void skip_sheets(const struct RTCFilterFunctionNArguments *args)
     if (ray->tfar < context->sheets_from) args->valid[0] = 0;
 }
 
-/* Called by Embree for every asked triangle along a shadow ray (always one ray at a time). */
+/* Called by Embree for every tested triangle along a shadow ray (always one ray at a time). */
 static void ask_passes(const struct RTCFilterFunctionNArguments *args)
 {
     const QueryContext *context = (const QueryContext *)args->context;
@@ -243,7 +243,7 @@ static RTCScene new_scene(RTCDevice device)
 {
     RTCScene scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    /* Not HIGH: its spatial splits would ask BvhPasses twice about one triangle. */
+    /* Not HIGH: its spatial splits would call BvhPasses twice about one triangle. */
     rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
     return scene;
 }
@@ -308,7 +308,7 @@ bool bvh_build(const Scene *scene, int threads, const char *isa, ProgressMode pr
     if (check_device(bvh->device, &first)) build_scene(bvh, scene, progress);
     rtcSetDeviceErrorFunction(bvh->device, NULL, NULL);
     if (first.code != ERROR_NONE) {
-        /* Mostly for want of memory. Embree and oneTBB allocate while they clean up, and end
+        /* Mostly for lack of memory. Embree and oneTBB allocate while they clean up, and end
          * the program where they cannot: what stands half-built is left to the system. */
         *err = first;
         return false;

@@ -4,7 +4,7 @@
  * Memory   owns Embree's device and scene; positions and triangles stay the Scene's, which must
  *          outlive the Bvh. bvh_destroy(NULL) is fine. Embree's own tree takes some 100 bytes a
  *          triangle while it is made, 70 afterwards (tests/bench/README.md).
- * Threads  const after bvh_create: any number of threads may ask.
+ * Threads  const after bvh_create: any number of threads may query it.
  * Rays     a ray that is not finite, comes from beyond 1.8e18, or has no direction, hits
  *          nothing and is counted by the caller as a lost sample; it never reaches Embree
  *          (whose Debian build would abort).

@@ -69,7 +69,7 @@ static bool wants_json(const CompareRequest *request)
     return request->cli.json || request->answer;
 }
 
-/* Into the file and to stdout, as far as they are asked for; releases it. */
+/* Into the file and to stdout, as far as they are requested; releases it. */
 static bool answer_json(const CompareRequest *request, json_t *document, Error *err)
 {
     if (request->answer && !cli_write_json(document, request->answer, err)) {
@@ -232,7 +232,7 @@ static bool is_named(const char *picture, const char *name)
            (!picture[length] || picture + length == path_ending(picture));
 }
 
-/* What was asked of this pair, or else of all. */
+/* What was requested of this pair, or else of all. */
 static const CompareOptions *options_of(const CompareRequest *request, const char *picture)
 {
     for (int i = 0; i < request->pair_count; i++)

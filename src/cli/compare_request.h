@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* compare_request.h -- what was asked of `parhelion compare`.
+/* compare_request.h -- what was requested of `parhelion compare`.
  *
  * Memory   texts are the command line's or the arena's. Threads: one at a time.
- * Fails    ERROR_USAGE with the option, what was found and what was wanted; ERROR_INPUT with a
- *          line of --pairs.
+ * Fails    ERROR_USAGE with the option, what was found and what was required; ERROR_INPUT with
+ *          a line of --pairs.
  */
 #pragma once
 #include "cli/options/cli.h"
@@ -27,5 +27,5 @@ typedef struct CompareRequest {
     Cli            cli;
 } CompareRequest;
 
-/* True with cli.help_shown when only help was asked for. */
+/* True with cli.help_shown when only help was requested. */
 bool compare_parse(int argc, char **argv, Arena *arena, CompareRequest *out, Error *err);

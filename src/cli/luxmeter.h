@@ -16,5 +16,6 @@ typedef struct LuxmeterRequest {
     EnvironmentChange environment;
 } LuxmeterRequest;
 
-/* Loads the scene, changed as asked, and prints the illuminance at every point, in order. */
+/* Loads the scene, changed as requested, and prints the illuminance at every point, in
+ * order. */
 bool luxmeter_run(const Cli *cli, const LuxmeterRequest *request, Arena *arena, Error *err);

@@ -122,7 +122,7 @@ int main(int argc, char **argv)
     if (outcome == OUTCOME_FAILED && err.text[0]) return report(&err, wants_json);
     int status = exit_status(outcome, &err);
     if (outcome == OUTCOME_STOPPED) return status;
-    /* what -o names is the answer; the line about it may go nowhere where nobody wants one */
+    /* what -o names is the answer; the line about it may go nowhere where none is read */
     if (!has_stdout && !wants_json && has_word(argc, argv, "-o"))
         return status;
     return check_stdout(&err) ? status : report(&err, false);

@@ -18,7 +18,7 @@ static double level_of(const CompareOptions *options)
     return options->level > 0 ? options->level : 0.01;
 }
 
-/* The metrics to compute: those asked for, those that limits name, those that the judge
+/* The metrics to compute: those requested, those that limits name, those that the judge
  * needs. */
 static unsigned groups_of(const CompareOptions *options)
 {
@@ -171,7 +171,7 @@ static const char *different_verdict(const Comparison *out, Arena *arena)
     return arena_format(arena, "%s; and %d more reason%s", text, more, more > 1 ? "s" : "");
 }
 
-/* Whether the mean moved or only the noise: what a reviewer asks first. Empty where the
+/* Whether the mean moved or only the noise: what a reviewer checks first. Empty where the
  * statistic's own verdict states it already. */
 static const char *mean_sentence(const CompareOptions *options, const Comparison *out,
                                  Arena *arena)

@@ -9,7 +9,7 @@
  * Memory   results come from the arena that is passed in.
  * Threads  `threads` of its own for FLIP.
  * Fails    when the two cannot be compared at all (kinds, masks, no noise layers for a test
- *          that was asked for); a difference is no failure but the answer.
+ *          that was requested); a difference is no failure but the answer.
  */
 #pragma once
 #include "compare/comparison.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* comparison.h -- what a comparison is asked, and everything that it finds out.
+/* comparison.h -- what a comparison has to do, and everything that it finds out.
  *
  * Units    frames in cd m^-2, pictures 0 .. 1. Exposures are photographic exposure values as in
  *          image/exposure.h.

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* metrics.h -- computes what a comparison asks for: metrics, their maps, contrasts, the test.
+/* metrics.h -- computes what a comparison requires: metrics, their maps, contrasts, the test.
  *
  * Memory   from the arena that is passed in.
  * Threads  `threads` of the options for FLIP.
  * Fails    for a frame that cannot be developed, and without noise layers for a test that was
- *          asked for.
+ *          requested.
  */
 #pragma once
 #include "compare/comparison.h"

@@ -2,7 +2,7 @@
 /* selection.h -- which pixels count: a mask, a region, a display, a data window.
  *
  * Displays count by what they send themselves (measure/display_part.h) where both frames have
- *          the layers that tell: all pixels in which either side sees some of it. Else the
+ *          the layers that show it: all pixels in which either side sees some of it. Else the
  *          reference's pixels that show it count, whole.
  * Layout   one byte a pixel of the display window, 0: left out.
  * Memory   from the arena. Threads: pure.
@@ -30,7 +30,7 @@ bool selection_make(const CompareInput *const sides[2], const SelectionRequest *
                     Arena *arena, Selection *out, Error *err);
 
 /* Gives both frames the light of that display alone, and what states its noise; false, and
- * nothing is changed, where they do not tell it. */
+ * nothing is changed, where they do not show it. */
 bool selection_take_display(CompareInput *const sides[2], const char *display, Arena *arena,
                             Error *err);
 

@@ -6,7 +6,7 @@
  *
  * Units    cd m^-2.
  * Memory   the new frame comes from the arena; 300 bytes a pixel of scratch.
- * Threads  as many as asked; the same bits for any number.
+ * Threads  as many as requested; the same bits for any number.
  * Fails    when the frame lacks a layer that the filter goes by (DENOISE_LAYERS).
  */
 #pragma once

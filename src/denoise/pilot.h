@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* pilot.h -- a filtered frame as the guide of the next filter.
  *
- * Patches of filtered light tell likeness far better than noisy ones. Each half guides the
+ * Patches of filtered light show likeness far better than noisy ones. Each half guides the
  * other one still, so that noise does not choose itself.
  *
  * Memory   of the guide's variance: the arena.
- * Threads  as many as asked; the same bits for any number.
+ * Threads  as many as requested; the same bits for any number.
  */
 #pragma once
 #include "denoise/patch_weights.h"

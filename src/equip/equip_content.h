@@ -11,5 +11,5 @@
 #include "base/arena.h"
 
 /* [{"name", "picture", "width", "height", "texts": [{"uv", "polarity", "crop", "name"}]}]; a
- * text's name is what it says, where the content's list of words (NAME.words) tells. */
+ * text's name is what it says, where the content's list of words (NAME.words) states it. */
 json_t *equip_contents_json(Arena *arena);

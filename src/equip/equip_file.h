@@ -5,7 +5,7 @@
  * Units    metres, degrees; positions and directions in the model's world (glTF's axes).
  * Memory   everything lies in the arena.
  * Threads  const after reading.
- * Fails    ERROR_INPUT with file, JSON path, what was found and what was wanted.
+ * Fails    ERROR_INPUT with file, JSON path, what was found and what was required.
  */
 #pragma once
 #include "record/record.h"

@@ -20,7 +20,7 @@ extern const char THREE_NOTICE[], THREE_SCRIPT[];
 
 #define STEPS 16777215.0 /* of a coordinate over the model's size: three bytes */
 #define DATA_BYTES ((size_t)1 << 32) /* address space: what is not touched costs nothing */
-#define GRID 12          /* of places where a texture is asked for its mean */
+#define GRID 12          /* of places where a texture is sampled for its mean */
 #define GLASS_ALPHA 0.25 /* what lets light through is drawn so */
 
 /* ---- pictures ---------------------------------------------------------------------------- */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* equip_page.h -- a model as one HTML page in which it is equipped by clicking.
  *
- * The page asks for nothing from anywhere: three.js (Debian's libjs-three) draws the model,
+ * The page loads nothing from anywhere: three.js (Debian's libjs-three) draws the model,
  * whose corners stand in the page to a 16-millionth of its size, packed (page/page.h).
  * It is a picture to click in, not a frame: base colours and their textures, made small.
  *

@@ -220,7 +220,7 @@ static int add_list(json_t *document, const void *bytes, int count, int items, A
                         items == 1 ? INT_KIND : FLOAT_KIND, count, types[items]);
 }
 
-/* glTF wants the bounds of positions. */
+/* glTF requires the bounds of positions. */
 static void add_bounds(json_t *document, int accessor, const float *positions, int count)
 {
     double low[3], high[3];

@@ -5,7 +5,7 @@
  * Paths come in batches that differ in nothing but chance. The interval is that of the batches'
  * means (batch_interval); its upper end has, besides, the light of bright paths that may be
  * missing (bright_missing), what is known to be there but was met by none (`unmet`), and what
- * no number of paths would tell of (`unseen`). What is known without paths, with an error of
+ * no number of paths would show (`unseen`). What is known without paths, with an error of
  * its own, is added last. How many paths there are must hang on none of them
  * (estimate_plan.h).
  *

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* estimate_plan.h -- how many paths an estimate takes.
  *
- * A pilot decides it, whose paths are never told: an estimate that stops when it pleases is
+ * A pilot decides it, whose paths are never reported: an estimate that stops when it pleases is
  * wrong more often than its interval states, and one that stops because nothing was found says
- * that nothing is there. The number hangs on none of the paths that are told; so their interval
- * means 95 %.
+ * that nothing is there. The number hangs on none of the paths that are reported; so their
+ * interval means 95 %.
  *
  * Threads  the asker's.
  */
@@ -13,8 +13,8 @@
 
 typedef struct EstimatePlan {
     long  pilot;       /* its paths, at first */
-    long  least, most; /* that are told: least, doubled as often as it takes, up to most */
-    int   reach;       /* the pilot grows until it asks for no more than so many times its own:
+    long  least, most; /* that are reported: least, doubled as often as it takes, up to most */
+    int   reach;       /* the pilot grows until it requires no more than so many times its own:
                           the number that a shorter one finds is too uncertain, a longer one
                           costs more than it saves */
     void *user;
@@ -26,6 +26,6 @@ typedef struct EstimatePlan {
 /* Paths that will do, the fewest; the most there are, where none will. */
 long estimate_paths(const EstimatePlan *plan, long pilot);
 
-/* Reads the pilot, and tells how many fresh ones there should be. No pilot is read where there
- * is no choice. */
+/* Reads the pilot, and reports how many fresh ones there should be. No pilot is read where
+ * there is no choice. */
 long estimate_plan(const EstimatePlan *plan);

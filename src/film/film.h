@@ -36,7 +36,7 @@ void film_set_blind(Film *film);
 /* Bytes that film_create will take with so many groups of lights. */
 size_t film_bytes(FilmRect crop, unsigned layers, int light_count);
 
-/* x, y: pixel inside the crop. Members that no layer asks for need not be set, but display_id
+/* x, y: pixel inside the crop. Members that no layer needs need not be set, but display_id
  * is always read when hit is true. */
 void film_add_sample(Film *film, int x, int y, const FilmSample *sample);
 

@@ -8,7 +8,7 @@
 #include "film/film.h"
 #include "image/frame.h"
 
-/* The frame as frame.h describes it, with R, G, B and the layers asked for. Rules:
+/* The frame as frame.h describes it, with R, G, B and the layers requested. Rules:
  *   depth, position, normal, albedo, uv   mean over the samples that hit something (a mean of
  *       unit normals is shorter than one across an edge); NaN where none did. A sample whose
  *       features are not finite counts as a miss here, not for the light;

@@ -29,18 +29,18 @@ typedef struct FilmSample {
     float albedo[3];       /* linear Rec.709 */
     float uv[2];           /* uv set 0 */
     int   part_id;         /* scene part, -1 where nothing was hit */
-    int   display_id;      /* scene display, -1 off displays; else: */
+    int   display_id;      /* scene display; -1 off displays: emitted .. phi are unset */
     float emitted[3];      /* XYZ, cd m^-2: what the panel itself sends to the eye */
-    float mirror[3];       /* XYZ, cd m^-2: what came by way of the panel's mirror, */
-    float lambertian[3];   /* and what its lambertian part scattered */
-    float white[3], black[3]; /* XYZ it would send for full white and for black */
+    float mirror[3];       /* XYZ, cd m^-2: what came via the panel's mirror */
+    float lambertian[3];   /* XYZ, cd m^-2: what its lambertian part scattered */
+    float white[3], black[3]; /* XYZ the panel would send for full white and for black */
     float extrapolated[2]; /* luminance, cd m^-2, by directions that were not measured: of what
                               is emitted, and of what is reflected */
     float theta, phi;      /* radians, display frame, phi in [0, 2 pi) */
     float fine[3];         /* XYZ, cd m^-2: what displays send to the whole pixel, from more
                               camera rays than this one; 0 where those see none */
-    const FilmLight *lights; /* what makes up xyz, but for rounding; no group twice; */
-    int   light_count;       /* groups that are not there gave nothing */
+    const FilmLight *lights; /* what makes up xyz, but for rounding: no group twice */
+    int   light_count;       /* of lights; a group without an entry gave nothing */
 } FilmSample;
 
 typedef struct FilmRect {

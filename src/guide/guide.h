@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* guide.h -- from where light comes, learnt for parts of the space: a field of directions that
+/* guide.h -- from where light comes, trained for parts of the space: a field of directions that
  * guides paths.
  *
  * The scene's box is cut into cells by a tree of halves. A cell knows the radiance that arrives
@@ -45,7 +45,7 @@ typedef struct GuideCell {
     GuideRow light[GUIDE_AIMS][GUIDE_SIDE]; /* through each bin, in any unit: lane x of row y */
     float    asked[GUIDE_LIGHTS]; /* with which probability a surface samples each set */
     GuideLamps lamps;
-    float    is_lit;              /* 1: it has learnt something; else 0 */
+    float    is_lit;              /* 1: it was trained; else 0 */
 } GuideCell;
 
 /* An inner node parts its box at `plane` along `axis`; its children stand at child and
@@ -63,7 +63,7 @@ typedef struct LightGuide {
     GuideNode *nodes; /* the first is the root */
     GuideCell *cells;
     uint32_t   node_count, cell_count;
-    bool       asks; /* the cells know how often to ask the lights */
+    bool       asks; /* the cells know how often to sample the lights */
     Spectrum   bin[3][GUIDE_SIDE]; /* x, y, z of every bin's middle, a unit vector */
 } LightGuide;
 

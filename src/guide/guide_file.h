@@ -17,7 +17,7 @@ uint64_t guide_hash(const LightGuide *guide);
 
 bool guide_write(const char *path, const LightGuide *guide, Arena scratch, Error *err);
 
-/* Lights of the scene: cells must ask for them now and then. */
+/* Lights of the scene: cells must sample them now and then. */
 typedef struct GuideScene {
     bool has[GUIDE_LIGHTS]; /* lights of the set */
     int  light_count;       /* ids of lamps are below this, */

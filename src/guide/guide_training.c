@@ -117,29 +117,29 @@ GuideTraining *guide_training_start(GuidePlace *places, uint32_t count, uint32_t
     part(&build, 0, places, count);
     training->first_place[guide->cell_count] = count;
     guide->cells = ARENA_NEW(arena, GuideCell, guide->cell_count);
-    training->lessons = ARENA_NEW(arena, GuideLesson, guide->cell_count);
+    training->cells = ARENA_NEW(arena, CellTraining, guide->cell_count);
     for (uint32_t i = 0; i < guide->cell_count; i++) {
         for (int aim = 0; aim < GUIDE_AIMS; aim++)
-            training->lessons[i].sums[aim] = ARENA_NEW(arena, float, GUIDE_BINS);
-        training->lessons[i].counts = ARENA_NEW(arena, uint32_t, GUIDE_BINS);
+            training->cells[i].sums[aim] = ARENA_NEW(arena, float, GUIDE_BINS);
+        training->cells[i].counts = ARENA_NEW(arena, uint32_t, GUIDE_BINS);
     }
     guide_place_bins(guide);
     return training;
 }
 
-/* ---- lessons ----------------------------------------------------------------------------- */
+/* ---- training passes --------------------------------------------------------------------- */
 
-void guide_training_ask(GuideTraining *training, int round)
+void guide_training_choose(GuideTraining *training, int round)
 {
     for (uint32_t cell = 0; cell < training->guide.cell_count; cell++) {
-        GuideLesson *lesson = &training->lessons[cell];
+        CellTraining *own = &training->cells[cell];
         uint32_t first = training->first_place[cell];
         uint32_t count = training->first_place[cell + 1] - first;
-        lesson->point_count = count < GUIDE_POINTS ? (int)count : GUIDE_POINTS;
-        for (int i = 0; i < lesson->point_count; i++) {
-            uint32_t step = count / (uint32_t)lesson->point_count;
+        own->point_count = count < GUIDE_POINTS ? (int)count : GUIDE_POINTS;
+        for (int i = 0; i < own->point_count; i++) {
+            uint32_t step = count / (uint32_t)own->point_count;
             uint32_t at = (uint32_t)i * step + (uint32_t)round * 7u % step;
-            lesson->points[i] = training->places[first + at];
+            own->points[i] = training->places[first + at];
         }
     }
 }
@@ -149,11 +149,11 @@ typedef struct BinFinds {
     double sum[GUIDE_BINS], count[GUIDE_BINS];
 } BinFinds;
 
-static void add_finds(const GuideLesson *lesson, GuideAim aim, BinFinds *finds)
+static void add_finds(const CellTraining *own, GuideAim aim, BinFinds *finds)
 {
     for (int i = 0; i < GUIDE_BINS; i++) {
-        finds->sum[i] += (double)lesson->sums[aim][i];
-        finds->count[i] += lesson->counts[i];
+        finds->sum[i] += (double)own->sums[aim][i];
+        finds->count[i] += own->counts[i];
     }
 }
 
@@ -166,7 +166,7 @@ static void with_neighbours(const GuideTraining *training, uint32_t cell, GuideA
     uint32_t end = cell + NEIGHBOURS + 1;
     BinFinds all = {.count = {0}};
     for (uint32_t i = first; i < end && i < training->guide.cell_count; i++)
-        add_finds(&training->lessons[i], aim, &all);
+        add_finds(&training->cells[i], aim, &all);
     for (int i = 0; i < GUIDE_BINS; i++) {
         if (!(all.count[i] > 0)) continue;
         finds->sum[i] += DOUBT * all.sum[i] / all.count[i];
@@ -184,13 +184,14 @@ static double bin_light(const LightGuide *guide, const BinFinds *finds, int bin)
            ? finds->sum[bin] / finds->count[bin] * taxicab * taxicab * taxicab : 0;
 }
 
-/* A little is left everywhere: what the lesson did not find may be there all the same. */
-static bool learn_aim(const GuideTraining *training, uint32_t cell, GuideAim aim,
-                      GuideRow out[GUIDE_SIDE])
+/* A little is left everywhere: what the training pass did not find may be there all the
+ * same. */
+static bool update_aim(const GuideTraining *training, uint32_t cell, GuideAim aim,
+                       GuideRow out[GUIDE_SIDE])
 {
     BinFinds finds = {.count = {0}};
     double   light[GUIDE_BINS], total = 0, most = 0;
-    add_finds(&training->lessons[cell], aim, &finds);
+    add_finds(&training->cells[cell], aim, &finds);
     with_neighbours(training, cell, aim, &finds);
     for (int i = 0; i < GUIDE_BINS; i++)
         total += light[i] = bin_light(&training->guide, &finds, i);
@@ -203,11 +204,11 @@ static bool learn_aim(const GuideTraining *training, uint32_t cell, GuideAim aim
     return total > 0;
 }
 
-void guide_training_learn(GuideTraining *training, uint32_t cell)
+void guide_training_update(GuideTraining *training, uint32_t cell)
 {
     GuideCell *out = &training->guide.cells[cell];
-    bool has_light = learn_aim(training, cell, GUIDE_LIGHT, out->light[GUIDE_LIGHT]);
-    bool has_sky = learn_aim(training, cell, GUIDE_SKY, out->light[GUIDE_SKY]);
+    bool has_light = update_aim(training, cell, GUIDE_LIGHT, out->light[GUIDE_LIGHT]);
+    bool has_sky = update_aim(training, cell, GUIDE_SKY, out->light[GUIDE_SKY]);
     out->is_lit = has_light || has_sky;
 }
 
@@ -232,7 +233,7 @@ double guide_training_illuminance(const GuideTraining *training, uint32_t cell)
     BinFinds finds = {.count = {0}};
     float    light[GUIDE_BINS];
     double   sum = 0;
-    add_finds(&training->lessons[cell], GUIDE_LIGHT, &finds);
+    add_finds(&training->cells[cell], GUIDE_LIGHT, &finds);
     for (int i = 0; i < GUIDE_BINS; i++)
         light[i] = (float)bin_light(&training->guide, &finds, i);
     for (uint32_t p = first; p < end; p++)

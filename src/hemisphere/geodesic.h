@@ -19,7 +19,7 @@
  * d = (v+w-u)/2 (b+c) + ... ; and the coordinates in the child follow without leaving these
  * numbers: the midpoint of (b, c) is (b+c)/|b+c| with |b+c| = 2 cos(bc/2). So one level costs
  * three comparisons and three products, and the last (u, v, w) are the barycentric coordinates
- * of the leaf's (gnomonic) plane, which interpolation wants.
+ * of the leaf's (gnomonic) plane, which interpolation needs.
  */
 #pragma once
 #include <stdint.h>
@@ -49,7 +49,7 @@ typedef struct Geodesic {
 
 /* Where a direction lies: the triangle and the coordinates in its corners. */
 typedef struct GeodesicPoint {
-    uint32_t id;       /* triangle of the level asked for, all octants */
+    uint32_t id;       /* triangle of the level requested, all octants */
     float    weight[3]; /* barycentric in the plane of the three unit corners; sum to 1 */
 } GeodesicPoint;
 

@@ -35,8 +35,8 @@ typedef struct DevelopReport {
     bool   is_developed;  /* by a view transform; false for data shown as it is */
     double grey_cd_m2;    /* what became middle grey; 0 when not developed */
     double ev;            /* the same as an exposure value */
-    bool   is_adapted, is_denoised; /* as asked: a look, of which no figure may be taken */
-    char   eye[128];      /* as asked; else "" */
+    bool   is_adapted, is_denoised; /* as requested: a look, of which no figure may be taken */
+    char   eye[128];      /* as requested; else "" */
     char   config[1024], display[128], view[128]; /* "" when not developed */
     long   nonfinite_pixels; /* of light: NaN is shown black, infinity white */
     char   scale[160];    /* of false colours: "0.1 to 1000 cd/m^2, logarithmic", else "" */

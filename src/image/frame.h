@@ -84,7 +84,7 @@ void frame_set_string(FrameImage *frame, const char *name, const char *text, Are
 void frame_set_number(FrameImage *frame, const char *name, double value, Arena *arena);
 void frame_set_whole(FrameImage *frame, const char *name, int value, Arena *arena);
 
-/* A kind of its own, as the OpenEXR standard wants it for a few names ("worldToCamera"
+/* A kind of its own, as the OpenEXR standard requires it for a few names ("worldToCamera"
  * EXR_MATRIX44, "expTime" EXR_FLOAT ...). values: as many as the kind has. */
 void frame_set_values(FrameImage *frame, const char *name, ExrKind kind, const double *values,
                       Arena *arena);

@@ -24,6 +24,6 @@ ColourMatrix icc_d50_from_primaries(const double chromaticities[8]);
 
 /* ICC.1:2010 (version 4.3), class "display", matrix and curve. chromaticities: x, y of red,
  * green, blue and white; the white is adapted to D50 by Bradford's matrix, as the standard
- * wants. description: ASCII, at most 100 characters. */
+ * requires. description: ASCII, at most 100 characters. */
 IccProfile icc_profile_create(const double chromaticities[8], IccCurve curve,
                               const char *description, Arena *arena);

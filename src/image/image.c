@@ -382,7 +382,7 @@ static int channel_index(const ExrPicture *picture, const char *name)
     return -1;
 }
 
-/* Asks the reader for R, G, B (or Y) and A only. */
+/* Reads R, G, B (or Y) and A only. */
 static bool read_planes(ExrReader *reader, Arena *arena, ExrPlanes *out, Error *err)
 {
     static const char *const NAMES[4] = {"R", "G", "B", "A"};

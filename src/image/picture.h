@@ -47,5 +47,5 @@ bool picture_encode_small(const Picture *picture, Arena *arena, FileBytes *out,
                           const char **kind, Error *err);
 
 /* False, with the endings that are supported, when picture_write would refuse the name or the
- * bits: to be asked before long work. */
+ * bits: to be checked before long work. */
 bool picture_check_name(const char *path, int bits, Error *err);

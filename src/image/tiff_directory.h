@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* tiff_directory.h -- numbers in the first directory of a TIFF, or of what Exif tells, which is
- * one (TIFF 6.0, section 2).
+/* tiff_directory.h -- numbers in the first directory of a TIFF, or of what Exif states, which
+ * is one (TIFF 6.0, section 2).
  *
  * Memory   a view of the bytes. Threads: pure functions. Fails: never.
  */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* import_request.h -- everything that a user asks of an import, on the command line or in a
+/* import_request.h -- everything that a user requests of an import, on the command line or in a
  * file of options that a laboratory writes once.
  *
  * Memory   texts from the arena or the caller's. Threads: one at a time.
- * Fails    with the file, the JSON path, what was found and what was wanted.
+ * Fails    with the file, the JSON path, what was found and what was required.
  */
 #pragma once
 #include "import/set/import_beside.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The formats, in the order in which they are asked whether a file is theirs: those with a sure
+/* The formats, in the order in which they test whether a file is theirs: those with a sure
  * mark first, text of any layout last. */
 #include "import/importers.h"
 

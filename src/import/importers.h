@@ -15,7 +15,7 @@ extern const Importer importer_eulumdat, importer_ies;
 /* ---- columns and matrices ---------------------------------------------------------------- */
 extern const Importer importer_text;
 
-/* All importers (importers.c), in the order in which they are asked; ends with a NULL. */
+/* All importers (importers.c), in the order in which they are tried; ends with a NULL. */
 extern const Importer *const importers[];
 
 /* Reads a file with the importer that --format names, or that recognises it. */

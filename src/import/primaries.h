@@ -3,7 +3,7 @@
  * blue, and one for black if it was measured.
  *
  * Memory   the set's arena. Threads: one set per thread.
- * Fails    with the file, the line, what was found and what was wanted.
+ * Fails    with the file, the line, what was found and what was required.
  */
 #pragma once
 #include "import/set/import.h"

@@ -15,7 +15,7 @@
  *     part-0003.HOST-PID.checkpoint   what a task has done of it so far
  *     part-0003.failed          the status and the line with which it failed last
  *     responses/                of a review's sweeps, unless they have a folder of their own;
- *                               in *.lesson, what its paths were taught
+ *                               in *.lesson, its trained guides
  *
  * Memory   the arena's.
  * Threads  one at a time.
@@ -42,7 +42,7 @@ typedef struct SharedJob {
     const char  *folder;   /* from where the names below are seen, absolute */
     const char  *line;     /* the command of one run, as in frames (command_line.h) */
     const char  *output;   /* the frame, or the review's folder, as typed */
-    const char  *identity; /* of all parts, but for what is learnt (render_identity.h); of a
+    const char  *identity; /* of all parts, but for the guide (render_identity.h); of a
                               review that of each condition */
     const char  *isa;
     const char **words;    /* of the command, without its name, the output and the range */

@@ -2,7 +2,7 @@
 /* job_manifest.h -- manifest.json of a job's folder (assets/schemas/job.md).
  *
  * Memory   the arena's.
- * Fails    ERROR_INPUT with the file, the place in it, what is there and what was wanted.
+ * Fails    ERROR_INPUT with the file, the place in it, what is there and what was required.
  */
 #pragma once
 #include <jansson.h>

@@ -107,7 +107,7 @@ JobQueue job_queue_read(const SharedJob *job, Arena *arena)
     const char *jobs = "", *lines = "";
     Error       why;
     read_numbers(job, &queue, arena);
-    /* The first twice: asked for one alone, squeue fails as soon as it has forgotten it. */
+    /* The first twice: queried for one alone, squeue fails as soon as it has forgotten it. */
     if (queue.arrays.count) jobs = queue.arrays.list[0];
     for (int i = 0; i < queue.arrays.count; i++)
         jobs = arena_format(arena, "%s,%s", jobs, queue.arrays.list[i]);

@@ -20,7 +20,7 @@ typedef struct JobQueue {
     Lines          active;         /* of arrays: those of which something is left */
     unsigned char *parts;          /* JobQueued of each */
     JobQueued      merge;
-    const char    *silence; /* why Slurm told nothing of them; NULL: it did, or has none */
+    const char    *silence; /* why Slurm reported nothing of them; NULL: it did, or has none */
 } JobQueue;
 
 JobQueue job_queue_read(const SharedJob *job, Arena *arena);

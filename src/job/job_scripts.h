@@ -15,7 +15,7 @@
 #define JOB_LOGS "logs"
 #define JOB_RESPONSES "responses"
 
-/* threads: of each task, which Slurm is asked for; 0: nothing is asked. The folder of logs is
+/* threads: of each task, requested from Slurm; 0: nothing is requested. The folder of logs is
  * there already. */
 bool job_scripts_write(const SharedJob *job, int threads, Arena scratch, Error *err);
 

@@ -3,7 +3,7 @@
  *
  * Memory   the arena's.
  * Fails    ERROR_OUTPUT where the folder cannot be made, or is another job's; ERROR_INPUT where
- *          sbatch is asked for and fails: the folder stays, and the line explains how to go on.
+ *          sbatch is requested and fails: the folder stays, and the line explains how to go on.
  */
 #pragma once
 #include <jansson.h>
@@ -23,6 +23,6 @@ typedef struct ShareRequest {
 } ShareRequest;
 
 /* job: its kind, output, line, identity, instruction set; of a frame its size and parts, too.
- * answer: gets the document, where one is asked for; NULL: lines go to stdout. */
+ * answer: gets the document, where one is requested; NULL: lines go to stdout. */
 bool job_share(const ShareRequest *request, const SharedJob *job, Arena *arena, json_t **answer,
                Error *err);

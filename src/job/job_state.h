@@ -53,8 +53,8 @@ bool job_is_merged(const SharedJob *job, Arena scratch);
 /* The key of the entry that marks a review's part as done, behind all its answers. */
 JournalKey job_part_mark(const SharedJob *job, int index, Arena scratch);
 
-/* Tells others that this process is at the part, by a lock that goes with it; job_part_end
- * takes what it returned. Of several only the first is told of, and on a file system without
+/* Shows others that this process is at the part, by a lock that goes with it; job_part_end
+ * takes what it returned. Of several only the first is reported, and on a file system without
  * locks none. */
 int job_part_begin(const SharedJob *job, int index, Arena scratch);
 void job_part_end(const SharedJob *job, int index, int lock, Arena scratch);

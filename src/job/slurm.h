@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* slurm.h -- hands a batch script to Slurm (--submit), and asks what it has of jobs that were
- * handed to it, and on what nodes. The only place where this program starts another one: no
- * shell is between.
+/* slurm.h -- hands a batch script to Slurm (--submit), and queries what it has of jobs that
+ * were handed to it, and on what nodes. The only place where this program starts another one:
+ * no shell is between.
  *
  * Threads  one at a time.
  * Fails    ERROR_INPUT in one line: the program is not there, or with what it said last.

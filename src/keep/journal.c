@@ -225,7 +225,7 @@ bool journal_open(const char *path, Arena *arena, Problems *problems, Journal **
     return false;
 }
 
-/* ---- asking ------------------------------------------------------------------------------ */
+/* ---- look-up ----------------------------------------------------------------------------- */
 
 bool journal_find(const Journal *journal, JournalKey key, void *answer, size_t size)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* journal.h -- answers that were found, on the disk as soon as they are: asked for again, after
+/* journal.h -- answers that were found, on the disk as soon as they are: looked up again, after
  * a kill, they are there at once.
  *
  * An answer is a row of bytes under a key, which is a hash of everything that decides it. So
@@ -10,7 +10,7 @@
  *                                   the answer
  *          Entries are added at the end. One that was cut off by a kill, or damaged, ends what
  *          counts: it and all behind it are dropped when the file is opened.
- * Memory   an index in the arena; answers are read when they are asked for.
+ * Memory   an index in the arena; answers are read when they are looked up.
  *          A checksum can be made to fit: whether an answer may be is its asker's to check.
  * Threads  one at a time. Two processes never have one file: the second is refused.
  * Fails    as stated. A failed write (a full disk) is remembered and reported by journal_ok;

@@ -14,7 +14,7 @@
 #include "kernel/probe.h"
 #include "light/light_groups.h"
 #include "path/cell_lights.h"
-#include "path/collect/lesson.h"
+#include "path/collect/training.h"
 #include "path/path.h"
 
 /* Work on a rectangle of pixels: the interface between the render loop and the kernel. */
@@ -42,7 +42,7 @@ typedef struct DisplaySearch {
 } DisplaySearch;
 
 /* The work by which a guide is trained. */
-typedef struct LessonJob {
+typedef struct TrainingJob {
     const PathContext *context; /* with the guide as trained so far */
     const Camera      *camera;
     uint32_t seed, index; /* of the paths' random numbers */
@@ -51,7 +51,7 @@ typedef struct LessonJob {
     int         columns;  /* of the raster */
     const GuideTraining *training;
     LightFinds        *finds;   /* one a cell */
-} LessonJob;
+} TrainingJob;
 
 typedef struct Kernel {
     const char *isa; /* "sse2", "avx2", "avx512"; "native" on other processors */
@@ -60,11 +60,11 @@ typedef struct Kernel {
     /* Sets what a part of the search's rectangle shows. */
     void (*find_displays)(const DisplaySearch *search, FilmRect part);
     /* One path through every step of a rectangle of the raster: the places it comes by. */
-    void (*find_places)(const LessonJob *job, FilmRect rect, PathStatistics *statistics);
+    void (*find_places)(const TrainingJob *job, FilmRect rect, PathStatistics *statistics);
     /* Measures the light that arrives in a cell from every direction. */
-    void (*learn)(const LessonJob *job, uint32_t cell, PathStatistics *statistics);
-    /* Takes light samples in a cell: they decide how often it asks each set of lights. */
-    void (*try_lights)(const LessonJob *job, uint32_t cell, PathStatistics *statistics);
+    void (*train)(const TrainingJob *job, uint32_t cell, PathStatistics *statistics);
+    /* Takes light samples in a cell: they decide how often it samples each set of lights. */
+    void (*try_lights)(const TrainingJob *job, uint32_t cell, PathStatistics *statistics);
     /* The functions of probe.h. */
     void (*look)(const ProbeAim *aim, int first, int end, ProbeLook *out,
                  PathStatistics *statistics);

@@ -109,10 +109,10 @@ static void look(const ProbeAim *aim, int path, ProbeLook *out, PathStatistics *
     float        emitted[3];
     OwnSums      sums = {aim->context->scene, false, out->display};
     PathListener listener = {.on_light = add_display, .user = &sums, .of_emitters = true};
-    SeenAsk      ask = {.listener = aim->by_display ? &listener : NULL};
+    SeenRequest  request = {.listener = aim->by_display ? &listener : NULL};
     *out = (ProbeLook){.is_found = false};
     start_path(aim, path, statistics, &own);
-    path_seen(&own.start, own.ray, &ask, &seen);
+    path_seen(&own.start, own.ray, &request, &seen);
     if (!seen.path.hit ||
         !path_display_emission(aim->context, &seen.path, &own.wavelengths, emitted)) {
         *out = (ProbeLook){.is_found = false};
@@ -187,7 +187,7 @@ void probe_trace(const ProbeAim *asked, int first, int end, const PathListener *
 
 /* ---- by light from anywhere -------------------------------------------------------------- */
 
-/* Traces a dark path (PathManner), which asks for light by the collector. */
+/* Traces a dark path (PathManner), which gets light by the collector. */
 static void ask(const ProbeAim *aim, int path, PathCollector *collector,
                 PathStatistics *statistics)
 {
@@ -241,13 +241,13 @@ static float *cell_sums(const CellSums *to, int order, int cell)
     return to->sums + at * SPECTRUM_LANES;
 }
 
-/* One over the density with which calls ask a direction, sr. */
+/* One over the density with which calls sample a direction, sr. */
 static float sr_of_cell(const ProbeCells *cells, int cell)
 {
     return cells->samplers[cell % (cells->count / 2)].area * cells->every[cell];
 }
 
-/* The balance heuristic (Veach 1997, 9.2.2) of asking and of ways. */
+/* The balance heuristic (Veach 1997, 9.2.2) of light samples and of ways. */
 static void add_cell(void *user, int i, int bounce, const float *share, float pdf)
 {
     const CellSums *to = user;
@@ -323,7 +323,7 @@ static int first_sun_from(const ProbeSuns *suns, float y)
     return low;
 }
 
-/* By way of the first surface's mirror into each disc that the direction meets. */
+/* Via the first surface's mirror into each disc that the direction meets. */
 static void add_escaped_sun(void *user, Vec3 direction, int bounce, const float *share,
                             float pdf)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* probe.h -- what one eye sees of one surface, asked outside a frame: by the light that is
+/* probe.h -- what one eye sees of one surface, sampled outside a frame: by the light that is
  * there now, or as a response to light from any direction. A luxmeter may stand in the eye's
  * place.
  *
@@ -53,11 +53,11 @@ typedef struct ProbeOwn {
 /* The light that one path found, XYZ. */
 typedef struct ProbeLook {
     float reflected[3]; /* all but what the first surface emits; of a luxmeter all */
-    float mirror[3];    /* of it, by way of a display's mirror */
+    float mirror[3];    /* of it, via a display's mirror */
     bool  is_found;     /* the first surface is a display, or a luxmeter's; else these are 0 */
     int   target;       /* of the aim, that it went to; of a luxmeter or a pixel 0 */
     ProbeOwn display[PROBE_DISPLAYS]; /* of these, what each of the scene's displays sends, if
-                                         the aim wants it; else 0 */
+                                         the aim requests it; else 0 */
 } ProbeLook;
 
 /* HOT. Path i of [first, end) fills out[i - first]. */
@@ -78,7 +78,7 @@ typedef struct ProbeCells {
     int        count;      /* of the whole sphere */
     const int *asked;     /* by every path of this call */
     int        asked_count;
-    const float *every;   /* [cell] it is asked by one in so many calls */
+    const float *every;   /* [cell] it is sampled by one in so many calls */
 } ProbeCells;
 
 #define PROBE_ORDERS 2 /* light that the first vertex sends to the eye; all other */
@@ -86,7 +86,7 @@ typedef struct ProbeCells {
 /* The direction, world, that stands for a cell. */
 Vec3 probe_cell_center(const ProbeCells *cells, int cell);
 
-/* Where answers are added, and room for as many directions as are asked. */
+/* Where answers are added, and room for as many directions as are sampled. */
 typedef struct ProbeAnswers {
     float *sums;
     Vec3  *towards;
@@ -102,7 +102,7 @@ typedef struct ProbeSuns {
     const Vec3 *towards; /* unit, world: their centres; by_mirror: their y rises */
     int   count;
     float radius;        /* radians, above 0 */
-    bool  by_mirror;     /* the first vertex's mirror is asked, else what scatters */
+    bool  by_mirror;     /* the first vertex's mirror is sampled, else what scatters */
 } ProbeSuns;
 
 /* HOT. Adds the sum over paths to sums[sun][lane]: what the first vertex sends to the eye of an

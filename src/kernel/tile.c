@@ -69,10 +69,10 @@ static void add_fine_ray(const TileJob *job, Ray ray, const Wavelengths *wavelen
     PathStatistics counted = {0};
     PathStart      start = {.context = &eye, .wavelengths = wavelengths, .sampler = sampler,
                             .statistics = &counted};
-    const SeenAsk  ask = {.listener = NULL};
+    SeenRequest    request = {.listener = NULL};
     float          emitted[3];
     eye.max_bounces = 0;
-    path_seen(&start, ray, &ask, &seen);
+    path_seen(&start, ray, &request, &seen);
     statistics->camera_rays += counted.camera_rays;
     if (!seen.path.hit || !path_display_emission(&eye, &seen.path, wavelengths, emitted))
         return;
@@ -146,11 +146,11 @@ static void trace(TileWork *work, Ray ray, const Wavelengths *wavelengths, Sampl
 {
     const TileJob     *job = work->job;
     const PathListener listener = {.on_light = lights_add, .user = &work->lights};
-    const SeenAsk      ask = {job->with_lambertian, job->with_extrapolated,
-                                job->lights ? &listener : NULL};
+    const SeenRequest  request = {job->with_lambertian, job->with_extrapolated,
+                                  job->lights ? &listener : NULL};
     const PathStart    start = {.context = job->context, .wavelengths = wavelengths,
                                 .sampler = sampler, .statistics = work->statistics};
-    path_seen(&start, ray, &ask, out);
+    path_seen(&start, ray, &request, out);
 }
 
 static void tile_sample(TileWork *work, int x, int y, uint32_t index, FilmSample *out)
@@ -209,7 +209,7 @@ static void tile_render(const TileJob *job, FilmRect rect, PathStatistics *stati
 static bool ray_shows(const DisplaySearch *search, const PathContext *eye, Sampler *sampler,
                       Ray ray)
 {
-    const SeenAsk  ask = {.listener = NULL};
+    SeenRequest    request = {.listener = NULL};
     PathStatistics uncounted = {0};
     SeenLight      seen;
     PathFeatures   features;
@@ -217,7 +217,7 @@ static bool ray_shows(const DisplaySearch *search, const PathContext *eye, Sampl
     wavelengths_sample(sampler_1d(sampler), &wavelengths);
     PathStart start = {.context = eye, .wavelengths = &wavelengths, .sampler = sampler,
                        .statistics = &uncounted};
-    path_seen(&start, ray, &ask, &seen);
+    path_seen(&start, ray, &request, &seen);
     if (!seen.path.hit) return false;
     path_features(eye, &seen.path, &wavelengths, &features);
     return search->display == FILM_ANY_DISPLAY ? features.display_id != NO_ID
@@ -247,9 +247,9 @@ static void tile_find_displays(const DisplaySearch *search, FilmRect part)
                           (size_t)(x - search->rect.x0)] = pixel_shows(search, &eye, x, y);
 }
 
-/* ---- lessons ----------------------------------------------------------------------------- */
+/* ---- training passes --------------------------------------------------------------------- */
 
-static void lesson_find_places(const LessonJob *job, FilmRect rect, PathStatistics *statistics)
+static void train_find_places(const TrainingJob *job, FilmRect rect, PathStatistics *statistics)
 {
     for (int y = rect.y0; y < rect.y1; y++)
         for (int x = rect.x0; x < rect.x1; x++) {
@@ -261,7 +261,7 @@ static void lesson_find_places(const LessonJob *job, FilmRect rect, PathStatisti
                           ((float)y + at.y) * job->stretch.y};
             if (!camera_sees(job->camera, place.x, place.y)) continue;
             Ray ray = camera_ray(job->camera, place.x, place.y);
-            LessonPlaces places = lesson_places(
+            TrainingPlaces places = training_places(
                 &job->places[(size_t)y * (size_t)job->columns + (size_t)x]);
             PathStart start = {.context = job->context, .wavelengths = &wavelengths,
                                .sampler = &sampler, .statistics = statistics,
@@ -270,33 +270,33 @@ static void lesson_find_places(const LessonJob *job, FilmRect rect, PathStatisti
         }
 }
 
-/* Sends one ray from every point of the lesson into every bin above its horizon. */
-static void lesson_learn(const LessonJob *job, uint32_t cell, PathStatistics *statistics)
+/* Sends one ray from every point of the training pass into every bin above its horizon. */
+static void train_cell(const TrainingJob *job, uint32_t cell, PathStatistics *statistics)
 {
-    const GuideLesson *lesson = &job->training->lessons[cell];
+    const CellTraining *own = &job->training->cells[cell];
     for (int bin = 0; bin < GUIDE_BINS; bin++)
-        for (int i = 0; i < lesson->point_count; i++) {
+        for (int i = 0; i < own->point_count; i++) {
             Sampler sampler = sampler_start(job->seed, (int)cell, bin,
                                             job->index + (uint32_t)i);
             Vec2    at = sampler_2d(&sampler);
-            LitPoint point = {lesson->points[i].position, lesson->points[i].normal, false};
+            LitPoint point = {own->points[i].position, own->points[i].normal, false};
             Vec3     towards = guide_bin_direction(bin, at.x, at.y);
             Wavelengths wavelengths;
             if (!(vec3_dot(towards, point.ns) > 0)) continue;
             wavelengths_sample(sampler_1d(&sampler), &wavelengths);
-            float      cd_m2[GUIDE_AIMS];
-            PathResult rest;
-            LessonSky  sky = lesson_sky(&cd_m2[GUIDE_SKY]);
-            PathStart  start = {.context = job->context, .wavelengths = &wavelengths,
-                                .sampler = &sampler, .statistics = statistics,
-                                .collector = &sky.base, .from = &point};
+            float       cd_m2[GUIDE_AIMS];
+            PathResult  rest;
+            TrainingSky sky = training_sky(&cd_m2[GUIDE_SKY]);
+            PathStart   start = {.context = job->context, .wavelengths = &wavelengths,
+                                 .sampler = &sampler, .statistics = statistics,
+                                 .collector = &sky.base, .from = &point};
             path_from_ray(&start, (Ray){point.position, towards, 0, INFINITY}, &rest);
             cd_m2[GUIDE_LIGHT] = rest.xyz[1];
-            guide_lesson_add(lesson, bin, cd_m2);
+            guide_training_add(own, bin, cd_m2);
         }
 }
 
-static void lesson_try_lights(const LessonJob *job, uint32_t cell, PathStatistics *statistics)
+static void train_try_lights(const TrainingJob *job, uint32_t cell, PathStatistics *statistics)
 {
     const GuideTraining *training = job->training;
     const PathContext   *context = job->context;
@@ -324,6 +324,6 @@ static void lesson_try_lights(const LessonJob *job, uint32_t cell, PathStatistic
 #endif
 extern const Kernel KERNEL_NAME;
 const Kernel KERNEL_NAME = {
-    KERNEL_ISA, tile_render, tile_find_displays, lesson_find_places, lesson_learn,
-    lesson_try_lights, probe_look, probe_trace, probe_ask_cells, probe_ask_suns,
+    KERNEL_ISA, tile_render, tile_find_displays, train_find_places, train_cell,
+    train_try_lights, probe_look, probe_trace, probe_ask_cells, probe_ask_suns,
     probe_ask_images};

@@ -317,7 +317,7 @@ int parhelion_panel_emission_spectrum(const ParhelionPanel *panel,
     return status;
 }
 
-/* A panel's lanes are worth a query and a half: kept while the same panel is asked. */
+/* A panel's lanes are worth a query and a half: kept while the same panel is queried. */
 typedef struct KeptLanes {
     const Panel *panel;
     PanelLanes   lanes;
@@ -331,7 +331,7 @@ static const PanelLanes *lanes_of(const Panel *panel, const Wavelengths *wavelen
     return &kept->lanes;
 }
 
-/* Panels at a place, the two directions and where they are asked. */
+/* Panels at a place, the two directions and where they are evaluated. */
 typedef struct BrdfQuestion {
     PanelMix mix;
     Vec3     wo, wi;

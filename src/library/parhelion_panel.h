@@ -15,7 +15,7 @@
  *          in sr^-1, the cosine not included; reflectances are shares of 1; angles in
  *          radians, wavelengths in nm. Codes are 0 to 255 a primary, fractions allowed, held
  *          in there.
- * Threads  no global state. An open panel is constant: any number of threads may ask it at
+ * Threads  no global state. An open panel is constant: any number of threads may query it at
  *          once; none may while another closes it.
  * Memory   arrays belong to the caller. All of a panel is freed by closing it. Opening takes
  *          address space for 4 GiB, or half of what the process may still take, and gives back
@@ -154,7 +154,7 @@ typedef struct ParhelionPanelQuestions {
     const float *light;       /* [count][3], the direction to the light */
     const float *code;        /* [count][3], red, green, blue */
     const float *random;      /* [count][3], in [0, 1) */
-    size_t       wavelengths; /* asked for, the same in all questions */
+    size_t       wavelengths; /* requested, the same in all questions */
     const float *nm;          /* [wavelengths], in any order */
 } ParhelionPanelQuestions;
 

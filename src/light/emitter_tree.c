@@ -59,7 +59,7 @@ typedef struct TreeWork {
     uint32_t        block_count;
     uint32_t       *order; /* of blocks */
     float         (*part_centre)[3];
-    const EmitterProfile **profile; /* of every part that is a display, once asked for */
+    const EmitterProfile **profile; /* of every part that is a display, once requested */
 } TreeWork;
 
 /* Branches of one node while they are made. */

@@ -66,16 +66,16 @@ typedef struct LightSample {
     float    distance; /* m, to the light; INFINITY for sun, sky and directional lights */
     float    pdf;      /* sr^-1; 1 for delta lights */
     bool     is_delta; /* a BSDF sample can never hit it */
-    bool     is_emitter; /* of a triangle: */
+    bool     is_emitter; /* of a triangle; else triangle .. point are unset */
     uint32_t triangle;
-    float    u, v;     /* which point of it: barycentric weights of vertices 1 and 2, */
-    TrianglePoint point; /* and what is known of that */
+    float    u, v;     /* barycentric weights of the triangle's vertices 1 and 2 */
+    TrianglePoint point; /* the geometry at u, v */
     Vec2     at;       /* of the sky: where in its picture */
-    int      light_id; /* of a punctual light: which, */
-    float    scale;    /* and lx per unit of its intensity, over its probability */
+    int      light_id; /* of a punctual light: which */
+    float    scale;    /* of a punctual light: lx per unit of its intensity, over its prob */
 } LightSample;
 
-/* The ray that tells whether a sample arrives at a place where a ray may start (ray_ends.h). It
+/* The ray that shows whether a sample arrives at a place where a ray may start (ray_ends.h). It
  * ends just before a triangle; before a lamp without a body, which may stand in a surface, by a
  * ten thousandth of its distance. */
 Ray lights_ray(Vec3 from, const LightSample *sample);
@@ -92,7 +92,7 @@ bool lights_sample_known(const Lights *lights, const PunctualKnown *known, LitPo
  * 0. */
 void lights_sky_towards(const Lights *lights, Vec3 direction, Vec3 ns, LightSample *sample);
 
-/* Radiance of a sample, to be asked once it is known to arrive: most are in shadow. */
+/* Radiance of a sample, to be evaluated once it is known to arrive: most are in shadow. */
 Spectrum lights_radiance(const Lights *lights, const LightSample *sample,
                          const Wavelengths *wavelengths);
 

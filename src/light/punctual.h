@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* punctual.h -- lamps without a surface that a ray could hit: chosen by what they give a point.
  *
- * A few lamps are all asked what they give. Many lie in a tree whose nodes have up to 16
+ * A few lamps are all evaluated. Many lie in a tree whose nodes have up to 16
  * branches: a branch is chosen by about what its lamps give together (their intensity in that
- * direction over the squared distance, times the cosine), down to a few that are asked. Where
- * it is known which lamps light a place, most choices are among these, each weighed by the
- * share of its light that arrives. The rest are chosen as if nothing were known; known lamps
- * that they find count nothing, so every lamp is found in one way only.
+ * direction over the squared distance, times the cosine), down to a few that are evaluated.
+ * Where it is known which lamps light a place, most choices are among these, each weighed by
+ * the share of its light that arrives. The rest are chosen as if nothing were known; known
+ * lamps that they find count nothing, so every lamp is found in one way only.
  *
  * Threads  const after punctual_build (punctual_build.h).
  */
@@ -16,7 +16,7 @@
 #include "spectrum/spectrum.h"
 
 #define PUNCTUAL_PROFILE_SIDE 17
-#define PUNCTUAL_FEW 8 /* lamps that are all asked */
+#define PUNCTUAL_FEW 8 /* lamps that are all evaluated */
 
 /* Intensity of a branch's lamps over all directions (world), relative to the largest of each,
  * added. Nodes over the octahedral map of the sphere. */
@@ -38,7 +38,7 @@ struct PunctualNode {
     const PunctualProfile *profile[PUNCTUAL_BRANCHES]; /* NULL: alike in all directions */
     int           first[PUNCTUAL_BRANCHES]; /* of its lamps in the order, */
     int           lamp_count[PUNCTUAL_BRANCHES];
-    PunctualNode *child[PUNCTUAL_BRANCHES]; /* NULL: all are asked */
+    PunctualNode *child[PUNCTUAL_BRANCHES]; /* NULL: all are evaluated */
 };
 
 typedef struct PunctualLights {

@@ -80,7 +80,7 @@ static void split(LampWork *work, LampGroup *g, LampGroup *rest)
 }
 
 /* Splits again and again the branch with the greatest product of power and extent, among those
- * with too many lamps to be asked one by one. */
+ * with too many lamps to be evaluated one by one. */
 static int split_all(LampWork *work, LampGroup branch[PUNCTUAL_BRANCHES], int count)
 {
     int start = count - 1; /* directional lights stay together, before it */

@@ -52,7 +52,7 @@ typedef struct SkySample {
 
 SkySample sky_seen(const Sky *sky, Vec3 direction, Vec3 ns, const Wavelengths *wavelengths);
 
-/* Chooses one by u in [0, 1)^2: all but its radiance, for which sky_radiance is asked once it
+/* Chooses one by u in [0, 1)^2: all but its radiance, which sky_radiance gives once it
  * is known to arrive. False: nothing there. */
 bool sky_choose(const Sky *sky, Vec3 ns, const float u[2], SkySample *sample);
 

@@ -103,7 +103,7 @@ bool sky_model_build(const Environment *environment, float turn, Arena *arena,
     return true;
 }
 
-/* ---- asking ----------------------------------------------------------------------------- */
+/* ---- queries ---------------------------------------------------------------------------- */
 
 /* The largest i with value[i] <= x, 0 <= i < count. */
 static int interval(const float *value, int count, float x)

@@ -23,7 +23,7 @@ typedef struct ViewerAddress {
 
 /* HOST or HOST:PORT as a user types it: HOST is a name, an IPv4 address or an IPv6 address in
  * brackets; PORT is 1 to 65535. Fails with ERROR_USAGE, what is wrong in the text and what is
- * wanted; whether a name is one of a machine is not asked here. */
+ * required; whether a name is one of a machine is not checked here. */
 bool viewer_address_parse(const char *text, ViewerAddress *out, Error *err);
 
 #define VIEWER_PATIENCE_S 3.0

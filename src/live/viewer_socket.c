@@ -94,7 +94,7 @@ static bool start_lookup(const char *host, const char *port, NameLookup **out,
     return true;
 }
 
-/* A resolver may take minutes: it is asked beside, and left when the patience ends. */
+/* A resolver may take minutes: it runs beside, and is left when the patience ends. */
 static bool find_host(const char *host, const char *port, double *patience_s,
                       NameLookup **out, Error *err)
 {

@@ -36,7 +36,7 @@ typedef struct DisplayPart {
     double scatter[3]; /* of R, G, B; NaN below two samples */
     double spread;     /* NaN below two samples */
     bool   is_shared;  /* with another display: the other display.* layers are of both */
-    bool   is_unknown; /* shared with several: no part is told */
+    bool   is_unknown; /* shared with several: no part is reported */
 } DisplayPart;
 
 DisplayPart display_part(const DisplayLayers *layers, size_t i, int id);
@@ -51,5 +51,5 @@ FrameImage display_part_frame(const FrameImage *frame, const DisplayLayers *laye
 typedef enum RimCount {
     RIM_BY_COVERAGE, /* by their part */
     RIM_LEFT_OUT,    /* pixels that show nothing else count alone */
-    RIM_WHOLE        /* with what is around; and wherever no display was asked for */
+    RIM_WHOLE        /* with what is around; and wherever no display was requested */
 } RimCount;

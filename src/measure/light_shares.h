@@ -22,7 +22,7 @@ typedef struct LightShares {
 } LightShares;
 
 /* For a request that measure_frame answers, over the pixels that it takes; of a display only
- * over those that show nothing else, as far as the frame tells (display.coverage). luminance:
+ * over those that show nothing else, as far as the frame shows (display.coverage). luminance:
  * the answer's, cd m^-2, to which what the groups give adds up. */
 LightShares light_shares_measure(const FrameImage *frame, const MeasureRequest *request,
                                  double luminance, Arena *arena);

@@ -59,7 +59,7 @@ typedef struct PixelShare {
     double      area;        /* 1, or a display's coverage */
     double      rgb[3], luminance; /* means over it */
     double      variance[3]; /* of area times rgb; NaN: not known */
-    DisplayPart own;         /* of the display that is wanted, or else of the pixel's */
+    DisplayPart own;         /* of the display that is measured, or else of the pixel's */
 } PixelShare;
 
 static DisplayPart part_at(const RegionPlanes *planes, size_t i)
@@ -153,7 +153,7 @@ static bool is_known_twice(const RegionPlanes *planes, size_t i)
            isfinite(luminance_at(&planes->display_halves, i));
 }
 
-/* What a display shows is spread by its samples better than two halves of them can tell. But
+/* What a display shows is spread by its samples better than its two halves can estimate. But
  * display.fine is the same by rays of other points, up to eight times as many: the distance of
  * the two has the samples' noise, and that of those rays, which is smaller. */
 static void add_known_twice(const RegionPlanes *planes, size_t i, PixelNoise *to)
@@ -211,7 +211,7 @@ static double missing_by(const PixelNoise *noise)
 }
 
 /* The rule of estimates (estimate/estimate.h) where pixels stand for batches. But a pixel has
- * two halves alone, whose difference is as often above 0 as below: it tells no skewness, and so
+ * two halves alone, whose difference is as often above 0 as below: it shows no skewness, and so
  * the interval is Student's as it is, of as many degrees of freedom as pixels count. Of all
  * light bright samples are looked for among that many pixels only: in one or two all noise
  * would be taken for a single sample. */

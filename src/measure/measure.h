@@ -15,16 +15,16 @@
  *          its contrast, too. A contrast falls as the reflected light rises: its interval goes
  *          from the one end of that light's to the other. The upper ends of that light and,
  *          from 16 pixels on, of the luminance have what few bright samples may have left out
- *          (confidence.h), as all estimates do (estimate/estimate.h); halves tell no skewness.
+ *          (confidence.h), as all estimates do (estimate/estimate.h); halves show no skewness.
  *          No interval of a display's luminance and colour is narrower than what channels in
  *          single precision leave, 1e-6 of the value.
  * Displays are measured by coverage (display_part.h): a pixel at the rim counts by its part,
  *          and with the display's own light, wherever the frame has the layers of it. Of frames
- *          that have not, rims are left out where display.coverage tells them; else pixels
+ *          that have not, rims are left out where display.coverage shows them; else pixels
  *          count whole, and have the light of what is around.
  * Pixels   outside a fisheye's circle are none.
  * Threads  pure functions.
- * Fails    when the frame lacks what is asked for: the text names what to render again.
+ * Fails    when the frame lacks what is requested: the text names what to render again.
  */
 #pragma once
 #include "image/content_contrast.h"
@@ -53,7 +53,7 @@ typedef struct FrameMeasurement {
     bool     has_contrast; /* some of the pixels show a display and the layers are there */
     long     display_pixels;
     double   white, black, reflected; /* means over the display's parts of pixels, cd m^-2 */
-    double   mirror;   /* of the reflected, by way of the panel's mirror; NaN: not known */
+    double   mirror;   /* of the reflected, via the panel's mirror; NaN: not known */
     double   lambertian; /* and what its lambertian part scattered; NaN: not known */
     double   extrapolated_shown, extrapolated_reflected; /* shares of what is shown and of what
                                 is reflected, by directions that were not measured; NaN: not
@@ -62,7 +62,7 @@ typedef struct FrameMeasurement {
     bool     has_errors; /* what the display shows is in the frame: */
     double   shown;      /* cd m^-2 */
     Measured luminance_error, colour_error; /* of what is seen against what is shown */
-    bool     has_content; /* a region or a display was asked for */
+    bool     has_content; /* a region or a display was requested */
     ContentContrast content; /* of what is shown there: characters on their ground */
 } FrameMeasurement;
 

@@ -3,7 +3,7 @@
  *
  * Memory   views of the frame; what is converted is the arena's.
  * Threads  pure functions.
- * Fails    when the frame lacks what is asked for: the text names what to render again.
+ * Fails    when the frame lacks what is requested: the text names what to render again.
  */
 #pragma once
 #include "image/layer_view.h"

@@ -47,7 +47,7 @@ float mirrors_rough_alpha(const Material *m)
     return reflects && is_plain && !is_smooth(alpha) && alpha <= GLINT_ALPHA ? alpha : 0;
 }
 
-/* ---- asking ----------------------------------------------------------------------------- */
+/* ---- queries ---------------------------------------------------------------------------- */
 
 int mirrors_compare_pairs(const void *a, const void *b)
 {

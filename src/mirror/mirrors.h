@@ -4,7 +4,7 @@
  * A mirror is a triangle whose material sends part of the light on by a smooth boundary about
  * the interpolated normal: glass, lacquer, polished metal, the glass of displays. Surfaces bent
  * by a normal map, or smooth only where a texture makes them so, are none. Which mirrors are
- * asked for which part of the scene is the caller's choice. They stand in trees.
+ * searched for which part of the scene is the caller's choice. They stand in trees.
  *
  * Memory   from the arena.  Threads  const after mirrors_build.  Fails  never.
  */
@@ -18,8 +18,8 @@
 #define MIRROR_PLANES 4
 #define MIRROR_NO_TREE UINT32_MAX
 
-/* A mirror that points of a part ask for; part_id may be NO_ID: points of no part. Its smooth
- * boundary and its rough one are asked for separately. */
+/* A mirror that points of a part search; part_id may be NO_ID: points of no part. Its smooth
+ * boundary and its rough one are searched separately. */
 typedef struct MirrorPair {
     int      part_id;
     bool     is_rough;
@@ -31,7 +31,7 @@ typedef struct MirrorPatch {
     MirrorTriangle corners;
     Vec2           uv[3]; /* of the corners in the triangle */
     uint32_t       id;    /* of the triangle, in Scene.triangles */
-    float          alpha; /* GGX, of its facets; 0: none that are asked */
+    float          alpha; /* GGX, of its facets; 0: none that are searched */
 } MirrorPatch;
 
 typedef struct MirrorNode {
@@ -61,7 +61,8 @@ static inline int mirror_root(int part_id, bool is_rough)
 /* Can the material's triangles be smooth mirrors? */
 bool mirrors_can_be(const Scene *scene, const Material *material);
 
-/* GGX alpha of rough mirrors that are worth asking (GLINT_ALPHA at most); 0: these are none. */
+/* GGX alpha of rough mirrors that are worth sampling (GLINT_ALPHA at most); 0: these are
+ * none. */
 float mirrors_rough_alpha(const Material *material);
 
 /* The order in which pairs stand: negative, zero or positive, for qsort. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* page.h -- one self-contained HTML page: what all reports have in common.
  *
- * A page is a template over values (template.h). It opens anywhere: it asks no network, holds
+ * A page is a template over values (template.h). It opens anywhere: it uses no network, holds
  * its pictures, is light or dark as the reader has it, can be printed, and shows everything
  * without script. page.css names the classes that all pages share.
  *
@@ -23,7 +23,8 @@ typedef struct PageHead {
     const char *title;     /* of the window */
     const char *command;   /* that made the page */
     bool        is_dark;   /* for every reader */
-    int         renewed_s; /* the file is written anew: it is asked for after so long; 0: not */
+    int         renewed_s; /* the file is written anew: the page reloads it after so long; 0:
+                              not */
 } PageHead;
 
 /* The file of a firm's own style, behind that of every page: CSS. */

@@ -14,7 +14,7 @@
  *   <link rel="stylesheet" href="x.css">, <script src="x.js"></script> on a line of its own:
  *                     that file as it stands, so that a page needs nothing beside it
  *
- * Escaped is as the file's kind wants it: .html and .xml as markup, .csv as a cell (RFC 4180).
+ * Escaped is as the file's kind requires: .html and .xml as markup, .csv as a cell (RFC 4180).
  * Names are looked up from the innermost section outwards. Comments, spaces at the start of a
  * line (of HTML), and lines that hold nothing but one of these stay behind: templates are
  * indented, and read well in a browser as they lie there. There is no other logic.

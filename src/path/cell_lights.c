@@ -79,7 +79,7 @@ GuideLamps cell_lamps_keep(const LampFinds *finds, int lamp_count)
 
 /* ---- sets of lights ---------------------------------------------------------------------- */
 
-/* A set whose samples' root mean square is a fifth of all light is always asked. */
+/* A set whose samples' root mean square is a fifth of all light is always sampled. */
 #define GENEROSITY 5.0
 #define LEAST 0.1f
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* cell_lights.h -- how often a guide's cells ask each set of lights, and which lamps.
+/* cell_lights.h -- how often a guide's cells sample each set of lights, and which lamps.
  *
  * Once a cell knows from where light comes, points of it are lit by one sample of every set, as
  * paths will be. What these find, less what chance finds as well, decides. Samples of lamps,
@@ -12,7 +12,7 @@
 #include "path/guiding.h"
 #include "sunlit/sunlit_way.h"
 
-#define LAMP_FINDS 16 /* lamps that a cell remembers while it learns */
+#define LAMP_FINDS 16 /* lamps that a cell remembers while it is trained */
 
 /* Sums over samples of one lamp, lx: of what it would give were nothing in the way, and of what
  * arrived. */

@@ -29,7 +29,7 @@ static void absorb_sample(const PathState *path, const Surface *surface,
 /* ---- shadow rays ------------------------------------------------------------------------- */
 
 /* A ray through the edge that two triangles share meets both: that is one sheet, not two. */
-static bool was_asked(ShadowRay *ray, const Hit *hit)
+static bool was_met(ShadowRay *ray, const Hit *hit)
 {
     const Scene *scene = ray->path->context->scene;
     for (int i = 0; i < ray->hit_count && i < SHADOW_HITS; i++)
@@ -44,7 +44,7 @@ static bool passes(void *user, const Hit *hit)
 {
     ShadowRay         *ray = user;
     const PathContext *context = ray->path->context;
-    if (was_asked(ray, hit)) return true;
+    if (was_met(ray, hit)) return true;
     ray->passed *= surface_pass(context->scene, context->tables, hit, ray->light->wi,
                                 ray->path->wavelengths);
     return !spectrum_is_zero(ray->passed);
@@ -107,7 +107,7 @@ bool direct_sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 wo)
  * a solid, mirrors bent by a normal map, rough ones above GLINT_ALPHA. */
 
 /* A lit position in air, and one direction of the sun. */
-typedef struct SunMirrorQuestion {
+typedef struct SunMirrorQuery {
     const Scene         *scene;
     const SurfaceTables *tables;
     const Wavelengths   *wavelengths;
@@ -115,7 +115,7 @@ typedef struct SunMirrorQuestion {
     LightSample          sun;
     Spectrum             radiance; /* of the sun there */
     bool                 is_rough; /* by facets of rough mirrors; else by smooth ones */
-} SunMirrorQuestion;
+} SunMirrorQuery;
 
 /* Squared: a normal that was bent towards the eye has moved by more. */
 #define UNBENT2 1e-8f
@@ -130,7 +130,7 @@ static bool is_plain(const Scene *scene, const Surface *mirror, Vec3 wo)
     return is_outside && vec3_dot(apart, apart) < UNBENT2;
 }
 
-/* Did the pair's part ask for the sun that a ray in air, which came along -wo, finds behind
+/* Did the pair's part sample the sun that a ray in air, which came along -wo, finds behind
  * this mirror? The pair's triangle is the mirror's. */
 static bool mirror_is_known(const Scene *scene, const Mirrors *mirrors, MirrorPair pair,
                             const Surface *mirror, Vec3 wo)
@@ -148,37 +148,37 @@ static bool mirror_is_known(const Scene *scene, const Mirrors *mirrors, MirrorPa
  * direction: radiance is kept but for what the mirror takes, and the density of directions is
  * that of the sun's divided by the spread. Facets of a rough mirror send f cos of the light on,
  * and their directions have the density of their slopes divided by the spread. */
-static bool mirror_at(const SunMirrorQuestion *question, const Hit *mirror, float spread,
+static bool mirror_at(const SunMirrorQuery *query, const Hit *mirror, float spread,
                       SunMirror *out)
 {
-    const Scene       *scene = question->scene;
-    const LightSample *sun = &question->sun;
+    const Scene       *scene = query->scene;
+    const LightSample *sun = &query->sun;
     TrianglePoint      place = triangle_point(scene, mirror->triangle, mirror->u, mirror->v);
-    Vec3     to = vec3_sub(place.position, question->from);
+    Vec3     to = vec3_sub(place.position, query->from);
     float    distance = vec3_length(to);
     Vec3     wi = vec3_scale(to, 1 / distance), wo = vec3_neg(wi);
     Hit      hit = {distance, mirror->u, mirror->v, mirror->triangle};
     Surface *surface = &out->surface;
     if (!(distance > 0)) return false;
-    surface_at(scene, question->tables, &hit, wo, question->wavelengths, surface);
+    surface_at(scene, query->tables, &hit, wo, query->wavelengths, surface);
     Vec3 local_wo = surface->local_wo;
     if (!(surface->alpha > 0) || !is_plain(scene, surface, wo) || !(local_wo.z > 0) ||
         !(vec3_dot(sun->wi, surface->frame.z) > 0) ||
         !(vec3_dot(wo, surface->ng) * vec3_dot(sun->wi, surface->ng) > 0))
         return false;
     Vec3 local_sun = frame_to_local(&surface->frame, sun->wi);
-    out->radiance = question->is_rough
+    out->radiance = query->is_rough
                         ? bsdf_glint(&surface->bsdf, local_wo, local_sun) *
                               spectrum_all(local_sun.z)
                         : bsdf_mirror(&surface->bsdf, local_wo);
-    out->radiance *= question->radiance *
+    out->radiance *= query->radiance *
                      spectrum_all(surface->alpha * spread / sun->pdf);
     out->light = (LightSample){.wi = wi, .distance = distance, .pdf = 1, .is_emitter = true,
                                .triangle = mirror->triangle, .point = place};
     return !spectrum_is_zero(out->radiance);
 }
 
-/* The rest of f = bsdf_eval at a rough mirror that was asked: left to sun samples and
+/* The rest of f = bsdf_eval at a rough mirror that was sampled: left to sun samples and
  * chance. */
 static Spectrum mirror_left(const Bsdf *mirror, Vec3 local_wo, Vec3 local_wi, Spectrum f)
 {
@@ -197,18 +197,18 @@ static Spectrum mirror_share(const Bsdf *mirror, Vec3 local_wo, const BsdfSample
 
 /* ---- light samples ----------------------------------------------------------------------- */
 
-static bool asks_mirrors(const PathContext *context)
+static bool samples_mirrors(const PathContext *context)
 {
     return context->beams.mirrors && context->strategy != PATH_BSDF_ONLY &&
            lights_has(context->lights, LIGHTS_SUN);
 }
 
-/* Did the vertex before ask for the sun in this mirror, smooth or rough? */
-static bool mirror_was_asked(const PathState *path, const Surface *surface, Vec3 wo,
-                             bool is_rough)
+/* Did the vertex before sample the sun in this mirror, smooth or rough? */
+static bool mirror_was_sampled(const PathState *path, const Surface *surface, Vec3 wo,
+                               bool is_rough)
 {
     MirrorPair pair = {path->last.part_id, is_rough, surface->triangle};
-    return asks_mirrors(path->context) && !path->last.is_delta && path->medium_id == NO_ID &&
+    return samples_mirrors(path->context) && !path->last.is_delta && path->medium_id == NO_ID &&
            mirror_is_known(path->context->scene, path->context->beams.mirrors, pair, surface,
                            wo);
 }
@@ -216,7 +216,7 @@ static bool mirror_was_asked(const PathState *path, const Surface *surface, Vec3
 Spectrum direct_sun_share(const PathState *path, const Surface *surface, Vec3 wo,
                    const BsdfSample *next)
 {
-    if (!(next->wi.z > 0) || !mirror_was_asked(path, surface, wo, !next->is_delta))
+    if (!(next->wi.z > 0) || !mirror_was_sampled(path, surface, wo, !next->is_delta))
         return spectrum_all(1);
     return mirror_share(&surface->bsdf, surface->local_wo, next);
 }
@@ -229,18 +229,18 @@ static int source_of(const PathState *path, const LightSample *light)
 }
 
 /* A light sample that a surface takes with probability `prob`. */
-typedef struct LightAsked {
+typedef struct TakenLight {
     LightSample light;
     Vec3        local_wi;
     float       prob;
-} LightAsked;
+} TakenLight;
 
 /* Adds a sample's light as the surface scatters it. */
 static void find_sample(PathState *path, const Surface *surface, Vec3 wo,
-                        const LightAsked *asked, const ShadowRay *ray, Spectrum radiance)
+                        const TakenLight *taken, const ShadowRay *ray, Spectrum radiance)
 {
-    const LightSample *light = &asked->light;
-    if (!collect_wants_sample(path)) {
+    const LightSample *light = &taken->light;
+    if (!collect_takes_sample(path)) {
         path->gathered.radiance += radiance;
         return;
     }
@@ -250,22 +250,22 @@ static void find_sample(PathState *path, const Surface *surface, Vec3 wo,
         .from = is_distant ? light->wi
                        : vec3_along(surface->position, light->wi, light->distance),
         .way = vec3_neg(light->wi), .radiance = radiance, .triangle = light->triangle,
-        .sr = light->is_delta ? 0 : 1 / (light->pdf * asked->prob),
+        .sr = light->is_delta ? 0 : 1 / (light->pdf * taken->prob),
         .point = light->set == LIGHTS_EMITTERS ? &light->point : NULL, .by = surface, .wo = wo,
-        .local_wi = asked->local_wi, .shadow = ray};
+        .local_wi = taken->local_wi, .shadow = ray};
     path_gather(path, &found);
 }
 
 /* Most samples end in shadow: radiance and BSDF are evaluated once the ray has arrived. */
 static void add_arriving(PathState *path, const Surface *surface, Vec3 wo,
                          const Guiding *guiding,
-                         LightAsked *asked)
+                         TakenLight *taken)
 {
     const PathContext *context = path->context;
-    LightSample *light = &asked->light;
+    LightSample *light = &taken->light;
     ShadowRay    ray;
-    Vec3     local_wo = surface->local_wo, local_wi = asked->local_wi;
-    float    prob = asked->prob;
+    Vec3     local_wo = surface->local_wo, local_wi = taken->local_wi;
+    float    prob = taken->prob;
     Spectrum passed = direct_visibility(path, surface, light, &ray);
     if (spectrum_is_zero(passed)) return;
     path->statistics->sky_finds += light->set == LIGHTS_SKY;
@@ -273,7 +273,7 @@ static void add_arriving(PathState *path, const Surface *surface, Vec3 wo,
     guiding_weigh_light(guiding, context->lights, emitted_lit_point(path, surface), light);
     float    bsdf_pdf;
     Spectrum f = bsdf_eval(&surface->bsdf, local_wo, local_wi, &bsdf_pdf);
-    if (light->set == LIGHTS_SUN && mirror_was_asked(path, surface, wo, true))
+    if (light->set == LIGHTS_SUN && mirror_was_sampled(path, surface, wo, true))
         f = mirror_left(&surface->bsdf, local_wo, local_wi, f);
     Spectrum share = path->throughput * f *
                      lights_radiance(context->lights, light, path->wavelengths) *
@@ -285,128 +285,128 @@ static void add_arriving(PathState *path, const Surface *surface, Vec3 wo,
         SunlitPair pair = emitted_pair(path, surface);
         share *= spectrum_all(emitted_chance(context, &pair, light->wi));
     }
-    find_sample(path, surface, wo, asked, &ray, share * passed);
+    find_sample(path, surface, wo, taken, &ray, share * passed);
 }
 
 void direct_add_sun(PathState *path, const Surface *surface, Vec3 wo, const LightSample *sun)
 {
     const PathContext *context = path->context;
-    LightAsked asked = {*sun, frame_to_local(&surface->frame, sun->wi), 1};
+    TakenLight taken = {*sun, frame_to_local(&surface->frame, sun->wi), 1};
     ShadowRay  ray;
     float      bsdf_pdf;
-    if (!direct_sides_agree(surface, asked.local_wi, sun->wi, wo) ||
-        !bsdf_reaches(&surface->bsdf, surface->local_wo, asked.local_wi))
+    if (!direct_sides_agree(surface, taken.local_wi, sun->wi, wo) ||
+        !bsdf_reaches(&surface->bsdf, surface->local_wo, taken.local_wi))
         return;
-    Spectrum passed = direct_visibility(path, surface, &asked.light, &ray);
+    Spectrum passed = direct_visibility(path, surface, &taken.light, &ray);
     if (spectrum_is_zero(passed)) return;
-    Spectrum f = bsdf_eval(&surface->bsdf, surface->local_wo, asked.local_wi, &bsdf_pdf);
-    if (mirror_was_asked(path, surface, wo, true))
-        f = mirror_left(&surface->bsdf, surface->local_wo, asked.local_wi, f);
-    find_sample(path, surface, wo, &asked, &ray,
+    Spectrum f = bsdf_eval(&surface->bsdf, surface->local_wo, taken.local_wi, &bsdf_pdf);
+    if (mirror_was_sampled(path, surface, wo, true))
+        f = mirror_left(&surface->bsdf, surface->local_wo, taken.local_wi, f);
+    find_sample(path, surface, wo, &taken, &ray,
                 path->throughput * f * passed *
                     lights_radiance(context->lights, sun, path->wavelengths) *
-                    spectrum_all(fabsf(asked.local_wi.z) / sun->pdf));
+                    spectrum_all(fabsf(taken.local_wi.z) / sun->pdf));
 }
 
 static void add_light_sample(PathState *path, const Surface *surface, Vec3 wo,
                              const Guiding *guiding, LightSet set)
 {
     const PathContext *context = path->context;
-    LightAsked   asked;
-    LightSample *light = &asked.light;
+    TakenLight   taken;
+    LightSample *light = &taken.light;
     float u[4];
-    asked.prob = guiding->asked[set] * guiding->often;
+    taken.prob = guiding->asked[set] * guiding->often;
     numbers_for(path, NUMBERS_LIGHTS + 2 * (int)set);
     sampler_4d(path->sampler, u);
-    if (!unit_choose(&u[0], asked.prob)) return;
+    if (!unit_choose(&u[0], taken.prob)) return;
     LitPoint point = emitted_lit_point(path, surface);
     if (!guiding_choose_light(guiding, context->lights, set, point, u, light)) return;
     if (!light->is_delta && context->strategy == PATH_BSDF_ONLY) return;
-    asked.local_wi = frame_to_local(&surface->frame, light->wi);
-    if (!direct_sides_agree(surface, asked.local_wi, light->wi, wo)) return;
-    if (!bsdf_reaches(&surface->bsdf, surface->local_wo, asked.local_wi)) return;
-    add_arriving(path, surface, wo, guiding, &asked);
+    taken.local_wi = frame_to_local(&surface->frame, light->wi);
+    if (!direct_sides_agree(surface, taken.local_wi, light->wi, wo)) return;
+    if (!bsdf_reaches(&surface->bsdf, surface->local_wo, taken.local_wi)) return;
+    add_arriving(path, surface, wo, guiding, &taken);
 }
 
-/* ---- the sun by way of one mirror -------------------------------------------------------- */
+/* ---- the sun via one mirror -------------------------------------------------------------- */
 
-/* A lit surface that asks its mirrors one by one. */
+/* A lit surface that samples its mirrors one by one. */
 typedef struct MirrorWalk {
     PathState        *path;
     const Surface    *surface;
     Vec3              wo;
-    SunMirrorQuestion question;
+    SunMirrorQuery    mirror_query;
 } MirrorWalk;
 
-/* The two shadow rays of light by way of a mirror. */
+/* The two shadow rays of light via a mirror. */
 typedef struct MirrorRays {
     ShadowRay to_mirror, to_sun;
 } MirrorRays;
 
-static void find_mirrored(const MirrorWalk *asked, const SunMirror *mirror, Vec3 local_wi,
+static void find_mirrored(const MirrorWalk *walk, const SunMirror *mirror, Vec3 local_wi,
                           const MirrorRays *rays, Spectrum radiance)
 {
-    PathState *path = asked->path;
-    Vec3       to_sun = asked->question.sun.wi;
-    if (!collect_wants_sample(path)) {
+    PathState *path = walk->path;
+    Vec3       to_sun = walk->mirror_query.sun.wi;
+    if (!collect_takes_sample(path)) {
         path->gathered.radiance += radiance;
         return;
     }
     PathFound found = {.set = LIGHTS_SUN, .from = to_sun, .is_distant = true,
-                       .way = vec3_neg(to_sun), .radiance = radiance, .by = asked->surface,
-                       .wo = asked->wo, .local_wi = local_wi, .shadow = &rays->to_mirror,
+                       .way = vec3_neg(to_sun), .radiance = radiance, .by = walk->surface,
+                       .wo = walk->wo, .local_wi = local_wi, .shadow = &rays->to_mirror,
                        .mirror = mirror, .beyond = &rays->to_sun,
-                       .by_rough = asked->question.is_rough};
+                       .by_rough = walk->mirror_query.is_rough};
     path_gather(path, &found);
 }
 
 static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoint *point)
 {
-    MirrorWalk    *asked = user;
-    const Surface *surface = asked->surface;
-    PathState     *path = asked->path;
+    MirrorWalk    *walk = user;
+    const Surface *surface = walk->surface;
+    PathState     *path = walk->path;
     MirrorRays     rays;
     SunMirror      mirror;
     Hit            place = {0, point->u, point->v, triangle};
     float          pdf;
-    if (!mirror_at(&asked->question, &place, point->spread, &mirror)) return;
+    if (!mirror_at(&walk->mirror_query, &place, point->spread, &mirror)) return;
     Vec3 local_wi = frame_to_local(&surface->frame, mirror.light.wi);
-    if (!direct_sides_agree(surface, local_wi, mirror.light.wi, asked->wo)) return;
+    if (!direct_sides_agree(surface, local_wi, mirror.light.wi, walk->wo)) return;
     Spectrum share = path->throughput * mirror.radiance *
                      bsdf_eval(&surface->bsdf, surface->local_wo, local_wi, &pdf) *
                      spectrum_all(fabsf(local_wi.z));
     if (spectrum_is_zero(share)) return;
-    share *= direct_visibility(path, &mirror.surface, &asked->question.sun, &rays.to_sun);
+    share *= direct_visibility(path, &mirror.surface, &walk->mirror_query.sun, &rays.to_sun);
     if (spectrum_is_zero(share)) return;
     share *= direct_visibility(path, surface, &mirror.light, &rays.to_mirror);
-    find_mirrored(asked, &mirror, local_wi, &rays, share);
+    find_mirrored(walk, &mirror, local_wi, &rays, share);
 }
 
 /* u: chooses the direction on the sun's disc. */
-static void ask_mirrors(PathState *path, const Surface *surface, Vec3 wo, const float u[4],
-                        float prob)
+static void sample_mirrors(PathState *path, const Surface *surface, Vec3 wo, const float u[4],
+                           float prob)
 {
     const PathContext *context = path->context;
-    MirrorWalk asked = {path, surface, wo,
-                        {.scene = context->scene, .tables = context->tables,
-                         .wavelengths = path->wavelengths, .from = surface->position}};
+    MirrorWalk walk = {path, surface, wo,
+                       {.scene = context->scene, .tables = context->tables,
+                        .wavelengths = path->wavelengths, .from = surface->position}};
     LitPoint     point = {surface->position, surface->frame.z, true}; /* from any side */
-    LightSample *sun = &asked.question.sun;
+    LightSample *sun = &walk.mirror_query.sun;
     if (!lights_sample(context->lights, LIGHTS_SUN, point, u, sun)) return;
-    asked.question.radiance = lights_radiance(context->lights, sun, path->wavelengths);
+    walk.mirror_query.radiance = lights_radiance(context->lights, sun, path->wavelengths);
     sun->pdf *= prob;
     MirrorQuery query = {surface->part_id, false, surface->position, sun->wi, {0, 0}};
-    mirrors_find(context->beams.mirrors, &query, add_mirrored_sun, &asked);
-    query.is_rough = asked.question.is_rough = true;
+    mirrors_find(context->beams.mirrors, &query, add_mirrored_sun, &walk);
+    query.is_rough = walk.mirror_query.is_rough = true;
     query.u = sampler_2d(path->sampler);
-    mirrors_find(context->beams.mirrors, &query, add_mirrored_sun, &asked);
+    mirrors_find(context->beams.mirrors, &query, add_mirrored_sun, &walk);
 }
 
-/* The mirror is one more vertex: none is asked where the path would end before it. */
+/* The mirror is one more vertex: none is sampled where the path would end before it. */
 static void add_mirrored_suns(PathState *path, const Surface *surface, Vec3 wo)
 {
     const PathContext *context = path->context;
-    if (!asks_mirrors(context) || path->medium_id != NO_ID ||
+    if (!samples_mirrors(context) || path->medium_id != NO_ID ||
         path->bounce + 1 >= context->max_bounces)
         return;
     float prob = mirror_beams_prob(&context->beams, surface->part_id,
@@ -416,7 +416,7 @@ static void add_mirrored_suns(PathState *path, const Surface *surface, Vec3 wo)
     float u[4];
     numbers_for(path, NUMBERS_MIRRORS);
     sampler_4d(path->sampler, u);
-    if (unit_choose(&u[0], prob)) ask_mirrors(path, surface, wo, u, prob);
+    if (unit_choose(&u[0], prob)) sample_mirrors(path, surface, wo, u, prob);
 }
 
 void direct_add(PathState *path, const Surface *surface, Vec3 wo, const Guiding *guiding)

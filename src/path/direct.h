@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* direct.h -- light that a vertex asks for: samples of every set of lights, and the sun by way
- * of the mirrors about. HOT.
+/* direct.h -- light that a vertex samples: every set of lights, and the sun via
+ * the mirrors about. HOT.
  */
 #pragma once
 #include "path/path_collector.h"
@@ -20,7 +20,7 @@ bool direct_sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 wo)
 Spectrum direct_visibility(PathState *path, const Surface *surface, const LightSample *light,
                     ShadowRay *ray);
 
-/* Share of the sun, if the path meets it by `next`, that the vertex before did not ask for. */
+/* Share of the sun, if the path meets it by `next`, that the vertex before did not sample. */
 Spectrum direct_sun_share(const PathState *path, const Surface *surface, Vec3 wo,
                    const BsdfSample *next);
 

@@ -3,7 +3,7 @@
  *
  * Where the surface scatters widely and there is a guide, a direction is the guide's choice
  * with the probability `mix`, else the surface's own: one-sample multiple importance sampling
- * (Veach 1997, 9.2.4). The guide's cell then decides how often each set of lights is asked,
+ * (Veach 1997, 9.2.4). The guide's cell then decides how often each set of lights is sampled,
  * too, and where the cell sees the sky: with the probability `sky_mix` a direction to the sky
  * is the guide's choice, else the sky's own.
  *
@@ -33,7 +33,7 @@ typedef struct Guiding {
 void guiding_at(const PathContext *context, const Surface *surface, Vec3 wo, int bounce,
                 Guiding *guiding);
 
-/* Guiding without a guide: lights are always asked. */
+/* Guiding without a guide: lights are always sampled. */
 void guiding_none(const PathContext *context, Guiding *guiding);
 
 /* Guiding at a white surface that faces ns, in a cell of the context's guide. */

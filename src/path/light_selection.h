@@ -2,9 +2,9 @@
 /* light_selection.h -- how often each set of lights is worth a sample, by parts of the scene.
  *
  * Before the first path a few points of every part are lit by every set, shadows included. A
- * set that gives a part little is then asked less often there, and counts more when it is: in
+ * set that gives a part little is then sampled less often there, and counts more when it is: in
  * the sun a display is a candle, at night it is all there is. Each side of a part has its own
- * numbers: the sky that lights the outside of a wall is no reason to ask for it inside.
+ * numbers: the sky that lights the outside of a wall is no reason to sample it inside.
  *
  * Memory   from the arena. Threads: const after light_selection_build.
  */

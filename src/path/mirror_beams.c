@@ -279,7 +279,7 @@ static void measure_sides(const Scene *scene, BeamSide *sides)
 
 /* With probability q an answer of the worth c adds c^2 / q to a pixel's variance, and takes q
  * times its time: the least of both together has q along c over the root of the time, and the
- * time grows about as the root of the mirrors asked. Measured over views of both cockpits the
+ * time grows about as the root of the mirrors sampled. Measured over views of both cockpits the
  * root of c does better than c, which is known by a few rays. */
 static void weigh_sides(const Beams *beams, const LightSelection *selection, BeamSide *sides,
                         Arena scratch)

@@ -20,7 +20,7 @@ typedef enum Step { STEP_ENDED, STEP_PASSED, STEP_SCATTERED } Step;
 /* ---- where it goes on -------------------------------------------------------------------- */
 
 /* Ends dim paths; what survives is made stronger, so that the mean stays (Arvo and Kirk 1990).
- * The square root spares the light that reaches shadows by way of dark leather. Measured over
+ * The square root spares the light that reaches shadows via dark leather. Measured over
  * both cockpits, a guided path is worth more than that: what it finds costs little beside the
  * vertices before it. */
 static bool roulette(PathState *path)
@@ -34,13 +34,13 @@ static bool roulette(PathState *path)
     return true;
 }
 
-/* Does light by way of the first surface count, however dark that is? */
+/* Does light via the first surface count, however dark that is? */
 static bool asks_the_first(const PathState *path, const Surface *surface)
 {
     return path->context->is_probe || surface_is_display(path->context->scene, surface);
 }
 
-/* At the first surface: what is found from now on came by way of a display's mirror. */
+/* At the first surface: what is found from now on came via a display's mirror. */
 static void note_mirror(PathState *path, const Surface *surface, const BsdfSample *next)
 {
     PathFirst *first = &path->first;

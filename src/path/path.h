@@ -2,7 +2,7 @@
 /* path.h -- light along one ray: the loop that everyone reads first.
  *
  * A path starts from a ray or from a point that is lit. Collectors (path_collector.h, collect/)
- * take from it what is wanted besides its light.
+ * take from it what is required besides its light.
  *
  * Units    spectral radiance in W m^-2 sr^-1 nm^-1 inside; the result is CIE XYZ in cd m^-2.
  * Threads  const context; one PathStatistics a thread.
@@ -24,7 +24,7 @@ typedef struct PathStart {
     const Wavelengths    *wavelengths;
     Sampler              *sampler;    /* behind the numbers that chose ray and wavelengths */
     PathStatistics       *statistics; /* added to */
-    struct PathCollector *collector;  /* NULL: the light alone is wanted */
+    struct PathCollector *collector;  /* NULL: the light alone is requested */
     PathManner            manner;
     const LitPoint       *from; /* the ray begins there, as if the point had scattered it, by a
                                    density of 1 per steradian; NULL: it comes to an eye */
@@ -38,12 +38,12 @@ typedef struct PathResult {
     Vec3     direction; /* of the ray there */
     Spectrum through;   /* share of its light that the panes before it let pass, per lane; */
     bool     through_is_grey; /* these treat all wavelengths alike */
-    float    mirror[3]; /* of xyz: what came by way of that surface's mirror, if it is a
+    float    mirror[3]; /* of xyz: what came via that surface's mirror, if it is a
                            display; else 0 */
 } PathResult;
 
 /* Radiance along `ray` as tristimulus values, and the first surface that the eye sees there.
- * out may be NULL, where only collectors want anything. */
+ * out may be NULL, where only collectors take results. */
 void path_from_ray(const PathStart *start, Ray ray, PathResult *out);
 
 /* Illuminance of a plane at the point, facing its normal, as tristimulus values in lx: what a

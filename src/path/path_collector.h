@@ -20,10 +20,10 @@ typedef struct ShadowRay {
     const LightSample *light;
     Spectrum passed;
     float    step;     /* by which it starts off its surface, m */
-    float    end;      /* m along it, to the emitter; */
-    float    rounding; /* uncertainty of that, m across the emitter's plane */
-    int      hit_count; /* sheets met; without room for all the last ones are kept: */
-    Hit      recent[SHADOW_HITS]; /* number i at i % SHADOW_HITS, in the ray tracer's order */
+    float    end;      /* m along it, to the emitter */
+    float    rounding; /* uncertainty of `end`, m across the emitter's plane */
+    int      hit_count; /* sheets met; may exceed SHADOW_HITS */
+    Hit      recent[SHADOW_HITS]; /* the last ones: number i at i % SHADOW_HITS; unordered */
 } ShadowRay;
 
 /* Sunlight by one point of a mirror. */
@@ -40,19 +40,19 @@ typedef struct PathFound {
     Vec3     from;      /* where it began, m, scene; is_distant: unit, towards it */
     bool     is_distant;
     Vec3     way;       /* unit: its direction where it left its source */
-    Spectrum radiance;  /* per lane, as it comes to the eye; of a display that counts by its
-                           measured XYZ instead: */
-    const float *xyz;   /* these; NULL: `radiance` counts */
-    float    share;     /* and the share of them */
+    Spectrum radiance;  /* per lane, as it comes to the eye; 0 where xyz is set */
+    const float *xyz;   /* of a display that counts by its measured XYZ; NULL: `radiance`
+                           counts */
+    float    share;     /* of xyz that counts */
     float    weight;    /* of an emitter that the path met itself: its MIS weight */
     float    sr;        /* that a light sample stands for; 0: the path met the light itself, or
                            it has no extent */
-    uint32_t             triangle; /* of an emitter; */
-    const TrianglePoint *point;    /* and the point there; NULL: no emitter */
+    uint32_t             triangle; /* of an emitter, where `point` is set */
+    const TrianglePoint *point;    /* on the emitter; NULL: no emitter */
     const Surface   *met; /* the emitter's surface, if the path met it itself; else NULL */
     const Surface   *by;  /* the surface that scatters a light sample towards wo; else NULL */
     Vec3             wo, local_wi;
-    const ShadowRay *shadow; /* from there to the light, or to the mirror */
+    const ShadowRay *shadow; /* from `by` to the light, or to the mirror */
     const SunMirror *mirror; /* NULL: it came directly */
     const ShadowRay *beyond; /* from the mirror to the sun */
     bool             by_rough; /* reflected by facets of a rough mirror */
@@ -198,7 +198,7 @@ static inline void collect_behind(PathState *path, const Surface *surface)
 }
 
 /* Has any collector a use for a light sample? */
-static inline bool collect_wants_sample(const PathState *path)
+static inline bool collect_takes_sample(const PathState *path)
 {
     for (const PathCollector *c = path->collector; c; c = c->next)
         if ((c->kind->steer.count || c->kind->on_light) &&

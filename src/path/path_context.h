@@ -29,7 +29,7 @@ typedef struct PathContext {
     const LightGuide    *guide; /* guides wide scattering; NULL: the surfaces alone decide */
     bool without_mirrored_sun; /* the sun in the mirror of a display that the eye sees is left
                                   out: the caller adds it */
-    bool is_probe; /* light by way of the first surface counts, however dark that is: roulette
+    bool is_probe; /* light via the first surface counts, however dark that is: roulette
                       compares with the throughput behind it; in a frame only behind displays */
     bool    has_subpixels; /* some display has: the frame's rays carry a footprint */
     RayCone cone; /* the frame's pixel: displays with sub-pixels show them to its rays where it

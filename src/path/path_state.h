@@ -85,12 +85,12 @@ typedef struct PathVertex {
     bool     is_delta;  /* no light sample could have found what comes now */
     bool     samples_map; /* where it could (sunlit.h) */
     SunlitPair before;  /* it and the vertex before it */
-    Spectrum sun_share; /* of the sun, if met next; the vertex before asked for the rest */
+    Spectrum sun_share; /* of the sun, if met next; the vertex before sampled the rest */
 } PathVertex;
 
 /* The first surface that an eye sees: windows passed and holes do not count. */
 typedef struct PathFirst {
-    bool     is_awaited; /* it is wanted, and not met yet */
+    bool     is_awaited; /* it is awaited, and not met yet */
     bool     is_met;
     Hit      hit;        /* t counted from the ray's origin */
     Vec3     direction;  /* of the ray there */
@@ -102,7 +102,7 @@ typedef struct PathFirst {
 
 /* Departures of a path from the plain one that gathers light. */
 typedef struct PathManner {
-    bool is_dark;   /* emission does not count: the path asks for distant light */
+    bool is_dark;   /* emission does not count: the path samples distant light */
     bool is_spared; /* no roulette ends it */
     bool has_sheets; /* thin sheets' own light is followed in every sample, not in some */
 } PathManner;
@@ -114,7 +114,7 @@ typedef struct PathState {
     const Wavelengths    *wavelengths;
     Sampler              *sampler;
     PathStatistics       *statistics;
-    struct PathCollector *collector; /* NULL: the light alone is wanted */
+    struct PathCollector *collector; /* NULL: the light alone is requested */
     PathManner manner;
     Ray        ray;
     Spectrum   throughput; /* of the path so far, per lane */

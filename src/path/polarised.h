@@ -5,7 +5,7 @@
  * parameters. Followed backwards from the eye these weights are a row, and every surface
  * multiplies it from the right by its Mueller matrix (adjoint transport); what an emitter sends
  * is a column. A row's first weight is the path's throughput; here are the others over it, per
- * lane. The eye's own row comes first; where Stokes parameters are asked for there are three
+ * lane. The eye's own row comes first; where Stokes parameters are requested there are three
  * more, of analysers, each with its first weight over that of the eye's.
  *
  * Axes     of light that travels along k: x = `axis`, y = k cross x; S1 > 0 along x, S2 > 0

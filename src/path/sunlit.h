@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* sunlit.h -- sunlight by way of one more surface, sampled from the sun's side. HOT.
+/* sunlit.h -- sunlight via one more surface, sampled from the sun's side. HOT.
  *
  * x is the surface that samples, y one that the sun lights. Chance finds the path x, y, sun by
  * a direction chosen at x; here y is where a ray of the map ends (sunlit/sunlit_way.h).

@@ -35,7 +35,7 @@ bool pane_image_start(const PathState *path, const Surface *surface, Vec3 wi, fl
     return !bvh_occluded(path->context->bvh, ray, sheets_let_pass, NULL);
 }
 
-/* Only the eye's own view through a pane is shifted: no light sample has asked for it. */
+/* Only the eye's own view through a pane is shifted: no light sample has found it. */
 static void start_behind_pane(PathState *path, const Surface *surface)
 {
     Vec3  way = path->ray.direction;

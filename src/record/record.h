@@ -116,7 +116,7 @@ struct RecordFormat {
                                   A number's default that is NaN means that it has none */
     bool (*check)(const JsonView *view, void *item, Error *err); /* NULL: rows say all. View: of
                                   the object; of what is none, of the list or map about it */
-    const char *rules; /* what `check` wants, as members of a JSON Schema (' as in a
+    const char *rules; /* what `check` requires, as members of a JSON Schema (' as in a
                           row); NULL: nothing */
     const char *doc;
     bool takes_more;        /* keys of a later version are passed over */

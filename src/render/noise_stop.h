@@ -17,7 +17,7 @@
  *          be by more samples of the former. Spread over all pixels of the area, the noise of
  *          those that count as rare, or of the frame's spikes (film.h) if that is more, makes
  *          the error that there may be. If it is more than NOISE_DOUBT times the measured one
- *          (and chance), the latter is not known yet. What no sample met cannot be told.
+ *          (and chance), the latter is not known yet. What no sample met cannot be reported.
  *
  * The number follows from scene, view, seed and first sample alone: a run that goes on from a
  * checkpoint finds it again. These samples and rays are in no count of the frame's.

@@ -21,7 +21,7 @@ typedef struct PilotBand {
     const Pilot  *pilot;
     FilmRect      rect;
     TileJob       job;
-    WorkerCounts *counts; /* the kernel's, which nobody reads: only frames' rays are told */
+    WorkerCounts *counts; /* the kernel's, which nobody reads: only frames' rays are reported */
 } PilotBand;
 
 static size_t pixels_of(FilmRect rect)

@@ -10,7 +10,7 @@
  * Memory   film and lights come from the arena; Embree's memory is gone on return.
  * Threads  starts `threads` of its own for every pass.
  * Signals  from the first pass to the end of the process INT and TERM stop after the pass in
- *          hand, and USR1 asks for a snapshot (signals.h).
+ *          hand, and USR1 requests a snapshot (signals.h).
  */
 #pragma once
 #include "base/progress.h"
@@ -35,13 +35,13 @@ typedef struct RenderOptions {
     FilmArea noise_area;       /* whose error decides */
     const FilmArea *favoured;  /* only its pixels take all samples (favour.h); NULL: all do */
     bool     favours_noise;    /* pixels take samples as a pilot found noise (pilot.h) */
-    bool     no_guiding;       /* does not learn first where light comes from */
-    const char *field;         /* what was learnt: read from this file if it is there, else kept
-                                  there; NULL: neither */
+    bool     no_guiding;       /* does not first train a guide of where light comes from */
+    const char *field;         /* the trained guide: read from this file if it is there, else
+                                  kept there; NULL: neither */
     int      max_bounces;      /* 0: emission only, 1: plus direct light */
     const PolarisedEye *eye;   /* how light is polarised counts for it (its directions are
                                   replaced by the camera's); NULL: unpolarised */
-    bool     no_mirrors;       /* sunlight by way of mirrors is left to chance */
+    bool     no_mirrors;       /* sunlight via mirrors is left to chance */
     unsigned layers;           /* FilmLayer bits; */
     const LightGroups *lights; /* of LAYER_LIGHT; NULL: none */
     int      threads;          /* at least 1 */
@@ -78,7 +78,7 @@ struct RenderResult {
     bool           has_features; /* the samples' first surfaces were looked at */
     double         seconds;    /* of rendering alone, over all sessions */
     double         build_seconds; /* of the ray tracer's and the lights' structures, now */
-    uint64_t       field_hash;    /* of what was learnt; 0: nothing */
+    uint64_t       field_hash;    /* of the guide; 0: none */
     double         training_seconds; /* that it took now */
     uint64_t       training_paths;
     double         build_peak_bytes; /* the most memory of the process until they stood */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* signals.h -- what the user or the batch system asks of a running render.
+/* signals.h -- what the user or the batch system requests of a running render.
  *
- * The first INT, TERM or HUP asks it to stop after the pass in hand (a review: at once); a
+ * The first INT, TERM or HUP stops it after the pass in hand (a review: at once); a
  * second one ends the
  * process at once with status 130, 143 or 129. A HUP that was ignored when the process began
- * (nohup) stays ignored. USR1 asks for a snapshot.
+ * (nohup) stays ignored. USR1 requests a snapshot.
  *
  * Threads  a handler may run in any thread: it only stores numbers. These are the only mutable
  *          variables of the program that are not on a stack or in an arena: a signal handler
@@ -16,10 +16,10 @@
 /* From now on; earlier requests are forgotten. */
 void signals_watch(void);
 
-/* 0, or the number of the signal (SIGINT, SIGTERM, SIGHUP) that asks to stop. */
+/* 0, or the number of the signal (SIGINT, SIGTERM, SIGHUP) that requests a stop. */
 int signals_stop_requested(void);
 
-/* For `return signals_stopped(err)`, where one asked: false without an error. */
+/* For `return signals_stopped(err)`, where one did: false without an error. */
 bool signals_stopped(Error *err);
 
 /* "INT", "TERM" or "HUP", for messages. */

@@ -13,34 +13,34 @@
 #define ROUNDS 2
 #define SEED 0x67756964u  /* not a frame's own samples */
 
-typedef struct Lesson {
+typedef struct TrainingRun {
     const Kernel *kernel;
-    LessonJob     job;
+    TrainingJob   job;
     GuideTraining *training;
     FilmRect      raster;
     WorkerCounts *counts;
     double       *light; /* of each cell, lx */
     bool          stops_at_once;
-} Lesson;
+} TrainingRun;
 
-static bool is_stopped(const Lesson *lesson)
+static bool is_stopped(const TrainingRun *run)
 {
-    return lesson->stops_at_once && signals_stop_requested();
+    return run->stops_at_once && signals_stop_requested();
 }
 
 static void find_places(void *context, int item, int worker)
 {
-    Lesson *lesson = context;
-    if (is_stopped(lesson)) return;
-    lesson->kernel->find_places(&lesson->job, render_tile(lesson->raster, item),
-                                &lesson->counts[worker].statistics);
+    TrainingRun *run = context;
+    if (is_stopped(run)) return;
+    run->kernel->find_places(&run->job, render_tile(run->raster, item),
+                             &run->counts[worker].statistics);
 }
 
-static void learn_cell(void *context, int item, int worker)
+static void trace_cell(void *context, int item, int worker)
 {
-    Lesson *lesson = context;
-    if (is_stopped(lesson)) return;
-    lesson->kernel->learn(&lesson->job, (uint32_t)item, &lesson->counts[worker].statistics);
+    TrainingRun *run = context;
+    if (is_stopped(run)) return;
+    run->kernel->train(&run->job, (uint32_t)item, &run->counts[worker].statistics);
 }
 
 /* The raster keeps the frame's shape. */
@@ -52,14 +52,14 @@ static FilmRect raster_of(const Camera *camera)
                       (int)ceil(camera->height * scale)};
 }
 
-static GuidePlace *all_places(const Lesson *lesson, Arena *arena, uint32_t *count)
+static GuidePlace *all_places(const TrainingRun *run, Arena *arena, uint32_t *count)
 {
-    size_t      steps = (size_t)lesson->raster.x1 * (size_t)lesson->raster.y1;
+    size_t      steps = (size_t)run->raster.x1 * (size_t)run->raster.y1;
     GuidePlace *places = ARENA_NEW(arena, GuidePlace, steps * PATH_PLACES_MAX);
     *count = 0;
     for (size_t i = 0; i < steps; i++)
-        for (int k = 0; k < lesson->job.places[i].count; k++) {
-            const LitPoint *place = &lesson->job.places[i].place[k];
+        for (int k = 0; k < run->job.places[i].count; k++) {
+            const LitPoint *place = &run->job.places[i].place[k];
             places[(*count)++] = (GuidePlace){place->position, place->ns};
         }
     return places;
@@ -68,16 +68,15 @@ static GuidePlace *all_places(const Lesson *lesson, Arena *arena, uint32_t *coun
 static void keep_cell(void *context, int item, int worker)
 {
     (void)worker;
-    Lesson *lesson = context;
-    guide_training_learn(lesson->training, (uint32_t)item);
+    TrainingRun *run = context;
+    guide_training_update(run->training, (uint32_t)item);
 }
 
 static void try_lights(void *context, int item, int worker)
 {
-    Lesson *lesson = context;
-    if (is_stopped(lesson)) return;
-    lesson->kernel->try_lights(&lesson->job, (uint32_t)item,
-                               &lesson->counts[worker].statistics);
+    TrainingRun *run = context;
+    if (is_stopped(run)) return;
+    run->kernel->try_lights(&run->job, (uint32_t)item, &run->counts[worker].statistics);
 }
 
 #define NEIGHBOURS 4 /* on either side in the tree's order */
@@ -105,57 +104,57 @@ static LightFinds with_neighbours(const LightFinds *finds, int cell, int cells)
     return own;
 }
 
-/* Illuminance of a cell's points, lx, by what lessons and light samples found. */
+/* Illuminance of a cell's points, lx, by what training passes and light samples found. */
 static void find_light(void *context, int cell, int worker)
 {
     (void)worker;
-    Lesson           *lesson = context;
-    const LightFinds *finds = &lesson->job.finds[cell];
-    double total = guide_training_illuminance(lesson->job.training, (uint32_t)cell);
+    TrainingRun      *run = context;
+    const LightFinds *finds = &run->job.finds[cell];
+    double total = guide_training_illuminance(run->job.training, (uint32_t)cell);
     for (int set = 0; set < LIGHT_SETS; set++)
         total += finds->points > 0 ? finds->sum[set] / finds->points : 0;
-    lesson->light[cell] = total;
+    run->light[cell] = total;
 }
 
-/* The median of the cell's and its neighbours': a lesson that met a small patch of sun by
- * chance makes one cell a hundred times too bright. */
-static double usual_light(const Lesson *lesson, int cell)
+/* The median of the cell's and its neighbours': a training pass that met a small patch of sun
+ * by chance makes one cell a hundred times too bright. */
+static double usual_light(const TrainingRun *run, int cell)
 {
     double value[2 * NEIGHBOURS + 1];
-    int    count = 0, cells = (int)lesson->training->guide.cell_count;
+    int    count = 0, cells = (int)run->training->guide.cell_count;
     for (int i = cell - NEIGHBOURS; i <= cell + NEIGHBOURS; i++)
-        if (i >= 0 && i < cells) value[count++] = lesson->light[i];
+        if (i >= 0 && i < cells) value[count++] = run->light[i];
     return sort_median(value, count);
 }
 
 static void weigh_cell(void *context, int item, int worker)
 {
     (void)worker;
-    Lesson       *lesson = context;
-    const Lights *lights = lesson->job.context->lights;
-    const LightFinds *finds = lesson->job.finds;
-    LightGuide   *guide = &lesson->training->guide;
+    TrainingRun  *run = context;
+    const Lights *lights = run->job.context->lights;
+    const LightFinds *finds = run->job.finds;
+    LightGuide   *guide = &run->training->guide;
     LightFinds    found = with_neighbours(finds, item, (int)guide->cell_count);
-    CellLight light = {lesson->light[item], usual_light(lesson, item)};
+    CellLight light = {run->light[item], usual_light(run, item)};
     guide->cells[item].lamps = cell_lamps_keep(&found.lamps, lights_lamp_count(lights));
-    cell_lights_weigh(lesson->job.context, &found, light, guide->cells[item].asked);
+    cell_lights_weigh(run->job.context, &found, light, guide->cells[item].asked);
 }
 
-static Lesson lesson_start(const Camera *camera, const TrainOptions *options, Arena *arena)
+static TrainingRun run_start(const Camera *camera, const TrainOptions *options, Arena *arena)
 {
-    FilmRect raster = raster_of(camera);
-    Lesson   lesson = {.kernel = options->kernel, .raster = raster,
+    FilmRect    raster = raster_of(camera);
+    TrainingRun run = {.kernel = options->kernel, .raster = raster,
                        .counts = ARENA_NEW(arena, WorkerCounts, options->threads),
                        .stops_at_once = options->stops_at_once};
-    lesson.job = (LessonJob){
+    run.job = (TrainingJob){
         .camera = camera, .seed = SEED, .columns = raster.x1,
         .stretch = {(float)camera->width / (float)raster.x1,
                     (float)camera->height / (float)raster.y1},
         .places = ARENA_NEW(arena, PathPlaces, (size_t)raster.x1 * (size_t)raster.y1)};
-    return lesson;
+    return run;
 }
 
-/* Places of a cell, at most: a small frame is worth a short lesson. */
+/* Places of a cell, at most: a small frame is worth a short training pass. */
 static uint32_t places_a_cell(const Camera *camera, uint32_t places)
 {
     double pixels = (double)camera->width * (double)camera->height;
@@ -177,31 +176,31 @@ const LightGuide *train_guide(const PathContext *context, const Camera *camera,
     GuideNode   leaf = {0};
     LightGuide  nobody = {.nodes = &leaf, .cells = ARENA_NEW(arena, GuideCell, 1)};
     PathContext trainee = *context;
-    Lesson      lesson = lesson_start(camera, options, arena);
+    TrainingRun run = run_start(camera, options, arena);
     uint32_t    count;
     trainee.guide = &nobody;
-    lesson.job.context = &trainee;
-    parallel_for(options->threads, render_tile_count(lesson.raster), find_places, &lesson);
+    run.job.context = &trainee;
+    parallel_for(options->threads, render_tile_count(run.raster), find_places, &run);
     *cost = (PathStatistics){0};
-    if (is_stopped(&lesson)) return NULL;
-    GuidePlace *places = all_places(&lesson, arena, &count);
+    if (is_stopped(&run)) return NULL;
+    GuidePlace *places = all_places(&run, arena, &count);
     GuideTraining *training = guide_training_start(
         places, count, places_a_cell(camera, count), arena);
     LightGuide    *guide = &training->guide;
-    lesson.job.training = lesson.training = training;
-    lesson.job.finds = ARENA_NEW(arena, LightFinds, guide->cell_count);
+    run.job.training = run.training = training;
+    run.job.finds = ARENA_NEW(arena, LightFinds, guide->cell_count);
     trainee.guide = guide;
     for (int round = 0; round < ROUNDS; round++) {
-        lesson.job.index = (uint32_t)round * GUIDE_POINTS;
-        guide_training_ask(training, round);
-        parallel_for(options->threads, (int)guide->cell_count, learn_cell, &lesson);
-        parallel_for(options->threads, (int)guide->cell_count, keep_cell, &lesson);
+        run.job.index = (uint32_t)round * GUIDE_POINTS;
+        guide_training_choose(training, round);
+        parallel_for(options->threads, (int)guide->cell_count, trace_cell, &run);
+        parallel_for(options->threads, (int)guide->cell_count, keep_cell, &run);
     }
-    parallel_for(options->threads, (int)guide->cell_count, try_lights, &lesson);
-    lesson.light = ARENA_NEW(arena, double, guide->cell_count);
-    parallel_for(options->threads, (int)guide->cell_count, find_light, &lesson);
-    parallel_for(options->threads, (int)guide->cell_count, weigh_cell, &lesson);
+    parallel_for(options->threads, (int)guide->cell_count, try_lights, &run);
+    run.light = ARENA_NEW(arena, double, guide->cell_count);
+    parallel_for(options->threads, (int)guide->cell_count, find_light, &run);
+    parallel_for(options->threads, (int)guide->cell_count, weigh_cell, &run);
     guide->asks = true;
-    *cost = worker_counts_sum(lesson.counts, options->threads);
-    return is_stopped(&lesson) ? NULL : guide;
+    *cost = worker_counts_sum(run.counts, options->threads);
+    return is_stopped(&run) ? NULL : guide;
 }

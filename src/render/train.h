@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* train.h -- a guide learns the scene before the first sample that counts.
+/* train.h -- trains a guide on the scene before the first sample that counts.
  *
- * It learns from paths of a coarse raster over the whole frame, not the crop; always the same
+ * It is trained on paths of a coarse raster over the whole frame, not the crop; always the same
  * ones, so that the guide depends on scene, camera and the frame's size alone.
  *
  * Memory   the guide comes from the arena.
@@ -14,7 +14,7 @@
 typedef struct TrainOptions {
     const Kernel *kernel;
     int           threads;
-    bool          stops_at_once; /* where it is asked to stop (signals.h): the guide is NULL */
+    bool          stops_at_once; /* where a stop is requested (signals.h): the guide is NULL */
 } TrainOptions;
 
 /* The facts of this light that a guide from a file must match. */

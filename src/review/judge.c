@@ -9,7 +9,8 @@
 
 #define ROOT_HALF 0.70710678118654752
 #define UNDECIDED_SHARE 0.1
-#define UNDECIDABLE_SHARE 0.5 /* of what may be true: more is told as what no paths decide */
+#define UNDECIDABLE_SHARE 0.5 /* of what may be true: more is reported as what no paths
+                                 decide */
 #define CLEAR_ERRORS 3.9 /* between figure and limit: 2.9 of a third round's interval, and one
                             by which the figure may be nearer */
 

@@ -41,8 +41,8 @@ void judge_paths(ReviewCase *review_case, double fixed);
 /* From the case's ambient, contrasts and their interval, height, stroke_ratio, visible_share,
  * panel and without_data_share: sets limits, limit_count, limit_id, margin, verdict and
  * unjudged; of one that is not too close it clears what would decide it. limit_id is, among the
- * contrast limits that count, the one that asks the greatest ratio; margin is its margin.
+ * contrast limits that count, the one that requires the greatest ratio; margin is its margin.
  *
- * A profile that uses the veil is asked of contrast_with_veil; its interval is that of
+ * A profile that uses the veil limits contrast_with_veil; its interval is that of
  * contrast_ratio seen through the veil, whose own doubt is not in it. */
 void judge_case(ReviewCase *review_case, const Profile *profile, Arena *arena);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* profile.h -- limits as data: what a standard, or a house, asks of what is to be read.
+/* profile.h -- limits as data: what a standard, or a house, requires of what is to be read.
  *
  * A profile is a JSON file (assets/schemas/profile.md). Those of assets/profiles are inside the
  * program; any other is named by its path.
@@ -7,7 +7,7 @@
  * Units    those of each kind of limit; lx.
  * Memory   texts and lists live in the arena.
  * Threads  plain data.
- * Fails    loading does, with file, place, found and wanted.
+ * Fails    loading does, with file, place, found and required.
  */
 #pragma once
 #include <stdint.h>
@@ -29,9 +29,9 @@ typedef struct LimitSlope {
 typedef struct ProfileLimit {
     const char *name;
     LimitKind   kind;
-    bool        ambients[AMBIENT_COUNT]; /* under which it is asked */
+    bool        ambients[AMBIENT_COUNT]; /* under which it is required */
     bool        is_upper;                /* the most, not the least */
-    bool        is_advice;               /* preferred, not asked: shown and not counted */
+    bool        is_advice;               /* preferred, not required: shown and not counted */
     double      value;                   /* above 0 */
     LimitSlope  slope;
     const char *source;

@@ -42,7 +42,7 @@ ReviewCounts review_count(const Review *review)
     return counts;
 }
 
-/* Of cases of which none counts: does each ask for something that need not be seen, or nothing?
+/* Of cases of which none counts: does each require something that need not be seen, or nothing?
  * Where no limit applies nothing is known of it. */
 static bool has_optional(const Review *review)
 {

@@ -5,7 +5,7 @@
  * and each is cut evenly into its questions: a part has one stretch of that, so that it opens
  * few moments. Of the sights of a sweep (a symbol as an eye sees it) it has every count-th,
  * with the responses that those take, and reads the worst case of each; of the eyes, likewise,
- * where mirrors show the sun. The merge answers what is asked once: causes, frames, how often
+ * where mirrors show the sun. The merge answers what is needed once: causes, frames, how often
  * the sun is in mirrors.
  *
  * Threads  pure functions.

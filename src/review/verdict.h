@@ -14,9 +14,9 @@
 #include "base/confidence.h"
 #include "base/vec.h"
 
-/* The four outcomes. Pass: the whole 95 % interval of each figure that is asked for keeps its
+/* The four outcomes. Pass: the whole 95 % interval of each figure that is required keeps its
  * limit; fail: that of one breaks it; too close: a limit lies within; unjudged: something that
- * is asked for is not known, and Unjudged says why. */
+ * is required is not known, and Unjudged says why. */
 typedef enum Verdict {
     VERDICT_PASS, VERDICT_FAIL, VERDICT_TOO_CLOSE, VERDICT_UNJUDGED
 } Verdict;
@@ -79,7 +79,7 @@ typedef struct LimitVerdict {
     double      value;        /* the limit */
     bool        read_in_the_standard;
     bool        is_upper;     /* the most, not the least */
-    bool        is_advice;    /* preferred, not asked: shown, and not counted */
+    bool        is_advice;    /* preferred, not required: shown, and not counted */
     double      found;        /* NaN: nothing to hold against it */
     double      low, high;    /* 95 % interval of `found`; equal where it is exact */
     double      margin;       /* above; NaN where `found` is */
@@ -109,7 +109,7 @@ typedef struct CaseCause {
     const char *const *chain;
     int    links;
     double share;             /* of the reflected light, 0..1 */
-    double cd_m2, low, high;  /* and its 95 % interval */
+    double cd_m2, low, high;  /* the cause's light, and its 95 % interval */
     double contrast_without;  /* the case's contrast if this light were not; NaN: none */
     const CaseRay *rays;      /* some of it, drawn with a chance that goes with their light */
     int    ray_count;
@@ -153,20 +153,20 @@ typedef struct CaseView {
     int    width, height;           /* pixels */
 } CaseView;
 
-/* What a designer could change, in the order in which it is told. */
+/* What a designer could change, in the order in which it is reported. */
 typedef enum RemedyKind {
     REMEDY_BRIGHTNESS, REMEDY_TILT, REMEDY_HOOD, REMEDY_COATING, REMEDY_PANEL, REMEDY_TRIM,
     REMEDY_KINDS
 } RemedyKind;
 extern const char *const remedy_kinds[REMEDY_KINDS + 1]; /* "brightness", "tilt", ... */
 
-/* A change that would mend the case, or help. */
+/* A change that would remedy the case, or help. */
 typedef struct CaseRemedy {
     RemedyKind  kind;
     const char *what;
     double      contrast_ratio; /* with it */
     double      level;          /* of the display with it; NaN: the figure has no meaning */
-    LimitVerdict then;          /* the limit that it is to mend, judged again with it */
+    LimitVerdict then;          /* the limit that it is to remedy, judged again with it */
     Verdict     verdict;        /* the case's with it */
 } CaseRemedy;
 
@@ -179,15 +179,15 @@ typedef struct CaseGlare {
     double source_lx;        /* of the sources, on the pupil's plane */
     double smallest_sr, largest_sr; /* of a source; NaN: none */
     long   source_count;
-    bool   low_light;        /* DGP has its factor for low light, */
-    bool   small_sources;    /* UGR CIE 147's rule for small sources */
+    bool   low_light;        /* DGP has its factor for low light */
+    bool   small_sources;    /* UGR has CIE 147's rule for small sources */
     const char *none;        /* why there is no UGR; NULL: there is */
 } CaseGlare;
 
 typedef struct CaseLuminances {
     double foreground, background; /* emitted to the eye */
     double reflected;              /* by the part that is judged; all that is reflected */
-    double mirror, scattered;      /* its two parts */
+    double mirror, scattered;      /* the reflected light's two parts */
     double veil;                   /* that stray light lays over the gaze point, in the eye */
 } CaseLuminances;
 
@@ -204,7 +204,7 @@ typedef struct CaseWhole {
     MeanInterval reflected_range; /* 95 % */
     double  contrast_ratio;       /* by that mean, veil included where the profile counts it;
                                      NaN likewise */
-    double  lit_share;            /* of it, 0..1, in the direct sun; NaN: there is none */
+    double  lit_share;            /* of the whole, 0..1, in the direct sun; NaN: no sun */
 } CaseWhole;
 
 CaseWhole case_whole_unknown(void);
@@ -258,7 +258,7 @@ typedef struct ReviewCase {
     bool    is_optional;         /* the request says that this eye need not see it */
     double  level;               /* at which the display was set, 1: as measured */
     double  glasses_transmittance; /* luminous, of the observer's sunglasses; 1: none. All
-                                    luminances are told without that factor */
+                                    luminances are reported without that factor */
     const char *glasses;         /* the sunglasses in words; NULL: none */
     double  glasses_display_loss; /* the share of the symbol's own light that they take beyond
                                     what they take of any: by a polariser or their colour */
@@ -268,16 +268,16 @@ typedef struct ReviewCase {
     double  display_lux;         /* illuminance of the display's face */
     const LimitVerdict *limits;  /* all that apply */
     int     limit_count;
-    int     limit_id;            /* the contrast limit that was asked most of; -1: none */
-    double  margin;              /* of that limit; NaN: there is none */
+    int     limit_id;            /* the contrast limit that required the most; -1: none */
+    double  margin;              /* of the limit limit_id; NaN: there is none */
     Verdict verdict;             /* the worst of its limits' that count */
     Unjudged unjudged;           /* why it cannot be judged */
     const CaseCause  *causes;    /* greatest first */
     int     cause_count;
     CaseGroup groups[CAUSE_GROUPS];
-    double  without_data_share;  /* of the reflected light, via materials without data, */
-    double  guessed_share;       /* and via such as `equip` guessed */
-    double  extrapolated_share;  /* of the same, as the panel extrapolates what was measured */
+    double  without_data_share;  /* of the reflected light, via materials without data */
+    double  guessed_share;       /* of it, via materials that `equip` guessed */
+    double  extrapolated_share;  /* of it, as the panel extrapolates what was measured */
     const char *empty_seat;      /* its back, behind an eye where nobody sits, via which much of
                                     the reflected light comes; NULL: none */
     double  empty_seat_share;    /* of the reflected light */
@@ -303,14 +303,14 @@ bool case_is_undecidable(const ReviewCase *c);
 /* A case of which no figure is known: all are NaN, and nothing is seen. */
 ReviewCase review_case_unknown(void);
 
-/* Does it count? Not where a symbol that need not be seen is hidden, nor where nothing is asked
- * of it. */
+/* Does it count? Not where a symbol that need not be seen is hidden, nor where nothing is
+ * required of it. */
 bool review_case_counts(const ReviewCase *c);
 
 /* The veil in the eye, by where its light begins: the parts add up to it. */
 typedef struct GazeVeil {
     double sun, sky, lamps; /* seen straight or through glass; lamps: displays too */
-    double glints;          /* sun, lamps and displays by way of mirrors and panes alone */
+    double glints;          /* sun, lamps and displays via mirrors and panes alone */
     double surfaces;        /* all else: what is lit, and the sky in mirrors */
     double near;            /* sky and surfaces within 1 degree: what the eye looks at */
 } GazeVeil;
@@ -324,8 +324,8 @@ typedef struct GazeFinding {
     MeanInterval veil_range;
     GazeVeil veil_parts;
     double   cornea_lux;     /* of the pupil's plane */
-    double   through;        /* cd m^-2 along the gaze: what it looks at, as it arrives; */
-    double   mirrored;       /* what a pane before it mirrors over that */
+    double   through;        /* cd m^-2 along the gaze: what it looks at, as it arrives */
+    double   mirrored;       /* cd m^-2, what a pane mirrors over `through` */
     MeanInterval mirrored_range;
     const char *mirrored_by; /* the pane that mirrors most; NULL: nothing is mirrored */
     const char *mirrored_from; /* what most of it shows; NULL likewise */
@@ -334,8 +334,8 @@ typedef struct GazeFinding {
      * veiling reflections), so that Weber's contrast (L - B)/B keeps B/(B + veils) of itself.
      * What is near is the background B, and no veil. NaN: no light. */
     double   contrast_behind_glass; /* what the mirrored light leaves; 1: all */
-    double   contrast_left;         /* and the veil in the eye with it */
-    MeanInterval contrast_range;        /* of the latter */
+    double   contrast_left;         /* what that and the veil in the eye leave together */
+    MeanInterval contrast_range;    /* of contrast_left */
     CaseGlare glare;
 } GazeFinding;
 
@@ -363,12 +363,12 @@ typedef struct ReviewFalseSun {
     double      share;         /* of the time (of a sweep without times: of the suns) */
     double      minutes;       /* all headings together; NaN: the sweep has no times */
     double      longest_minutes; /* at a stretch, under one heading; NaN likewise */
-    /* the worst of them: */
+    /* Of the time at which it is worst: */
     const char *when;          /* date, time, heading; NULL: the sweep has no times */
     double      sun_azimuth_deg, sun_elevation_deg; /* of the vehicle */
     double      lux;           /* at the eye, on a plane that faces the image */
     const char *gaze;          /* where the eye looks: a symbol's name or a gaze's */
-    double      angle_deg;     /* from there to the image */
+    double      angle_deg;     /* from the gaze to the image */
     double      veil_cd_m2;    /* that it lays over what is looked at */
 } ReviewFalseSun;
 
@@ -505,7 +505,7 @@ struct Review {
     int             rests_on_count;
     ReviewFile     *inputs;       /* every file that was read, once each */
     int             input_count;
-    bool            pass;         /* nothing fails, and all that is asked could be judged;
+    bool            pass;         /* nothing fails, and all that is required could be judged;
                                      strict: nor is anything too close, or of a material
                                      without data */
     bool            is_strict;

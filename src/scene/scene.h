@@ -152,7 +152,7 @@ typedef struct Material {
     const OpticalConstants *conductor; /* of the metal share; NULL: by its base colour */
     const Curve *index;        /* of a solid, in place of ior; NULL: ior at all wavelengths */
     bool  is_emitter;          /* some of its surface may emit */
-    bool  lets_light_through;  /* alpha below 1 or a thin window: shadow rays must ask */
+    bool  lets_light_through;  /* alpha below 1 or a thin window: shadow rays must test it */
 } Material;
 
 /* A rough surface in place of a display's clear one, modelled (shaders/display.c). */
@@ -191,23 +191,23 @@ typedef struct PunctualLight {
     Vec3  direction;    /* unit: where the light goes to (the node's -Z) */
     float intensity[3]; /* linear Rec.709: cd (point, spot) or lx facing it (directional) */
     float cos_inner, cos_outer; /* spot */
-    const IntensityWeb *web; /* luminaire: intensity is the largest, in its frame: */
-    Vec3  axis_x, axis_y, axis_z; /* unit, world; the node's: a mirrored one mirrors */
-    LuminousOpening opening; /* luminaire: about `position`, in its frame */
+    const IntensityWeb *web; /* luminaire: `intensity` is its largest */
+    Vec3  axis_x, axis_y, axis_z; /* luminaire: its frame, unit, world; mirrored as its node */
+    LuminousOpening opening; /* luminaire: about `position`, in that frame */
     const char *node_name, *file; /* luminaire */
     float level;             /* luminaire: multiplies all intensities */
     bool  has_tilt;          /* luminaire: its file has factors for tilted lamps */
-    float tilt_factor, tilt_deg; /* multiplies too; and the angle that it belongs to */
+    float tilt_factor, tilt_deg; /* luminaire: multiplies too; the tilt that it is for */
     float color[3];          /* luminaire: linear Rec.709, multiplies too */
     float cct_k;             /* luminaire: 0: white (D65) */
-    const char *cct_text;    /* luminaire: its file's text about that, understood if cct_k > 0;
+    const char *cct_text;    /* luminaire: its file's text about cct_k, understood if > 0;
                                 "": it has none; NULL: from --light-cct */
     const Curve *white;      /* of cct_k, 1 cd m^-2; NULL: D65 */
 } PunctualLight;
 
 typedef struct SceneCamera {
     const char *node_name, *camera_name; /* "" where the file has none */
-    bool  is_perspective; /* rays from one point; */
+    bool  is_perspective; /* rays from one point */
     Fisheye fisheye;      /* not a file's, but a command's: half the space instead of yfov */
     float yfov;          /* radians, full vertical angle (perspective) */
     float ymag;          /* m, half the height (orthographic) */
@@ -226,7 +226,7 @@ typedef struct EnvironmentWeather {
     const char  *file;
     int          line, month, day;
     double       label_h;   /* end of the row's hour, hours after midnight */
-    double       apart_min; /* from the moment asked for to the row's instant */
+    double       apart_min; /* from the moment requested to the row's instant */
     double       file_lux[2]; /* the file's own direct and diffuse columns; negative: missing */
     WeatherClock clock;
 } EnvironmentWeather;
@@ -249,7 +249,7 @@ typedef struct Environment {
     float hdri_rotation;
     double hdri_unit_cd_m2;      /* luminance of a white whose stored values are 1 */
     float hdri_scale;
-    float horizontal_illuminance_lx; /* hdri: wanted instead of scale; 0 = use scale */
+    float horizontal_illuminance_lx; /* hdri: required instead of scale; 0 = use scale */
     DaylightInput daylight;        /* cie, perez, sky: all but the sun below */
     EnvironmentWeather weather;    /* perez: where its irradiances came from */
     bool  has_sun;
@@ -267,7 +267,7 @@ typedef struct Scene {
     Vec3     *positions; /* m; of all vertices. Shared with the ray tracer, which reads
                             past the last: there is room for one more */
     uint32_t  vertex_count;
-    Triangle *triangles; /* opaque ones first: [0, opaque_count) need no asking */
+    Triangle *triangles; /* opaque ones first: [0, opaque_count) need no test */
     uint32_t  triangle_count, opaque_count;
     Part     *parts;
     int       part_count;

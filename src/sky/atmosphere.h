@@ -38,7 +38,8 @@ typedef struct AtmosphereInput {
                            * there, in twilight from where refraction lifts it from */
     int    threads;
     int    steps;            /* of a ray; 0: 48 */
-    bool   sun_alone;        /* sun_passing is made, and no table: no direction may be asked */
+    bool   sun_alone;        /* sun_passing is made, and no table: no direction may be
+                                evaluated */
 } AtmosphereInput;
 
 typedef struct Atmosphere {

@@ -432,7 +432,7 @@ bool daylight_build(const DaylightInput *input, Arena *arena, Daylight *out, Err
     return false;
 }
 
-/* ---- asking ------------------------------------------------------------------------------ */
+/* ---- queries ----------------------------------------------------------------------------- */
 
 static float angle_to_sun(const Daylight *out, float elevation, float azimuth)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* daylight.h -- the sun and the sky of a place, a time and a weather, ready to be asked.
+/* daylight.h -- the sun and the sky of a place, a time and a weather, ready to be evaluated.
  *
  * Three kinds: CIE's general skies and Perez's (a shape times one spectrum, normalised by own
  * quadrature to the diffuse illuminance; on the ground only, below the horizon a uniform
@@ -59,7 +59,7 @@ typedef struct DaylightInput {
     bool     no_moon;            /* clear: as if there were none */
     int      integral_steps;     /* CIE, Perez: of the quadrature; 0: 1000, which takes 0.1 s
                                     (its error by steps: sky_shape_integral) */
-    bool     sun_alone;          /* clear: of its light nothing but the sun's is asked for */
+    bool     sun_alone;          /* clear: of its light nothing but the sun's is required */
     int      threads;
 } DaylightInput;
 

@@ -112,7 +112,7 @@ bool night_build(const NightInput *input, Arena *arena, Night *out, Error *err)
     return light_moon(input, &beam, arena, out, err);
 }
 
-/* ---- asking ------------------------------------------------------------------------------ */
+/* ---- queries ----------------------------------------------------------------------------- */
 
 Spectrum night_radiance(const Night *night, float elevation, float azimuth,
                         const Wavelengths *wavelengths)

@@ -4,7 +4,7 @@
  *
  * The irradiances give the sky's shape; its lux are theirs by luminous_efficacy.h's fit, with
  * the water of the row's dew point, or the file's own columns of illuminance. A row without a
- * dew point has WATER_USUAL_CM, which is told (weather_light_rule_text).
+ * dew point has WATER_USUAL_CM, which is reported (weather_light_rule_text).
  *
  * Units    W m^-2, lx, cm. Memory: texts from the arena. Threads: pure functions.
  * Fails    never: what a row lacks is its state.

@@ -36,7 +36,7 @@ typedef struct SunlitWork {
     float      *depth;          /* m, of all pixels, row by row: where a ray lands; */
     uint8_t    *is_received;    /* and whether a receiver sees that; */
     uint8_t    *is_beside;      /* whether one sees a place of another ray through it */
-    uint8_t    *is_tried;       /* is_beside was asked */
+    uint8_t    *is_tried;       /* is_beside was evaluated */
     SunlitGrid  grid;           /* of what is looked at more closely */
     int         blocks;         /* pixels of the first grid that it has */
     int         tries;          /* rays through each of its pixels */
@@ -452,7 +452,7 @@ static About look_about(const SunlitWork *work, int i, int j)
     return about;
 }
 
-/* A few tries tell little of one pixel: half of its power is its neighbours' mean. One beside
+/* A few tries show little of one pixel: half of its power is its neighbours' mean. One beside
  * lit ones, none of whose rays were seen to come in, may have some that do: it is where its
  * neighbours are. */
 static SunlitPixel smoothed(const SunlitWork *work, int i, int j)

@@ -6,7 +6,7 @@
  * number, every name another one.
  *
  * Memory   the arena's.
- * Fails    with the file, the line, the column's name, what was found and what was wanted.
+ * Fails    with the file, the line, the column's name, what was found and what was required.
  */
 #pragma once
 #include <stddef.h>

@@ -2,7 +2,7 @@
 /* effect_text.h -- what a change does to a margin, in percent of the limit, with its 95 %
  * interval and no more digits than that allows.
  *
- * Units    shares of the limit go in; `least` is the smallest that is told.
+ * Units    shares of the limit go in; `least` is the smallest that is reported.
  * Memory   texts from the arena. Threads: pure. Fails: never.
  */
 #pragma once

@@ -38,7 +38,7 @@ void text_add_printable(Text *text, const char *bytes, size_t size);
  * adds nothing. */
 void escape_markup(Text *text, const char *string);
 
-/* A word as a POSIX shell wants it: itself, or in single quotes. */
+/* A word as a POSIX shell reads it: itself, or in single quotes. */
 const char *escape_shell(const char *word, Arena *arena);
 
 /* Adds the words of a line as a POSIX shell cuts it, by quotes and backslashes; nothing stands

@@ -4,7 +4,7 @@
  * Units    years; pigment of the iris without a unit: 0 very dark, 0.5 brown, 1 green, 1.2
  *          light blue (the scale of CIE 146:2002, as the comments of HDR-VDP have it).
  * Memory   plain data. Threads: pure functions.
- * Fails    parsing and checking do, with what was found and what is wanted.
+ * Fails    parsing and checking do, with what was found and what is required.
  */
 #pragma once
 #include <stdbool.h>

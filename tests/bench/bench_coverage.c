@@ -4,8 +4,8 @@
  * coverage.py makes the reviews and a table of what is printed (coverage_trials.h).
  *
  * WAYS, letters: r readings of 1,024 paths, c cases of 4,096 paths, a cases whose paths hang on
- * a limit at 1, 1.02, 1.1, 1.25 and 2 times what is reflected, e what explain tells, m what
- * measure tells of a small frame of the symbol. */
+ * a limit at 1, 1.02, 1.1, 1.25 and 2 times what is reflected, e what explain reports, m what
+ * measure reports of a small frame of the symbol. */
 #include <string.h>
 
 #include "coverage_trials.h"

@@ -4,9 +4,9 @@
  *     bench_directions COUNT BOUND RECIPE.json X.panel
  *
  * X.panel was fitted to the recipe's set, measured without noise, with --max-error BOUND. COUNT
- * directions, even in solid angle up to the cone, are asked of every case: X, Y and Z of some
- * colours (black only if it is not dark), the BRDF at 550 nm at every measured incidence. A
- * line says the largest and the rms relative error against the closed form, the largest error
+ * directions, even in solid angle up to the cone, are evaluated for every case: X, Y and Z of
+ * some colours (black only if it is not dark), the BRDF at 550 nm at every measured incidence.
+ * A line says the largest and the rms relative error against the closed form, the largest error
  * of the source's own grid (bilinear in logarithms) and how many directions lie beyond the
  * bound plus the grid's largest error in the same 2 degrees of theta.
  */
@@ -23,7 +23,7 @@
 #include "panel/set/synthetic_panel.h"
 
 #define BANDS 46
-#define GRID_EVERY 4 /* directions that tell the grid's own error */
+#define GRID_EVERY 4 /* directions that show the grid's own error */
 
 /* One case: a colour, or an incidence. */
 typedef struct Case {

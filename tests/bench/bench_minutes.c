@@ -4,7 +4,7 @@
  * a year under clear skies at one level, for each of its headings; of EVERY so manyth day (1:
  * all) all minutes.
  *
- * Nothing of a sweep is asked: paths of its own are traced for the sun of every minute (PATHS),
+ * Nothing of a sweep is used: paths of its own are traced for the sun of every minute (PATHS),
  * as a frame's are. Skies are read with paths, too, at so many places of the sun, and lie
  * between them. With the sweep it shares where the sun stands, how bright sun and sky are, what
  * the symbol emits, and the path tracer.

@@ -12,7 +12,7 @@
  * One flat table has the step at which its rms relative error against the closed form is the
  * panel's, or just below; the other one fills 64 MB or more, beyond the caches.
  * Built once for each instruction set that hot sources are built for: bench_panel has the
- * baseline, bench_panel_avx2 and bench_panel_avx512 ask as frames do on such CPUs.
+ * baseline, bench_panel_avx2 and bench_panel_avx512 evaluate it as frames do on such CPUs.
  * Random arguments, CALLS of them, so many that they touch all of a table; the first run warms
  * up. Processor time of one thread; median and spread (least to most) of RUNS runs.
  */

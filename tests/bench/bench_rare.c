@@ -5,7 +5,7 @@
  * reviews and the tables.
  *
  * REFLECTED is the true light, cd m^-2, of which, with what is shown, the true contrast is
- * made. No margin: readings as the review's precision asks, held against nothing.
+ * made. No margin: readings as the review's precision requires, held against nothing.
  *
  * Printed, with tabs: first what is shown, foreground and background, and the judged part; then
  * a line a trial: margin (nan: none), seed, verdict (verdict.h's number), reflected, low, high,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* bench_shaders.c -- nanoseconds per call of what every path asks of a surface.
+/* bench_shaders.c -- nanoseconds per call of what every path evaluates of a surface.
  *
  *     bench_shaders [RUNS]      one thread, fixed seeds, median and spread (least to most)
  */

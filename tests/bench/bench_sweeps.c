@@ -6,8 +6,8 @@
  * WAYS, letters: s steps of the fewest paths, f of as many as a review takes, which cells of a
  * map and hours of a year are, b the first beside a moment's truth, w the worst of them, chosen
  * by each seed's own steps and read again as a moment, as run/sweep.c does. The truth of a step
- * is the mean of all runs, so that what is told is the interval alone; b has its offset from
- * the moment's truth, which triangles make, too. b and w take most of the time. */
+ * is the mean of all runs, so that what is reported is the interval alone; b has its offset
+ * from the moment's truth, which triangles make, too. b and w take most of the time. */
 #include <string.h>
 
 #include "base/units.h"
@@ -88,7 +88,7 @@ static void read_all_steps(SweepTrials *t, bool is_full, double own, Trial *out)
         read_steps(t, is_full, own, (1u << 20) + (unsigned)k, out + k * t->suns.count);
 }
 
-/* ---- what is told ------------------------------------------------------------------------ */
+/* ---- what is reported -------------------------------------------------------------------- */
 
 static const char *sun_name(const SweepTrials *t, int sun, Arena *arena)
 {

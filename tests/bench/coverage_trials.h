@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* coverage_trials.h -- how often intervals of many trials hold a true value, told as a line of
- * words with tabs between them: for tests/bench/coverage.py.
+/* coverage_trials.h -- how often intervals of many trials hold a true value, reported as a line
+ * of words with tabs between them: for tests/bench/coverage.py.
  *
  * The truth is the mean of trials with other seeds, or, where the trials are their own, of all
- * of them: each is one part in hundreds of it. Its own error is told, as a share of a trial's.
+ * of them: each is one part in hundreds of it. Its own error is reported, as a share of a
+ * trial's.
  */
 #pragma once
 #include <math.h>

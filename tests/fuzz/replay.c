@@ -15,7 +15,7 @@
 
 enum { MUTATIONS = 2, ROOM = 2, MADE_MUTATIONS = 200 };
 
-/* What a mutator asks for beyond its own changes: here nothing. */
+/* What a mutator makes beyond its own changes: here nothing. */
 size_t fuzz_mutate_bytes(uint8_t *data, size_t size, size_t max_size)
 {
     (void)data;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the program keeps for itself, and may get from anywhere: learnt fields, responses,
- * journals of answers, jobs. Their checksums are mended after most changes: whoever sends such
- * a file can do that. */
+/* What the program keeps for itself, and may get from anywhere: trained fields, responses,
+ * journals of answers, jobs. Their checksums are corrected after most changes: whoever sends
+ * such a file can do that. */
 #include <math.h>
 #include <string.h>
 #define XXH_INLINE_ALL

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a review is asked: REVIEW.json, and the routes that it may name. */
+/* What a review has to do: REVIEW.json, and the routes that it may name. */
 #include <math.h>
 
 #include "harness.h"

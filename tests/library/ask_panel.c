@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* ask_panel.c PANEL -- another renderer's program: linked by pkg-config against an installed
- * tree, it opens a panel and prints what it says; and asks wrongly, which must be refused. */
+ * tree, it opens a panel and prints what it says; and makes wrong calls, which must be
+ * refused. */
 #include <math.h>
 #include <parhelion_panel.h>
 #include <stdio.h>

@@ -31,7 +31,7 @@ static void look_and_call(void (*law)(const Model *, Vec3), Model model, Vec3 wo
 }
 
 /* For every model, on the far side too where there is one, and every third eye, all eyes where
- * all laws are asked: the next model is asked at others. */
+ * all laws are checked: the next model is checked at others. */
 static void for_all(void (*law)(const Model *, Vec3))
 {
     for (int m = 0; m < model_count; m++)
@@ -43,7 +43,7 @@ static void for_all(void (*law)(const Model *, Vec3))
         }
 }
 
-/* The case `name` of all models, and what it asks of one that is looked at from wo. */
+/* The case `name` of all models, and what it requires of one that is looked at from wo. */
 #define LAW(name, law)                                                                         \
     static void law(const Model *model, Vec3 wo);                                              \
     TEST(name)                                                                                 \
@@ -279,7 +279,7 @@ LAW(no_surface_sends_back_more_than_it_gets, energy_holds)
 LAW(albedo_is_a_fair_estimate, albedo_is_near)
 {
     bool tilted =
-        strstr(model->name, "tilted") != NULL; /* loses light, by how much is not told */
+        strstr(model->name, "tilted") != NULL; /* loses light, by how much is not known */
     if (model->bsdf.kind == BSDF_DIELECTRIC || tilted) return;
     Spectrum sent = furnace(model, wo, 4096), told = bsdf_albedo(&model->bsdf, wo);
     for (int k = 0; k < SPECTRUM_LANES; k += 5)

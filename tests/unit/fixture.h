@@ -177,7 +177,7 @@ static inline const char *read_text(const char *path, Arena *arena)
 
 /* ---- errors ------------------------------------------------------------------------------ */
 
-/* Where a call says why it failed, for what asks later: f(..., why()). */
+/* Where a call says why it failed, for what checks it later: f(..., why()). */
 static inline Error *why(void)
 {
     static Error err;
@@ -198,7 +198,8 @@ static inline void fail_told(const char *call, const Error *err)
         if (!(__VA_ARGS__)) fail_told(#__VA_ARGS__, &err);                                     \
     } while (0)
 
-/* It fails, of `code_wanted`, in one line that has the part; all that it told is in why(). */
+/* It fails, of `code_wanted`, in one line that has the part; all that it reported is in
+ * why(). */
 #define assert_fails_as(call, code_wanted, part)                                               \
     do {                                                                                       \
         Error err = {0};                                                                       \
@@ -276,7 +277,7 @@ static inline void assert_line_has(const Error *err, const char *const *part, in
     for (int i = 0; i < count; i++) assert_text_has(line, part[i]);
 }
 
-/* Words that may be told in one of several lines (notes, reasons, warnings). */
+/* Words that may be reported in one of several lines (notes, reasons, warnings). */
 static inline bool lines_have(const char *const *line, int count, const char *part)
 {
     for (int i = 0; i < count; i++)

@@ -7,7 +7,7 @@
 #include "shaders/bsdf.h"
 
 /* Points a side: of narrow lobes under a coat, which no two directions of a lobe pass alike, 48
- * tell some 0.3 % amiss by themselves. */
+ * show some 0.3 % amiss by themselves. */
 static inline int furnace_side(const MetallicRoughness *m)
 {
     return m->clearcoat > 0 && m->alpha > 0 && m->alpha < 0.03f ? 144 : 48;

@@ -79,8 +79,8 @@ static inline const Lights *build(const Scene *scene, Arena *arena)
     return lights;
 }
 
-/* The expectation's own relative variance; how many cells must tell; and by how many standard
- * deviations chi-square may lie above its mean. */
+/* The expectation's own relative variance; how many cells must show it; and by how many
+ * standard deviations chi-square may lie above its mean. */
 typedef struct ChiLimits {
     double variance;
     int    cells;

@@ -91,7 +91,8 @@ static inline void fixture_fit(Fixture *fixture, const FitOptions *options)
                 panel_open(fixture->panel_path, &fixture->arena, &fixture->panel, &err));
 }
 
-/* A manifest, by its path, to the file of a panel and, where wanted, its bytes and itself. */
+/* A manifest, by its path, to the file of a panel and, where requested, its bytes and
+ * itself. */
 static inline bool fixture_try(Fixture *fixture, const char *manifest,
                                const FitOptions *options, const char *file, FileBytes *bytes,
                                Panel **panel, Error *err)

@@ -349,7 +349,7 @@ TEST(noise_that_is_not_reached_is_said)
 }
 
 /* The corner of the room that has no noise decides, not the rest; a name that is no display's
- * is told. */
+ * is reported. */
 TEST(noise_of_an_area_decides_alone)
 {
     Outcome o;

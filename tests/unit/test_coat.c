@@ -52,7 +52,7 @@ TEST(a_coat_keeps_a_white_furnace_white)
 }
 
 /* Between the rows of its tables too, alike and unlike roughness; what the 48 points a side
- * above tell of so narrow a lobe is 0.35 % off by themselves. */
+ * above show of so narrow a lobe is 0.35 % off by themselves. */
 TEST(a_coat_keeps_it_white_between_its_tables_rows)
 {
     static const float alphas[] = {0.022f, 0.16f};

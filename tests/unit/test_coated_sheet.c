@@ -69,8 +69,8 @@ TEST(turns_are_summed_up)
     }
 }
 
-/* What the model tells of smooth sheets is that stack; how much light the coat lets pass is its
- * own table's affair, what it reflects itself, Fresnel's. */
+/* What the model gives for smooth sheets is that stack; how much light the coat lets pass is
+ * its own table's affair, what it reflects itself, Fresnel's. */
 static void pane_of(double cosine, double tint, double *reflected, double *passed)
 {
     double inside = sqrt(1 - (1 - cosine * cosine) / 2.25), t = pow(tint, 1 / inside);

@@ -35,7 +35,7 @@ static void mean_shares(const LayerStack *stack, ThinMedium body, double nm, dou
 {
     ThinMedia media;
     thin_film_media(stack, body, (int)nm, &media);
-    media.nm = nm; /* the stacks asked do not change with the wavelength */
+    media.nm = nm; /* the stacks evaluated do not change with the wavelength */
     if (from_inside) thin_film_reverse(&media);
     ThinShares at = thin_film_at(&media, cosine);
     *reflect = (at.reflect_s + at.reflect_p) / 2;

@@ -234,7 +234,7 @@ ARENA_TEST(gaps_of_surface_layers_must_coincide)
     }
 }
 
-/* Too few samples to tell the noise are no fault of the light. */
+/* Too few samples to show the noise are no fault of the light. */
 ARENA_TEST(noise_may_be_unknown)
 {
     static const char *const LAYERS[] = {"halves.R", "display.halves.R"};
@@ -408,7 +408,7 @@ ARENA_TEST(regions_select_and_displays_are_known)
     assert_int_equal(selection.pixels, 7);
 }
 
-/* Sizes alone decide it: nothing of the pixels is asked. */
+/* Sizes alone decide it: nothing of the pixels is read. */
 TEST(frames_that_cannot_fit_are_refused_by_a_line)
 {
     Error          err = {0};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a comparison is asked and what it answers: options, JSON, JUnit, HTML. */
+/* What a comparison has to do and what it answers: options, JSON, JUnit, HTML. */
 #include "compare_fixture.h"
 
 #include <libxml/parser.h>

@@ -371,7 +371,7 @@ static World world_of_faces(bool is_double_sided, bool is_inside_out)
     return world;
 }
 
-/* A pane or a metal mirror; its tint sends the display's light by way of the spectrum. */
+/* A pane or a metal mirror; its tint sends the display's light via the spectrum. */
 static void add_sheet(World *world, Vec3 centre, bool is_pane, float blue)
 {
     Material material = builder_material(1);

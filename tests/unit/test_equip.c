@@ -133,7 +133,7 @@ static const Part *part_named(const Scene *scene, const char *name)
     return NULL;
 }
 
-/* Each corner of the rectangle, which its texture coordinates tell. */
+/* Each corner of the rectangle, which its texture coordinates give. */
 static void check_rectangle(const Scene *scene, const Part *part)
 {
     const double normal[3] = {0.48, -0.6, 0.64}; /* right x up */

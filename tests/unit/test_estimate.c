@@ -87,7 +87,7 @@ TEST(an_interval_of_nothing_holds_what_may_be_there)
     assert_true(estimate_unmet(2, 1) == 2 && estimate_unmet(2, 0) == 2);
 }
 
-/* It goes on until it is a quarter of what it asks for, and asks for no more than there are. */
+/* It goes on until it is a quarter of what it requires, and requires no more than there are. */
 TEST(a_pilot_reaches_no_farther_than_it_may)
 {
     for (uint32_t run = 0; run < 100; run++) {

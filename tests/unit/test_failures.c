@@ -63,7 +63,7 @@ TEST(hours_find_the_minutes_of_a_failure)
     }
 }
 
-/* Every step is asked once; 1,460 edges to a minute would take 8,760 more. */
+/* Every step is sampled once; 1,460 edges to a minute would take 8,760 more. */
 TEST(many_failures_are_told_by_fewer_questions)
 {
     asked = 0;

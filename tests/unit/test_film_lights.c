@@ -56,7 +56,7 @@ ARENA_TEST(groups_of_lights_add_up_to_the_frame_to_the_step)
     assert_true(all[0] != 0 && unequal == 0);
 }
 
-/* What rounding leaves goes where the most is; the others keep what they were told. */
+/* What rounding leaves goes where the most is; the others keep what they were given. */
 ARENA_TEST(rounding_goes_to_the_brightest_group)
 {
     Film      *film = film_create(2, 1, two_pixels, LAYER_LIGHT, &groups, &arena);

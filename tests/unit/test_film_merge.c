@@ -513,7 +513,7 @@ ARENA_TEST(gaps_are_named)
                           "whole part");
 }
 
-/* Also when what it was asked for makes the range that all are to have. */
+/* Also when what it was requested to hold makes the range that all are to have. */
 ARENA_TEST(a_part_that_was_stopped_may_be_filled_by_others)
 {
     FilmPart all, parts[] = {box("a.exr", whole, 0, 4), box("b.exr", whole, 4, 6),

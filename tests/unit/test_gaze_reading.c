@@ -32,7 +32,7 @@ static Material glass(void)
     return glass;
 }
 
-/* The sun stands to the right, so that no pane shades what is seen by way of it. */
+/* The sun stands to the right, so that no pane shades what is seen via it. */
 static World sunny_world(void)
 {
     World world = world_start();

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A guide's samples follow its density, whatever it has learnt the light stays what it is, and
+/* A guide's samples follow its density, however it was trained the light stays what it is, and
  * its file is taken back as it was or not at all. */
 #include "fixture.h"
 
 #include "base/units.h"
 #include "guide/guide_file.h"
 #include "guide/guide_training.h"
-#include "path/collect/lesson.h"
+#include "path/collect/training.h"
 #include "path/path.h"
 #include "world_fixture.h"
 
 enum { CELLS = 3, BOUNCES = 64 };
 
-/* A guide that has learnt nonsense: three cells, most bins dark, lights asked at odds. */
+/* A guide that was trained on nonsense: three cells, most bins dark, lights sampled at odds. */
 static LightGuide *odd_guide(Arena *arena)
 {
     LightGuide *guide = ARENA_NEW(arena, LightGuide, 1);
@@ -177,8 +177,9 @@ TEST(a_furnace_shows_one_wherever_a_guide_leads)
     }
 }
 
-/* Mean luminance that rays from the middle of the world find, as a lesson or to their end. */
-static double lesson_mean(const World *world, bool is_lesson)
+/* Mean luminance that rays from the middle of the world find, as a training pass or to their
+ * end. */
+static double training_mean(const World *world, bool is_training)
 {
     enum { RAYS = 20000 };
     PathStatistics statistics = {0};
@@ -189,11 +190,11 @@ static double lesson_mean(const World *world, bool is_lesson)
         Wavelengths w;
         PathResult  found;
         float       sky;
-        LessonSky   lesson = lesson_sky(&sky);
+        TrainingSky sky_seen = training_sky(&sky);
         wavelengths_sample(sampler_1d(&sampler), &w);
         PathStart start = {.context = &world->context, .wavelengths = &w, .sampler = &sampler,
                            .statistics = &statistics, .from = &point,
-                           .collector = is_lesson ? &lesson.base : NULL};
+                           .collector = is_training ? &sky_seen.base : NULL};
         path_from_ray(&start, (Ray){point.position, point.ns, 0, INFINITY}, &found);
         sum += (double)found.xyz[1] / RAYS;
     }
@@ -201,13 +202,13 @@ static double lesson_mean(const World *world, bool is_lesson)
 }
 
 /* In a furnace the first dull wall shows what it emits and half of what the second emits; of
- * what comes to that one a lesson learns nothing. */
-TEST(a_lesson_ends_at_the_second_dull_surface)
+ * what comes to that one a training ray finds nothing. */
+TEST(a_training_ray_ends_at_the_second_dull_surface)
 {
     SCOPED_WORLD world = guided_furnace();
     world.context.strategy = PATH_BSDF_ONLY;
-    assert_near(lesson_mean(&world, true), 0.75, 0.005);
-    assert_near(lesson_mean(&world, false), 1, 0.01);
+    assert_near(training_mean(&world, true), 0.75, 0.005);
+    assert_near(training_mean(&world, false), 1, 0.01);
 }
 
 /* A glossy floor under a lamp, a sky and a sun, lacquered or not. */
@@ -249,7 +250,7 @@ TEST(every_strategy_finds_the_same_light_with_a_guide_and_without)
     }
 }
 
-/* ---- learning ---------------------------------------------------------------------------- */
+/* ---- training ---------------------------------------------------------------------------- */
 
 enum { PLACES = 5000, MOST = 64 };
 
@@ -284,7 +285,7 @@ ARENA_TEST(cells_part_the_places_among_them)
     assert_int_equal(training->first_place[guide->cell_count], PLACES);
 }
 
-/* However small the cells that are asked for. None has far more than its share, but where all
+/* However small the cells that are requested. None has far more than its share, but where all
  * places coincide. */
 ARENA_TEST(cells_are_no_more_than_a_guide_holds)
 {
@@ -302,20 +303,20 @@ ARENA_TEST(cells_are_no_more_than_a_guide_holds)
     }
 }
 
-ARENA_TEST(a_cell_leads_to_where_its_lesson_found_light)
+ARENA_TEST(a_cell_leads_to_where_its_training_found_light)
 {
     GuideTraining *training = taught(&arena);
     Vec3           bright = direction_to(40, 70);
     GuideView      view;
-    guide_training_ask(training, 0);
-    assert_int_equal(training->lessons[2].point_count, GUIDE_POINTS);
+    guide_training_choose(training, 0);
+    assert_int_equal(training->cells[2].point_count, GUIDE_POINTS);
     for (int bin = 0; bin < GUIDE_BINS; bin++) {
         bool        is_there = vec3_dot(guide_bin_direction(bin, 0.5f, 0.5f), bright) > 0.95f;
         const float cd_m2[GUIDE_AIMS] = {is_there ? 50 : 0.1f, is_there ? 0 : 8};
-        guide_lesson_add(&training->lessons[2], bin, cd_m2);
+        guide_training_add(&training->cells[2], bin, cd_m2);
     }
     for (uint32_t cell = 0; cell < training->guide.cell_count; cell++)
-        guide_training_learn(training, cell);
+        guide_training_update(training, cell);
     guide_view(&training->guide, 2, &surfaces[0], &view);
     assert_true(guide_pdf(&view.towards[GUIDE_LIGHT], bright) > 2);
     assert_true(guide_pdf(&view.towards[GUIDE_LIGHT], direction_to(40, 250)) < 0.1f);
@@ -330,7 +331,7 @@ ARENA_TEST(even_light_from_everywhere_gives_pi_times_its_luminance)
     GuideTraining *training = taught(&arena);
     const float    cd_m2[GUIDE_AIMS] = {3, 8};
     for (int bin = 0; bin < GUIDE_BINS; bin++)
-        guide_lesson_add(&training->lessons[2], bin, cd_m2);
+        guide_training_add(&training->cells[2], bin, cd_m2);
     assert_near(guide_training_illuminance(training, 2), 3 * PI, 0.02 * 3 * PI);
     assert_near(guide_training_illuminance(training, 3), 0, 0);
 }

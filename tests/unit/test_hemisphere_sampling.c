@@ -170,7 +170,7 @@ HEMISPHERE_TEST(weights_of_importance_samples_vary_little)
     assert_close(mean, exact, 4 * sqrt(variance / count) + 1e-3);
 }
 
-/* As few cells as a variance asks for, and the variance is what is then measured. */
+/* As few cells as a variance requires, and the variance is what is then measured. */
 HEMISPHERE_TEST(cells_are_spent_until_the_variance_is_reached)
 {
     uint32_t     last = 0;

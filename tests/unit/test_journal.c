@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a journal was told it tells, after any kill; what is cut off or damaged ends it, and all
- * before that counts. */
+/* What a journal was given it returns, after any kill; what is cut off or damaged ends it, and
+ * all before that counts. */
 #include "fixture.h"
 
 #include <sys/stat.h>

@@ -93,8 +93,8 @@ ARENA_TEST(margins_are_what_they_say)
     assert_true(isnan(c.margin));
 }
 
-/* Full wash-out is -1 under every limit, a limit that is just kept 0; what two limits ask in
- * other words has one margin. 1.014 under 3 lies behind 1.347 under 2. */
+/* Full wash-out is -1 under every limit, a limit that is just kept 0; what two limits require
+ * in other words has one margin. 1.014 under 3 lies behind 1.347 under 2. */
 TEST(wash_out_is_the_same_for_every_limit)
 {
     static const LimitKind KINDS[] = {LIMIT_CONTRAST_RATIO, LIMIT_LUMINANCE_CONTRAST,
@@ -204,7 +204,7 @@ ARENA_TEST(panels_and_data_decide_what_can_be_judged)
     assert_int_equal(c.unjudged, UNJUDGED_NOT);
 }
 
-/* What an eye need not see, and what nothing is asked of, does not count. */
+/* What an eye need not see, and what has no limit, does not count. */
 ARENA_TEST(what_is_not_asked_does_not_count)
 {
     ProfileLimit limit = limit_of(LIMIT_CONTRAST_RATIO, 3);

@@ -141,7 +141,7 @@ ARENA_TEST(luck_does_not_choose)
     assert_true(in_sun >= 95); /* by the samples alone about 85 */
 }
 
-/* What samples tell surely is chosen, without any sun. */
+/* What samples show surely is chosen, without any sun. */
 ARENA_TEST(light_that_samples_find_chooses)
 {
     Cells       cells;
@@ -184,7 +184,7 @@ ARENA_TEST(an_even_rise_chooses_its_end)
 }
 
 /* Where the light is even all is judged, not the part of luck; of a rise that samples hardly
- * tell, all or its brighter half. */
+ * show, all or its brighter half. */
 ARENA_TEST(no_part_is_chosen_by_luck)
 {
     Cells       cells;

@@ -232,7 +232,7 @@ TEST(a_convex_sphere_spreads_as_the_mirror_equation_says)
     }
 }
 
-/* Nodes that asking a sphere's mirrors from all around it takes, on the average. */
+/* Nodes that searching a sphere's mirrors from all around it takes, on the average. */
 static double asked_nodes(int rings, uint32_t *triangles)
 {
     ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 30);
@@ -262,7 +262,7 @@ static void assert_same_trees(const Mirrors *a, const Mirrors *b, uint32_t node_
         assert_same_trees(a, b, child_a + k, child_b + k);
 }
 
-/* Also where many parts ask for the same mirrors. */
+/* Also where many parts sample the same mirrors. */
 TEST(trees_do_not_depend_on_threads)
 {
     ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 28);
@@ -272,7 +272,7 @@ TEST(trees_do_not_depend_on_threads)
     builder_sphere(scene, vec3(0, 0, 0), 1, 16, 0);
     uint32_t    count = scene->triangle_count;
     MirrorPair *pairs = ARENA_NEW(&arena, MirrorPair, parts * count);
-    scene->part_count = (int)parts - 1; /* those that ask; part 0 is the mirror */
+    scene->part_count = (int)parts - 1; /* those that sample; part 0 is the mirror */
     for (uint32_t i = 0; i < parts * count; i++)
         pairs[i] = (MirrorPair){(int)(i / count) - 1, false, i % count};
     const Mirrors *one = mirrors_build(scene, pairs, parts * count, 1, &arena);

@@ -151,9 +151,9 @@ MEMORY_TEST(samples_are_found_between_least_and_most)
     assert_false(noise_stop_is_rare(&stop, (double)NAN, (double)NAN));
 }
 
-/* ---- what is told ------------------------------------------------------------------------ */
+/* ---- what is reported -------------------------------------------------------------------- */
 
-/* Of the frames that do not say that light is rare, the error that they tell is that of their
+/* Of the frames that do not say that light is rare, the error that they report is that of their
  * samples to a fifth, in the mean; of frames whose light is rare nearly all say so. */
 static void check_told(uint32_t some, double error, Arena arena)
 {

@@ -2,7 +2,7 @@
 /* Narrow beams of an emission, which no tree of triangles resolves: every sample, directions
  * between them, the light over the hemisphere, and what a damaged beam is refused for.
  *
- * PARHELION_BEAMS in the environment: all of them; tests/long.sh asks for that. */
+ * PARHELION_BEAMS in the environment: all of them; tests/long.sh does that. */
 #include "panel_fixture.h"
 
 #include "panel/shape/panel_beam.h"
@@ -60,7 +60,7 @@ static double nearly_none(double theta)
     return cos(theta);
 }
 
-/* The last one ends in an edge between two rings, where ln E falls by 3: no grid tells its
+/* The last one ends in an edge between two rings, where ln E falls by 3: no grid shows its
  * place. The first two are what a short run fits. */
 static const Beam beams[] = {
     {30, 0, 900, gaussian, lambert, 1.6, 0.01},

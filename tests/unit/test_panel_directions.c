@@ -84,7 +84,7 @@ TEST(the_bound_holds_between_the_samples)
         truth(colour, radians_from_degrees(theta_deg), radians_from_degrees(phi_deg), wanted);
         for (int j = 0; j < 3; j++) found[j] = (double)xyz[j];
         fit[colour][band] = fmax(fit[colour][band], largest_error(found, wanted));
-        if (i % 16 > 2) continue; /* every 16th of each colour tells the grid's own error */
+        if (i % 16 > 2) continue; /* every 16th of each colour shows the grid's own error */
         interpolated(colour, theta_deg, phi_deg, by_grid);
         grid[colour][band] = fmax(grid[colour][band], largest_error(by_grid, wanted));
     }

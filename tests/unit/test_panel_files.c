@@ -5,7 +5,7 @@
  * a block of exactly their size, which the address sanitizer watches).
  *
  * PARHELION_MUTATIONS in the environment: how many mutations, PARHELION_MUTATIONS_SEED: which;
- * tests/long.sh asks for 100,000.
+ * tests/long.sh runs 100,000.
  */
 #include "panel_fixture.h"
 #include "panel_bytes.h"
@@ -251,9 +251,9 @@ static int start(void **state)
     return 0;
 }
 
-/* ---- asking ----------------------------------------------------------------------------- */
+/* ---- queries ---------------------------------------------------------------------------- */
 
-/* Everything that a renderer or a command asks; no answer is checked, it must only not go
+/* Everything that a renderer or a command evaluates; no answer is checked, it must only not go
  * astray. */
 static void ask_everything(const Panel *panel)
 {
@@ -288,7 +288,8 @@ static void ask_everything(const Panel *panel)
     panel_info_azimuths(panel, phi);
 }
 
-/* Opens and asks; true when it was accepted. Refusals must have a text and the file's name. */
+/* Opens and evaluates; true when it was accepted. Refusals must have a text and the file's
+ * name. */
 static bool try_bytes(const unsigned char *bytes, size_t size, const Kind *kind)
 {
     Arena  scratch = folder.arena;
@@ -552,8 +553,8 @@ TEST(an_unwritable_output_is_named)
 
 /* ---- memory ------------------------------------------------------------------------------ */
 
-/* Opens, asks and (if wanted) fits with an arena of so many bytes, as a process of its own:
- * running out is an exit, as in the program, or an error that says so of a file. */
+/* Opens, evaluates and (if requested) fits with an arena of so many bytes, as a process of its
+ * own: running out is an exit, as in the program, or an error that says so of a file. */
 static int status_with(size_t bytes, bool fits, const char *output)
 {
     pid_t child = fork();

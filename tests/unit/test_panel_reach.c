@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a grid cannot see the fit knows: a mirror that it calls told is true, every range holds
+/* What a grid cannot see the fit knows: a mirror that it calls known is true, every range holds
  * the truth, and a verdict that had to guess is coarse. Panels are closed forms
  * (synthetic_panel.h), tables are what the virtual instrument reads of them. */
 #include "json_fixture.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Reflection tables of any layout: as many samples of a closed form tell as much on rings
+/* Reflection tables of any layout: as many samples of a closed form show as much on rings
  * about the mirror direction, scattered, or with other directions at each incidence as on a
  * grid; what samples do not surround is said, and held. */
 #include "scatter_fixture.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Surfaces whose lobe does not turn with the light, and what lies beyond the last measured
- * incidence: fitted from closed forms of facets (GGX), asked where nothing was measured. */
+ * incidence: fitted from closed forms of facets (GGX), evaluated where nothing was measured. */
 #include "reflection_fixture.h"
 #include "panel/query/panel_opened.h"
 #include "panel/query/panel_sampling.h"

@@ -205,7 +205,7 @@ TEST(polarisation_is_kept_and_costs_nothing_where_there_is_none)
     }
 }
 
-/* "pixels" may be told as columns and rows. */
+/* "pixels" may be given as columns and rows. */
 TEST(sub_pixels_are_kept_with_the_displays_pixels)
 {
     static const struct { const char *text; Subpixels wanted; } cases[] = {

@@ -10,7 +10,7 @@
 
 enum { SIDE_MAX = 70, BYTES_MAX = 1 << 16 };
 
-/* What is asked of a file. */
+/* What a file is required to be. */
 typedef struct Wish {
     int  width, height, components, quality;
     int  across, down; /* samples of the first component for one of the others; 0: 1 */

@@ -15,7 +15,7 @@ typedef struct Bytes {
     size_t        size;
 } Bytes;
 
-/* What is asked of a file; all 0: a plain picture of one part. */
+/* What a file is required to be; all 0: a plain picture of one part. */
 typedef struct Wish {
     int    width, height, colour_type, bits, interlaced;
     int    filter;        /* of every row; negative: any */

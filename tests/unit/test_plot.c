@@ -11,7 +11,7 @@
 #include "plot/draw/picture.h"
 #include "plot/draw/ticks.h"
 
-/* The leak sanitizer asks for this: the font library keeps what it has found until the end. */
+/* The leak sanitizer needs this: the font library keeps what it has found until the end. */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void)
 {

@@ -8,7 +8,7 @@
 #include "image/image.h"
 #include "plot/panel/plot.h"
 
-/* The leak sanitizer asks for this: the font library keeps what it has found until the end. */
+/* The leak sanitizer needs this: the font library keeps what it has found until the end. */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void)
 {

@@ -73,9 +73,9 @@ TEST(paths_go_where_the_answer_is_not_clear)
                                            batches are known within half of themselves */
 }
 
-/* How many paths there are hangs on none of those that are told: these mean 95 %, and who goes
- * by them is wrong no more often than that. Limits near and far; a standard deviation of 400 is
- * 1.1 %. */
+/* How many paths there are hangs on none of those that are reported: these mean 95 %, and who
+ * goes by them is wrong no more often than that. Limits near and far; a standard deviation of
+ * 400 is 1.1 %. */
 TEST(intervals_of_what_a_question_ends_hold_as_often)
 {
     ENDS_BY(world_end) World world = closed_ball();
@@ -122,7 +122,7 @@ TEST(an_askers_scratch_is_not_the_readings)
     other.is_decided = is_clear_with_scratch;
     goal.question = &other;
     Reading b = read_ball(&world, 8, &goal);
-    assert_true(a.paths > READING_ASKED_LEAST); /* asked more than once */
+    assert_true(a.paths > READING_ASKED_LEAST); /* sampled more than once */
     assert_same(a, b);
 }
 

@@ -184,7 +184,7 @@ TEST(who_takes_more_paths_is_not_told)
     journal_close(journal);
 }
 
-/* Who asks for the first time whether it is shared is told the same as before. */
+/* The first call that checks whether it is shared gets the same as before. */
 TEST(a_reading_that_was_kept_before_is_shared_later)
 {
     static const double SCALE[2] = {2, 2};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Which paths decide how long a reading is, and which it tells: with a stand-in for the kernel,
- * whose paths find light by a known law, so that the truth is known exactly. */
+/* Which paths decide how long a reading is, and which it reports: with a stand-in for the
+ * kernel, whose paths find light by a known law, so that the truth is known exactly. */
 #include "fixture.h"
 
 #include "base/sampler.h"
@@ -152,8 +152,8 @@ TEST(a_number_that_is_given_takes_no_pilot)
 /* ---- laws of many readings --------------------------------------------------------------- */
 
 /* One reading in exp((2048 + 4096) / RARE), 1.7 %, meets none of it and cannot know; with 3,000
- * in place of 1,500 these alone were 13 %. Where the paths that decide are told, the mean is a
- * tenth too small, ten standard errors. */
+ * in place of 1,500 these alone were 13 %. Where the paths that decide are reported, the mean
+ * is a tenth too small, ten standard errors. */
 
 TEST(readings_of_rare_light_hold_it_and_have_no_bias)
 {

@@ -47,7 +47,7 @@ ARENA_TEST(a_file_leads_to_its_neighbours_only)
         {"../beside/x", NULL, NULL},
         {"near", NULL, NULL},
         {"../scenes/../beside/x", NULL, NULL},
-        {"not there", NULL, NULL}, /* opening it tells more */
+        {"not there", NULL, NULL}, /* opening it reports more */
         {"out", NULL, "leaves the parent of the folder of the file that names it by a symb"},
         {"link/x", NULL, "by a symbolic link"},
         {"../../secret/x", NULL, "another folder is added by --root DIR"},

@@ -37,7 +37,7 @@ static int raise_twice(int number)
 }
 
 /* A program of its own: the thread sanitizer loses signals between fork and exec. The first
- * case, for it wants a fork before any thread, too. */
+ * case, for it needs a fork before any thread, too. */
 TEST(the_first_interrupt_asks_and_the_second_ends)
 {
     static const int numbers[] = {SIGINT, SIGTERM};
@@ -104,7 +104,7 @@ TEST(honest_noise_is_foretold_at_once)
         assert_true(fabs(forecast_samples(&forecast, done, sqrt(190.0 / done)) - 190) < 1e-9);
 }
 
-/* Rare light that is found late: the wanted samples grow by 40 % with the first doubling, and
+/* Rare light that is found late: the required samples grow by 40 % with the first doubling, and
  * by 0.6 of that with each further one. */
 TEST(noise_that_grows_is_foretold)
 {

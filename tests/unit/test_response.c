@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Probes and their responses: light adds up, however it is asked. */
+/* Probes and their responses: light adds up, however it is sampled. */
 
 #include "base/units.h"
 #include "panel/query/panel_reflection.h"
@@ -355,7 +355,7 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
     }
 }
 
-/* Where it does not none lights it, asked by itself. */
+/* Where it does not none lights it, sampled by itself. */
 enum { SUNS = 4000 };
 
 /* Fibonacci's spiral over the sphere. */
@@ -451,7 +451,7 @@ TEST(a_sun_tells_the_samples_it_is_made_of)
     assert_close(one.fourths, 1, 1e-5);
 }
 
-/* So that what is kept of one asking is what another would find. */
+/* So that what is kept of one sampling is what another would find. */
 TEST(a_sun_is_answered_alike_beside_any_others)
 {
     ENDS_BY(world_end) World world = niche();

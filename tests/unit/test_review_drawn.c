@@ -230,7 +230,7 @@ TEST(a_map_says_what_its_cells_are)
     }
 }
 
-/* What script tells at the pointer is the map's contrast within 0.06 %, and its verdict. */
+/* What the script shows at the pointer is the map's contrast within 0.06 %, and its verdict. */
 TEST(the_pointer_reads_what_the_map_shows)
 {
     ReviewMap      map = fixture_map(&arena, NULL);

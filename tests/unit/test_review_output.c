@@ -208,7 +208,7 @@ TEST(json_is_read_back)
     }
 }
 
-/* Reached or not: what paths did not do stands beside what was asked. */
+/* Reached or not: what paths did not do stands beside what was requested. */
 TEST(a_precision_that_was_not_reached_is_named)
 {
     ReviewCase c = {.precision_asked = 0.01, .precision_reached = 0.0234};
@@ -287,7 +287,7 @@ TEST(a_foreign_json_is_refused_in_one_line)
     assert_refused("\"pass\"", "pass", "line 2", "not valid JSON");
 }
 
-/* What was told later than reviews that may be held against this one. */
+/* What was reported later than reviews that may be held against this one. */
 static bool is_optional(const char *key, const json_t *object)
 {
     static const char *const ADDED[] = {"reflected_interval", "precision_asked",

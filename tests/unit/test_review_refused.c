@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* test_review_refused.c -- what is wrong in REVIEW.json is said in one line: where, what was
- * found, what was wanted. */
+ * found, what was required. */
 #include "review_fixture.h"
 
 static int start(void **state)

@@ -126,7 +126,7 @@ static const char *fact(const ReviewFacts *facts, const char *name)
     return "";
 }
 
-/* Of a value that was tried again by fresh paths the least margin is told, not the last. */
+/* Of a value that was tried again by fresh paths the least margin is reported, not the last. */
 TEST(a_mend_tells_its_least_margin)
 {
     ReviewTrial trials[] = {{1, VERDICT_FAIL, -0.33, false, NULL},
@@ -139,7 +139,7 @@ TEST(a_mend_tells_its_least_margin)
     assert_non_null(strstr(words_mend(&mend, &arena), "least margin +1.3 %"));
 }
 
-/* For each reason: what, why, and what to do; a figure that decides nothing is not told. */
+/* For each reason: what, why, and what to do; a figure that decides nothing is not reported. */
 TEST(what_cannot_be_judged_says_what_would_have_it_judged)
 {
     static const struct { Unjudged why; const char *reason, *mend; } ROWS[] = {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What large scenes rely on: no array is kept twice, numbers are the same however they are
- * stored, long reading is told of, and threads do not change what is found. */
+ * stored, long reading is reported, and threads do not change what is found. */
 #include "fixture.h"
 #include "gltf_maker.h"
 #include "scene_builder.h"

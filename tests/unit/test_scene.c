@@ -383,7 +383,7 @@ static Scene *load_with_normal_map(bool is_mirrored)
 }
 
 /* Flat triangles share their corners and store no normals, unless a normal map needs a frame
- * of each one's own. What the file lacks or nobody asks for is not there. */
+ * of each one's own. What the file lacks or nobody requests is not there. */
 TEST_WITH(what_a_hit_does_not_need_is_not_kept, maker_reset, NULL)
 {
     struct {

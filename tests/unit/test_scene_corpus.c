@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The models of other projects: whole ones load, faulty ones are told. Skipped, and said so,
- * where the shared data are not there. */
+/* The models of other projects: whole ones load, faulty ones are reported. Skipped, and said
+ * so, where the shared data are not there. */
 #include "fixture.h"
 
 #include <dirent.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The laws of packed meshes (KHR_draco_mesh_compression): they equal what was packed within
- * their quantisation, and whatever is wrong with them is told. */
+ * their quantisation, and whatever is wrong with them is reported. */
 #include "check.h"
 #include "draco_fixture.h"
 #include "gltf_maker.h"
@@ -218,7 +218,8 @@ TEST_WITH(members_that_do_not_fit_are_told, maker_reset, NULL)
     assert_told(&s, "\"indices\" is missing, which packed meshes have");
 }
 
-/* One byte of the packed ones is another; how much they hold is told before it is unpacked. */
+/* One byte of the packed ones is another; how much they hold is stated before it is
+ * unpacked. */
 TEST_WITH(headers_are_refused_before_anything_is_unpacked, maker_reset, NULL)
 {
     static const struct {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Our extensions in extras, as an object or as a text of JSON: read as the extension is, and
- * what is wrong with them told where it stands. */
+ * what is wrong with them reported where it stands. */
 #include "check.h"
 
 #include "base/count.h"

@@ -388,7 +388,7 @@ static const char *const NAMERS[] = {
     "'scene':0,'scenes':[{'extensions':{'PARHELION_environment':{'type':'hdri','uri':'%s'}}}]",
     "'extensions':{'EXT_lights_ies':{'lights':[{'uri':'%s'}]}}"};
 
-/* What is asked for, what is there, and what is said. */
+/* What is requested, what is there, and what is said. */
 static const struct {
     const char *uri, *name, *text;
 } NAMES[] = {

@@ -142,7 +142,7 @@ TEST_WITH(each_wrong_member_is_told, maker_reset, NULL)
     }
 }
 
-/* What is not shown beside something else is told once, by what hides it. */
+/* What is not shown beside something else is reported once, by what hides it. */
 static const struct {
     const char *extensions, *place, *text;
 } HIDDEN[] = {
@@ -185,7 +185,7 @@ TEST_WITH(solids_of_glass_are_filmed_and_brushed_without_a_word, maker_reset, NU
     assert_int_equal(found.problems.count, 0);
 }
 
-/* Beside a clear solid: what is asked for, where it stands, and what is said of it. */
+/* Beside a clear solid: what is requested, where it stands, and what is said of it. */
 static const struct {
     const char *core, *extension, *members, *place, *text;
 } NOT_ON_SOLIDS[] = {

@@ -305,7 +305,7 @@ TEST_WITH(opaque_triangles_come_first, maker_reset, NULL)
     assert_int_equal((uintptr_t)scene->positions % 64, 0);
 }
 
-/* BLEND with an alpha of 1 everywhere needs no asking; a vertex that is not full does. */
+/* BLEND with an alpha of 1 everywhere needs no test; a vertex that is not full does. */
 TEST_WITH(what_is_opaque_everywhere_is_opaque, maker_reset, NULL)
 {
     struct {

@@ -160,7 +160,7 @@ TEST_WITH(packed_vertices_and_triangles_keep_their_bits, maker_reset, NULL)
     }
 }
 
-/* One exponent a vector, as the extension has it: newer versions want that said. */
+/* One exponent a vector, as the extension has it: newer versions require that said. */
 #if MESHOPTIMIZER_VERSION >= 190
 #define encode_exponents(...) \
     meshopt_encodeFilterExp(__VA_ARGS__, meshopt_EncodeExpSharedVector)

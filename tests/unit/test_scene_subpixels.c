@@ -53,7 +53,7 @@ TEST_WITH(every_fault_is_named_with_its_place, maker_reset, NULL)
     "iVBORw0KGgoAAAANSUhEUgAAAAMAAAACCAIAAAASFvFNAAAAEElEQVR42mP438AAQQxwFgBf0gj7"             \
     "ZoGl2gAAAABJRU5ErkJggg=="
 
-/* Of a display that shows it; its panel is not there, which is told. */
+/* Of a display that shows it; its panel is not there, which is reported. */
 static const Display *shown(const char *body)
 {
     Found found = maker_survey_file(maker_gltf(NULL, 0,
@@ -85,7 +85,7 @@ TEST_WITH(pixels_are_the_contents_unless_they_are_counted, maker_reset, NULL)
 
 /* ---- the panel's ------------------------------------------------------------------------- */
 
-/* Panels that tell the number of their pixels, that do not, and that tell no sub-pixels. */
+/* Panels that state the number of their pixels, that do not, and that state no sub-pixels. */
 enum { COUNTED, UNCOUNTED, EVEN, PANELS };
 static Fixture panels[PANELS];
 

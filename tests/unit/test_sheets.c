@@ -63,7 +63,7 @@ static bool is_there(int sheet, int cell)
     return hash_u32((uint32_t)(1000 * sheet + cell)) & 1;
 }
 
-/* A mask of CELLS columns; its own luminance tells which one is seen. */
+/* A mask of CELLS columns; its own luminance shows which one is seen. */
 static void add_mask(World *world, const Place *place, int sheet, float turn)
 {
     uint8_t *texels = ARENA_NEW(&world->arena, uint8_t, 4 * CELLS);
@@ -197,8 +197,9 @@ static float alpha_of_film(int i)
     return 0.1f + 0.07f * (float)i;
 }
 
-/* n films and, if wanted, a pane amid them before what shines: prod(1 - alpha) of it is seen,
- * and arrives at a luxmeter by light samples, chance hits and both; T of the pane besides. */
+/* n films and, if requested, a pane amid them before what shines: prod(1 - alpha) of it is
+ * seen, and arrives at a luxmeter by light samples, chance hits and both; T of the pane
+ * besides. */
 static void check_films(const Place *place, int sheets, bool has_pane)
 {
     ENDS_BY(world_end) World world = world_start();
@@ -234,8 +235,8 @@ TEST(films_in_one_plane_each_take_their_share)
         }
 }
 
-/* What shines itself has films on it, before it by less than rays can tell, or is a film: the
- * same light by light samples, by chance and by both. */
+/* What shines itself has films on it, before it by less than rays can resolve, or is a film:
+ * the same light by light samples, by chance and by both. */
 static void check_covered(const Place *place, float gap, float own_alpha)
 {
     ENDS_BY(world_end) World world = world_start();
@@ -292,7 +293,7 @@ TEST(a_film_does_not_shorten_the_way_to_a_lamp)
     assert_true(both.sigma < 0.01 * both.mean);
 }
 
-/* Sheets whose distance can be told keep their order, whatever the file's: the first in the
+/* Sheets whose distance is known keep their order, whatever the file's: the first in the
  * file is the nearest here. */
 TEST(a_sheet_that_is_nearer_by_more_than_rounding_is_seen_first)
 {

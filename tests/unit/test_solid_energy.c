@@ -56,7 +56,7 @@ static double single_facets(const Bsdf *bsdf, Vec3 wo)
 }
 
 /* The same of what facets pass to one another, with cos = t^2; it has no azimuth where both
- * alphas are one, else one quarter tells of all. */
+ * alphas are one, else one quarter stands for all. */
 static double passed_about(const Bsdf *whole, const Bsdf *single, Vec3 wo)
 {
     enum { COUNT = 4096, TURNS = 16 };

@@ -324,7 +324,7 @@ static void take_frame_at(Shown *shown, const Stand *stand, double parts, Layout
                              (float)(pixel / FRAME) + in.y);
         PathStart start = {.context = &context, .wavelengths = &w, .sampler = &sampler,
                            .statistics = &statistics};
-        path_seen(&start, ray, &(SeenAsk){.listener = NULL}, &seen);
+        path_seen(&start, ray, &(SeenRequest){.listener = NULL}, &seen);
         result = seen.path;
         assert_true(result.hit);
         if (!stand->bounces) {
@@ -369,7 +369,7 @@ TEST(a_frame_from_close_shows_red_green_and_blue_from_left_to_right)
 
 /* How much the light of red differs over the frame, when what repeats within about seven pixels
  * is smoothed away (by a raised cosine): of the mean, root mean square. Light that is not even
- * by itself is told by a plain frame; NULL: it is. */
+ * by itself is reported by a plain frame; NULL: it is. */
 static double unrest(const Pixels *frame, const Pixels *plain)
 {
     enum { WINDOW = 16 };

@@ -60,7 +60,7 @@ static World ring_world(double sun_radius_degrees)
     return world;
 }
 
-/* Windows, lacquer, metal: what is asked for and what is left to chance add up to what chance
+/* Windows, lacquer, metal: what is sampled and what is left to chance add up to what chance
  * alone finds. The sun is made large, so that chance finds it. */
 TEST(asking_mirrors_leaves_the_mean_as_it_is)
 {
@@ -118,7 +118,7 @@ TEST(no_pixel_is_a_firefly)
             fail_msg("seed %d: %g, mean %g, sigma %g", i, pixel[i], mean, sqrt(variance));
 }
 
-/* The variance tells the samples that an error takes. */
+/* The variance gives the samples that an error takes. */
 TEST(a_rings_caustic_takes_a_thirtieth_of_the_samples)
 {
     ENDS_BY(world_end) World world = ring_world(0.26645);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Sweeps under a weather file: each step takes its row, and gaps are told. */
+/* Sweeps under a weather file: each step takes its row, and gaps are reported. */
 #include "fixture.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 #define DAY 24
 
-/* 21 June of another year, UTC: sun from 5 to 19 h; each row tells its label. */
+/* 21 June of another year, UTC: sun from 5 to 19 h; each row gives its label. */
 typedef struct Fixture {
     WeatherHour     hours[DAY];
     ReviewWeather   weather;

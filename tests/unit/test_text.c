@@ -86,7 +86,7 @@ TEST(any_text_becomes_json)
     assert_string_equal(json_string_value(bad), "aé\\xFF");
 }
 
-/* What jansson leaves as it is (RFC 8259 asks for C0 alone) is escaped, and read as it was. */
+/* What jansson leaves as it is (RFC 8259 requires C0 alone) is escaped, and read as it was. */
 ARENA_TEST(a_document_gives_a_terminal_no_commands)
 {
     static const char NAME[] = "\x1b[2K\x7f\xc2\x9b\xe2\x80\xae\xe2\x80\xa8\\ \"é";

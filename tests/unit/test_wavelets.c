@@ -98,7 +98,7 @@ MEMORY_TEST(an_even_table_needs_its_four_means)
     }
 }
 
-/* More is nearer; bytes are about the share that was asked. */
+/* More is nearer; bytes are about the share that was requested. */
 MEMORY_TEST(errors_fall_with_size)
 {
     const WaveletStudy *s = usual(arena);

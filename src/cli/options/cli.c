@@ -389,7 +389,7 @@ bool cli_is_version(const char *word)
     return !strcmp(word, "--version") || !strcmp(word, "-V");
 }
 
-/* Help or the version is asked for somewhere before `--`, and not as the value of an option:
+/* Help or the version is requested somewhere before `--`, and not as the value of an option:
  * then nothing else counts. Help goes first. */
 static bool asks_for_help(const Parser *in)
 {

@@ -17,7 +17,7 @@
  *     if (!cli_parse(&command, argc, argv, &arena, &cli, err)) return false;
  *     if (cli.help_shown) return true;
  *
- * Fails    ERROR_USAGE with a text that holds the option, the value found and what is wanted;
+ * Fails    ERROR_USAGE with a text that holds the option, the value found and what is required;
  *          ERROR_OUTPUT where an output is a file that another word names (outputs.h).
  */
 #pragma once
@@ -31,7 +31,7 @@
 
 /* Results of cli_parse besides the values. */
 typedef struct Cli {
-    bool         help_shown; /* help, or the version, was asked for and is printed: done */
+    bool         help_shown; /* help, or the version, was requested and is printed: done */
     bool         json, quiet;
     ProgressMode progress;   /* PROGRESS_NONE when quiet */
     int          threads;    /* at least 1 */
@@ -46,7 +46,7 @@ typedef struct Cli {
 bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, Cli *out,
                Error *err);
 
-/* The help that a word asks for: --help and -h the text, --help=man the source of a manual
+/* The help that a word requests: --help and -h the text, --help=man the source of a manual
  * page, --help=completion what shells complete by (completion.h). */
 typedef enum HelpForm { HELP_NONE, HELP_TEXT, HELP_MAN, HELP_COMPLETION } HelpForm;
 

@@ -75,7 +75,7 @@ typedef struct Option {
     void       *out;   /* the type that belongs to the kind */
     double      low, high; /* limits of numbers; both 0: none */
     int         count; /* OPTION_NUMBERS: how many, at most 8 */
-    bool       *given; /* set when the option was there; NULL: not asked */
+    bool       *given; /* set when the option was there; NULL: not requested */
     OptionFile  file;  /* of OPTION_TEXT */
 } Option;
 

@@ -492,7 +492,7 @@ static bool set_illuminance(Change *change, Error *err)
     return true;
 }
 
-/* A sky that is computed wants to know where the sun stands. */
+/* A sky that is computed needs to know where the sun stands. */
 static bool knows_sun(const Change *change, Error *err)
 {
     const Environment *environment = change->environment;

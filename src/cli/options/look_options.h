@@ -2,7 +2,7 @@
 /* look_options.h -- the options for how a frame becomes a picture, for the commands that
  * develop one.
  *
- * The rows only name where the words go; develop.h defines and checks them. What they ask for
+ * The rows only name where the words go; develop.h defines and checks them. What they request
  * is done here, since a frame is denoised, and seen by an eye (--eye: as it arrives on the
  * retina, vision/eye_filter.h), before it is developed.
  *
@@ -40,7 +40,7 @@
      .out = &(look)->is_denoised}
 
 typedef struct EyeOption {
-    const char *words;   /* of --eye; NULL: not asked */
+    const char *words;   /* of --eye; NULL: not requested */
     double      fov_deg; /* of --fov: the display window's height as an angle; 0: not given */
     HumanEye    eye;     /* by eye_option_check */
 } EyeOption;
@@ -73,7 +73,7 @@ typedef struct LookRequest {
 /* Before anything is read. */
 bool eye_option_check(EyeOption *option, Error *err);
 
-/* develop_frame, of the denoised frame if that is asked for, as an eye sees it if that is. */
+/* develop_frame, of the denoised frame if that is requested, as an eye sees it if that is. */
 bool look_options_develop(const LookRequest *request, Arena scratch, LookReport *report,
                           Error *err);
 

@@ -65,7 +65,7 @@ typedef struct SceneAsked {
     const Outputs           *outputs;  /* which spare the scene's files */
 } SceneAsked;
 
-/* The scene with the surroundings that are asked for. Warnings go to *problems. */
+/* The scene with the surroundings that are requested. Warnings go to *problems. */
 bool scene_options_load(const SceneAsked *asked, Arena *arena, Problems *problems, Scene **out,
                         Error *err);
 

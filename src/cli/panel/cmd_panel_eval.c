@@ -306,7 +306,7 @@ static bool fill_question(const CsvTable *csv, int row, Arena *arena, PanelQuest
                     arena_string(arena, err->text, strlen(err->text)));
 }
 
-/* Columns of the kind that is asked for, so that none is passed over. */
+/* Columns of the kind that is requested, so that none is passed over. */
 static bool check_columns(const CsvTable *csv, const EvalRequest *request, Error *err)
 {
     bool is_brdf = request->question.is_brdf, has_incidence = request->has_incidence;

@@ -24,7 +24,7 @@ typedef struct PlotRequest {
     PlotOptions options;
 } PlotRequest;
 
-/* The lines and contrasts that were asked for, besides the pictures of them. */
+/* The lines and contrasts that were requested, besides the pictures of them. */
 static bool add_numbers(const PlotRequest *request, const PlotInput *input, Arena *arena,
                         json_t *answer, Error *err)
 {

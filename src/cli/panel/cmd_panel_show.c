@@ -149,7 +149,7 @@ static void set_scene(ShowRun *work, Arena *arena)
     request->camera.has_eye = request->camera.has_look_at = request->camera.has_fov = true;
 }
 
-/* One flat display reflects nothing twice, and nothing has to be learnt of where light is. */
+/* One flat display reflects nothing twice, and no guide has to be trained. */
 static bool set_render(ShowRun *work, Arena *arena, Error *err)
 {
     RenderRequest   *request = &work->request;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* panel_facts.h -- what a display engineer asks of a panel first: white, contrast, gamut,
+/* panel_facts.h -- what a display engineer reads of a panel first: white, contrast, gamut,
  * gamma, viewing cone, reflectance; and with it the report of a panel file or of a fit.
  *
  * Units    cd m^-2, CIE 1931 xy, degrees, sr^-1; luminous reflectances under

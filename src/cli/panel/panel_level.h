@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* panel_level.h -- --level of the commands that ask a panel. */
+/* panel_level.h -- --level of the commands that evaluate a panel. */
 #pragma once
 #include <stdbool.h>
 #include <stdio.h>
@@ -22,7 +22,7 @@ typedef struct PanelLevel {
     PanelCoarse found;    /* by panel_level_open */
 } PanelLevel;
 
-/* Opens a panel at the level that is asked for. */
+/* Opens a panel at the level that is requested. */
 bool panel_level_open(const char *path, PanelLevel *level, Arena *arena, Panel **out,
                       Error *err);
 

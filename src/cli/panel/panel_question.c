@@ -78,7 +78,7 @@ bool panel_ask_emission(const Panel *panel, const PanelQuestion *q, float xyz[3]
                           : panel_place_emission_xyz(panel, at, direction, rgb, xyz);
 }
 
-/* At the place that is asked for. */
+/* At the place that is requested. */
 static PanelMix panel_asked(const Panel *panel, const PanelQuestion *q)
 {
     float at[2] = {(float)q->at[0], (float)q->at[1]};

@@ -3,7 +3,7 @@
  *
  * Units    degrees; codes 0 to 255; XYZ with Y in cd m^-2; BRDF in sr^-1 without the cosine;
  *          mirror reflectance without unit; nm.
- * Fails    with the member's name, what was found and what was wanted.
+ * Fails    with the member's name, what was found and what was required.
  */
 #pragma once
 #include <jansson.h>
@@ -33,7 +33,7 @@ typedef struct PanelReflected {
 /* Unit vector of a direction in degrees. */
 Vec3 panel_direction(double theta_deg, double phi_deg);
 
-/* Members that one kind of question asks with. */
+/* Members that one kind of question takes. */
 bool panel_question_is_of_brdf(const char *name);
 bool panel_question_is_of_emission(const char *name);
 

@@ -41,7 +41,7 @@ typedef struct RenderRun {
 
 /* ---- a frame that is shared out ---------------------------------------------------------- */
 
-/* identity: of the frame, without what is learnt; isa: the one that its parts take. The answer
+/* identity: of the frame, without the guide; isa: the one that its parts take. The answer
  * goes to stdout. */
 static bool render_share(const RenderRequest *request, const char *identity, const char *isa,
                          Arena *arena, Error *err)
@@ -195,7 +195,7 @@ static bool identify(RenderRun *work, Error *err)
                                   &options->resume, err);
 }
 
-/* The identity of the frame's samples, without what is learnt: that takes a while, and follows
+/* The identity of the frame's samples, without the guide: training takes a while, and follows
  * from the rest. *kernel: the one that will be used. */
 static bool identify_plan(const RenderRun *work, const Kernel **kernel, const char **identity,
                           Error *err)

@@ -11,7 +11,7 @@
 /* A render that is a part of something planned. */
 typedef struct RenderTask {
     const char *name;        /* of the part, for messages */
-    const char *identity;    /* what the samples have to be of; what is learnt is not in it */
+    const char *identity;    /* what the samples have to be of; the guide is not in it */
     const char *isa;         /* taken where the words name none */
     const char *resume_line; /* the command that goes on with it */
 } RenderTask;

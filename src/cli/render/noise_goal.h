@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* noise_goal.h -- what --noise asks for, [AREA:]R: a relative error R, and the pixels whose
+/* noise_goal.h -- what --noise requests, [AREA:]R: a relative error R, and the pixels whose
  * error it is (frame_area.h). */
 #pragma once
 #include "cli/render/frame_area.h"
 
 typedef struct NoiseGoal {
-    double    error; /* 0: none is asked for */
+    double    error; /* 0: none is requested */
     FrameArea of;
 } NoiseGoal;
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* path_options.h -- how paths are followed: `--polarised` and `--sunglasses`, how the eye takes
- * polarised light; `--no-guiding` and `--field`, where paths learn that light comes from.
+ * polarised light; `--no-guiding` and `--field`, the guide of where light comes from.
  *
  * Memory   the eye comes from the arena.
  * Fails    ERROR_USAGE with the option.

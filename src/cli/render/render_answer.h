@@ -23,7 +23,7 @@ bool render_print_replay(const RenderRequest *request, const Scene *scene,
 /* How a frame came out: the same from a render and from a merge of its parts. */
 typedef struct FrameOutcome {
     uint32_t first_sample, end_sample; /* half-open, of the frame */
-    bool     complete;       /* all samples that were asked for, or the wanted noise */
+    bool     complete;       /* all samples that were requested, or the requested noise */
     double   relative_error; /* film.h's, of the frame */
     uint64_t dropped_samples;
 } FrameOutcome;

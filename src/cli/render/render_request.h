@@ -30,10 +30,10 @@ typedef struct RenderRequest {
     CameraChoice  camera;
     EnvironmentChange environment;
     RenderOptions render;
-    uint64_t      field_hash; /* of what leads the paths, once it is learnt; 0: nothing does */
+    uint64_t      field_hash; /* of the guide, once it is trained; 0: none */
     NoiseGoal     noise;  /* goes into render once the scene is known, as does */
     FrameArea     favoured; /* what all samples are for; option NULL: the whole frame */
-    bool          names_halves; /* --layers asks for halves by name */
+    bool          names_halves; /* --layers requests halves by name */
     bool          replays; /* one sample of one pixel, printed */
     bool          is_part; /* some samples or pixels only: the frame can be merged */
     const char   *command_line; /* without what leaves every pixel as it is

@@ -295,7 +295,7 @@ static Outcome make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *r
     run->responses = folder->responses;
     run->responses_shown = folder->responses_shown;
     run->means.journal = folder->draft.journal;
-    if (!run->means.lessons) run->means.lessons = folder->draft.unfinished;
+    if (!run->means.guides) run->means.guides = folder->draft.unfinished;
     if (!take_found(folder, words->task, *arena, err) ||
         !make_all(words, folder, run, &found, arena, err)) {
         Outcome outcome = err->code ? tell_kept(folder, err) : report_stopped(folder, arena);
@@ -303,7 +303,7 @@ static Outcome make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *r
         return outcome;
     }
     work_end(run->work);
-    if (words->watch) review_folder_close(folder); /* answers are asked for again */
+    if (words->watch) review_folder_close(folder); /* answers are looked up again */
     else review_folder_finish(folder);
     if (!review_print(&words->cli, &found.review, *arena, err)) return OUTCOME_FAILED;
     return found.review.pass ? OUTCOME_DONE : OUTCOME_NO;
@@ -390,7 +390,7 @@ static Outcome review(const ReviewWords *words, Arena *arena, Error *err)
                      .problems = &problems, .work = &work};
     if (words->task) {
         run.identity = words->task->identity;
-        run.means.lessons = words->task->responses;
+        run.means.guides = words->task->responses;
     }
     if (words->task && words->task->share.count)
         return review_part(&run, words->task, words->responses, arena, err);
@@ -403,7 +403,7 @@ static Outcome review(const ReviewWords *words, Arena *arena, Error *err)
 
 /* ---- again and again --------------------------------------------------------------------- */
 
-/* A review that fails is reported, and its files are watched: the next save may mend it. */
+/* A review that fails is reported, and its files are watched: the next save may correct it. */
 static bool review_once(const ReviewWords *words, Error *err)
 {
     Arena once = arena_reserve(machine_memory_bytes());

@@ -73,8 +73,8 @@ Outcome review_part(ReviewRun *run, const ReviewTask *task, const char *response
     run->share = task->share;
     run->responses = responses ? responses : task->responses;
     run->responses_shown = "";
-    run->means.lessons = task->responses;
-    if (!folder_make(run->responses, err) || !folder_make(run->means.lessons, err) ||
+    run->means.guides = task->responses;
+    if (!folder_make(run->responses, err) || !folder_make(run->means.guides, err) ||
         !journal_open(task->answers, arena, run->problems, &run->means.journal, err))
         return OUTCOME_FAILED;
     WorkPlan all = work_of_conditions(run->request, false), part = {{0}};

@@ -3,7 +3,7 @@
  * job's folder (job/job_share.h), what was planned, what a part does, what the whole takes.
  *
  * Memory   the command's arena.
- * Fails    as job_share, and as the review does; when the user asks to stop, after a line on
+ * Fails    as job_share, and as the review does; when the user stops it, after a line on
  *          how to go on.
  */
 #pragma once
@@ -25,7 +25,7 @@ typedef struct ReviewTask {
                                  be damaged, those of the whole may not */
     int          found_count;
     const char  *responses;   /* where the parts' are, unless the words name a folder; and what
-                                 they learnt */
+                                 they trained */
     const char  *resume_line; /* the command that goes on with it */
 } ReviewTask;
 

@@ -26,5 +26,5 @@ void        review_watch_end(ReviewWatch *watch);
 void review_watch_add(ReviewWatch *watch, const char *path);
 
 /* Waits until a file was written, made or removed; *changed: the first of them. False: the user
- * asked to stop (signals.h). */
+ * requested to stop (signals.h). */
 bool review_watch_wait(ReviewWatch *watch, const char **changed);

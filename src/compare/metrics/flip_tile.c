@@ -245,7 +245,7 @@ static void seen_lab(const FlipJob *job, const Filtered *filtered, int x, double
     hunt_lab(ratios, lab);
 }
 
-/* Natural logarithm, since a power of it is wanted; -infinity for equal colours. Small
+/* Natural logarithm, since a power of it is required; -infinity for equal colours. Small
  * differences are stretched: those up to KNEE of the greatest fill 0 .. KNEE_MAPPED. */
 static double log_colour_difference(const FlipJob *job, const FlipScratch *scratch, int x)
 {

@@ -6,7 +6,7 @@
 #include "base/mathf.h"
 
 /* Radix selection: three rounds over digits of 11, 11 and 10 bits find the one value whose
- * rank is asked for, the highest digit first. */
+ * rank is searched for, the highest digit first. */
 enum { DIGITS = 2048 };
 
 typedef struct Digit {

@@ -34,5 +34,5 @@ void html_report_add_failure(HtmlReport *report, const char *name, const char *w
 bool html_report_write(const HtmlReport *report, const char *reference, const char *test,
                        const char *path, Error *err);
 
-/* False for a name that is no HTML file's: to be asked before long work. */
+/* False for a name that is no HTML file's: to be checked before long work. */
 bool html_report_check_name(const char *path, Error *err);

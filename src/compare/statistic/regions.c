@@ -56,7 +56,7 @@ static int list_regions(const NoisyPair *pair, const FrameImage *frame, Arena *a
 
 /* ---- a display by itself ----------------------------------------------------------------- */
 
-/* Layers of both frames that tell displays' parts. */
+/* Layers of both frames that show displays' parts. */
 typedef struct BothParts {
     const FrameImage *const *frames;
     DisplayLayers layers[2];

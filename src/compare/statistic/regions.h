@@ -2,8 +2,8 @@
 /* regions.h -- the family of tests of regions: the frame, every display, what each reflects.
  *
  * A display is what it sends by itself (measure/display_part.h) where both frames have the
- * layers that tell: what lies around moves nothing of it. Else its pixels count whole, by the
- * reference's id.display.
+ * layers that show it: what lies around moves nothing of it. Else its pixels count whole, by
+ * the reference's id.display.
  *
  * Memory   the list and its names come from the arena.
  * Threads  pure.

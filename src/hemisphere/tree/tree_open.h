@@ -15,7 +15,7 @@ size_t tree_size(const void *blob);
  * (a vertex tree's vertex_plane_level). Fails (ERROR_INPUT) naming what is wrong. */
 bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *out, Error *err);
 
-/* For a tree that is asked often: a vertex tree's rows as integers in the arena, where they
+/* For a tree that is evaluated often: a vertex tree's rows as integers in the arena, where they
  * take VERTEX_UNPACKED_MOST bytes at most (vertex_unpack.h); others stay as they are. Every
  * answer keeps its bits. Before the tree is shared by threads. */
 void tree_unpack(Tree *tree, Arena *arena);

@@ -243,7 +243,7 @@ static int visit_one(const Tree *tree, const Leaves *leaves, Visit at, TreeTaps 
 }
 
 /* Everything below the triangles in the queue, level by level: taps of one level follow each
- * other, which tree_sum wants. */
+ * other, which tree_sum needs. */
 static void visit_below(const Tree *tree, const Leaves *leaves, Visit *queue, int count,
                         TreeTaps *taps)
 {

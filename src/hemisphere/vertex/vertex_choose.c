@@ -344,7 +344,7 @@ static void add_for_missed(Chooser *c, int first, int last, Arena scratch)
         if (c->missed[wishes[i].at->vertex]) grant(c, &wishes[i]);
 }
 
-/* Adds details until nearly all is accepted: the coder mends the rest with details of its
+/* Adds details until nearly all is accepted: the coder corrects the rest with details of its
  * own. Returns about how many details that makes. */
 static uint32_t mend(Chooser *c, Arena scratch)
 {

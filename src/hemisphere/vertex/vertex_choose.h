@@ -8,9 +8,9 @@
 #pragma once
 #include "hemisphere/vertex/vertex_tree.h"
 
-/* Asks the caller and remembers: what lies well within a distance from the value that was
- * accepted once is taken as accepted, in any direction. The finished tree is checked without
- * that. */
+/* Calls the caller's test and remembers: what lies well within a distance from the value that
+ * was accepted once is taken as accepted, in any direction. The finished tree is checked
+ * without that. */
 typedef struct VertexJudge {
     const VertexTreeOptions *options;
     const float             *values; /* vertices x components */

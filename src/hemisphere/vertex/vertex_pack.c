@@ -115,7 +115,7 @@ static int16_t *row_of(const VertexCode *code, uint32_t vertex)
     return code->integers + vertex * (size_t)code->components;
 }
 
-/* Damaged bits may tell any integer: it is held in a blob's range. */
+/* Damaged bits may give any integer: it is held in a blob's range. */
 static void code_row(PackWalk *w, PackNumber *kinds, uint32_t vertex, bool is_base)
 {
     int16_t *row = row_of(w->code, vertex);

@@ -253,7 +253,7 @@ static Coder make_coder(const VertexTreeOptions *options, const float *values, A
 }
 
 /* Every vertex of a finished tree as a query sees it; rebuilt: their values. Those that are not
- * accepted are asked for every time from now on, *wrong is one of them; how many. */
+ * accepted are evaluated every time from now on, *wrong is one of them; how many. */
 static uint32_t count_wrong(Coder *c, const Trial *best, float *rebuilt, uint32_t *wrong)
 {
     VertexLattice   lattice = c->code.lattice;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* vertex_unpack.h -- a vertex tree's rows as 16-bit integers, for trees that are asked often.
+/* vertex_unpack.h -- a vertex tree's rows as 16-bit integers, for trees that are evaluated
+ * often.
  *
  * Queries take rows of 4-bit planes apart, each row in another format. Unpacked once, a row is
  * loaded as it stands and no branch waits for its format; the numbers and what is done with

@@ -36,5 +36,5 @@ IccLight icc_light_of(const double chromaticities[8], double gamma);
 /* 0 .. 1 for 0 .. 1. */
 double code_curve_at(const CodeCurve *curve, double code);
 
-/* As sRGB has them, within what 8 bits can tell. */
+/* As sRGB has them, within what 8 bits can show. */
 bool icc_light_is_srgb(const IccLight *light);

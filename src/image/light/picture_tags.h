@@ -6,7 +6,7 @@
  *          JPEG and WebP: ICC profile, Exif's orientation; TIFF: both. (PNG, third edition;
  *          ICC.1:2022; Exif 2.32; ITU-T H.273.) Profiles of a matrix and curves, or of one
  *          curve for greys, are understood; tables and others (CMYK), PQ and HLG are not.
- *          What is sRGB within what 8 bits can tell is sRGB; so is a gAMA of 1/2.2 by itself.
+ *          What is sRGB within what 8 bits can show is sRGB; so is a gAMA of 1/2.2 by itself.
  * Units    codes 0 .. 1; light linear, 1 is the picture's white, which is taken for D65.
  * Memory   from the arena. Threads: pure functions. Fails: never; what is damaged is not known.
  */

@@ -27,7 +27,7 @@ static TextCell trimmed(const char *begin, const char *end)
     return (TextCell){begin, (int)(end - begin)};
 }
 
-/* The number of a line; some writers put a decimal comma, or a unit behind, which are told.
+/* The number of a line; some writers put a decimal comma, or a unit behind, which are reported.
  * False: it is none, or another number stands behind. */
 static bool number_of(LuminaireScan *in, TextLine line, double *out)
 {
@@ -200,7 +200,7 @@ static bool read_planes(LuminaireScan *in, const EulumdatHead *head, Luminaire *
     return luminaire_scan_intensities(in, scale, out);
 }
 
-/* Numbers behind the last one belong nowhere; words are left out, and told. */
+/* Numbers behind the last one belong nowhere; words are left out, and reported. */
 static bool check_end(LuminaireScan *in, Luminaire *out)
 {
     TextLine line;
@@ -266,7 +266,8 @@ static bool read_eulumdat(const char *file, const ImportOptions *options, Import
            luminaire_add(&luminaire, options, set, err);
 }
 
-/* No mark in the file: its name, or whole numbers where the second to fourth line want them. */
+/* No mark in the file: its name, or whole numbers where the second to fourth line require
+ * them. */
 static bool is_eulumdat(const char *file, const char *head, size_t size)
 {
     if (!strcasecmp(path_ending(file), ".ldt")) return true;

@@ -2,7 +2,7 @@
 /* eulumdat.h -- the intensities of an EULUMDAT file.
  *
  * Memory   the set's arena. Threads: no shared state.
- * Fails    with the file, the line, what was found and what was wanted.
+ * Fails    with the file, the line, what was found and what was required.
  */
 #pragma once
 #include "import/luminaire/luminaire.h"

@@ -58,7 +58,8 @@ static bool next_number(LuminaireScan *in, const char *what, double low, double 
                                word.length < 40 ? word.length : 40, word.text, low, high);
 }
 
-/* Numbers behind the last one belong nowhere; words are left out, and told (unless NULL). */
+/* Numbers behind the last one belong nowhere; words are left out, and reported (unless
+ * NULL). */
 static bool check_end(LuminaireScan *in, const char *table, Luminaire *out)
 {
     TextCell word;

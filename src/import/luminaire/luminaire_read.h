@@ -3,7 +3,7 @@
  * IES LM-63.
  *
  * Memory   the set's arena. Threads: no shared state.
- * Fails    with the file, the line, what was found and what was wanted.
+ * Fails    with the file, the line, what was found and what was required.
  */
 #pragma once
 #include "import/luminaire/luminaire.h"

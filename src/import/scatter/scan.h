@@ -5,7 +5,7 @@
  * that begins with the comment mark is passed over.
  *
  * Memory   the arena's. Threads: one scan per thread.
- * Fails    with file, line, what was found and what was wanted.
+ * Fails    with file, line, what was found and what was required.
  */
 #pragma once
 #include <stddef.h>

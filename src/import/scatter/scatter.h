@@ -61,7 +61,7 @@ bool scatter_add(ImportSet *set, const char *file, const ImportRows *rows,
 /* One band. */
 const float *scatter_band(double nm, ImportSet *set);
 
-/* --wavelength, else the one that the file states (0: none); or an error that asks for it
+/* --wavelength, else the one that the file states (0: none); or an error that requests it
  * (NULL). */
 const float *scatter_wavelength(double stated_nm, const ImportOptions *options,
                                 const char *file, ImportSet *set, Error *err);

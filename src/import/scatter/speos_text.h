@@ -2,7 +2,7 @@
 /* speos_text.h -- the text form of Speos' .anisotropicbsdf and .brdf.
  *
  * Memory   the arena's. Threads: no shared state.
- * Fails    with the file, the line, what was found and what was wanted.
+ * Fails    with the file, the line, what was found and what was required.
  */
 #pragma once
 #include "import/scatter/speos_table.h"

@@ -36,7 +36,7 @@ typedef struct Ssdd {
     int        count[PARAMS];
     double    *param[PARAMS]; /* degrees */
     int        nm_count;      /* of WAVELENGTH_LIST */
-    int        channels;      /* of the file, as its COLOR_MODEL wants */
+    int        channels;      /* of the file, as its COLOR_MODEL requires */
     float     *nm;            /* of a spectrum */
     double    *value;         /* [3][2][1][0][channel] */
     bool       is_half_turn;  /* param 3 stops at 180: of the half-difference system */

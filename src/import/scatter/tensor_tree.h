@@ -2,7 +2,7 @@
 /* tensor_tree.h -- Radiance's tensor tree as tables.
  *
  * Memory   the set's arena. Threads: one set per thread.
- * Fails    with the file, the line, what was found and what was wanted.
+ * Fails    with the file, the line, what was found and what was required.
  */
 #pragma once
 #include "import/scatter/window_xml.h"

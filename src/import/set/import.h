@@ -9,7 +9,8 @@
  *           light comes from 180 (leaving azimuth + 180 - the light's azimuth).
  * Units     XYZ in cd m^-2; BRDF in sr^-1 without the cosine; nm.
  * Memory    the arena's. Threads: one set per thread.
- * Fails     with the file, the line or the place inside it, what was found and what was wanted.
+ * Fails     with the file, the line or the place inside it, what was found and what was
+ *           required.
  */
 #pragma once
 #include "base/arena.h"

@@ -409,7 +409,7 @@ static void take_means(ImportTable *table, const int *leader, int rows, Arena *a
 #define REPEATS_APART 0.1  /* share: runs further apart are not one measurement, */
 #define REPEATS_SURE  3    /* where the sum of differences is so many times what noise makes */
 #define REPEATS_WORST 0.5  /* share: so far apart no single direction was measured twice */
-#define REPEATS_POLES 4    /* rows at theta 0: so many tell the fit which of them is wrong */
+#define REPEATS_POLES 4    /* rows at theta 0: so many show the fit which of them is wrong */
 #define REPEATS_FLOOR 0.05 /* of a channel's largest: what is less is compared with that */
 
 /* What stands again beside what stood first at the same directions. */

@@ -4,7 +4,7 @@
  *
  * Memory   the arena's; lines and cells are views into the decoded text.
  * Threads  no shared state.
- * Fails    with the file, the line, what was found and what was wanted.
+ * Fails    with the file, the line, what was found and what was required.
  */
 #pragma once
 

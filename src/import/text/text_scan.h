@@ -4,7 +4,7 @@
  * Lists and matrices (one or more labelled blocks over one grid) both become one table of rows.
  *
  * Memory   the arena's. Threads: no shared state.
- * Fails    with the file, the line, what was found and what was wanted.
+ * Fails    with the file, the line, what was found and what was required.
  */
 #pragma once
 #include "import/text/text_metadata.h"

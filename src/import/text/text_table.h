@@ -2,7 +2,7 @@
 /* text_table.h -- a text file's rows as tables of the set.
  *
  * Memory   the set's arena. Threads: one set per thread.
- * Fails    with the file, the line, what was found and what was wanted.
+ * Fails    with the file, the line, what was found and what was required.
  */
 #pragma once
 #include "import/text/text_conventions.h"

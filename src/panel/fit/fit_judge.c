@@ -477,7 +477,7 @@ static void start(Judge *judge, Arena *arena)
     for (int g = 0; g < 3; g++) judge->reasons[g] = json_array();
 }
 
-/* The measurement could not see what it was asked for. */
+/* The measurement could not see what is required of it. */
 static bool has_coarse(const json_t *reasons)
 {
     size_t  i;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* fit_judge.h -- is a fitted panel good, usable with care, or not usable, and why?
  *
- * Criteria  each has a limit from where a panel wants care and mostly one from where it is
+ * Criteria  each has a limit from where a panel needs care and mostly one from where it is
  *           not usable; a panel's verdict is that of its worst criterion. The limits stand in
  *           judge_limits.h.
  * Memory    the report's. Threads: one at a time. Fails: never.

@@ -113,7 +113,7 @@ static void add_emission_tables(const FitParts *parts, const Panel *panel, json_
     }
 }
 
-#define FALLING_LEVEL 3 /* of the directions that are asked */
+#define FALLING_LEVEL 3 /* of the directions that are evaluated */
 
 /* Whole codes that give less light than the code below, over directions and primaries. */
 static int count_falling(const Panel *panel)

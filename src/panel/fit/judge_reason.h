@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* judge_reason.h -- the reasons against a fitted panel, as they are found; from where it wants
+/* judge_reason.h -- the reasons against a fitted panel, as they are found; from where it needs
  * care, and from where it is not usable.
  *
  * Units    of limits: shares and relative errors of 1; degrees; cd m^-2. They stand in
@@ -34,7 +34,7 @@ JudgeGrade judge_reason_grade(double value, double care, double unusable);
 
 /* Samples beyond the bound beside five sigmas of noise; a bound below 2 % counts as 2 %, since
  * luminance meters are calibrated no better. One sample in fifty is an edge of the tables; half
- * of them is another panel, if the rms error below wants care too. */
+ * of them is another panel, if the rms error below needs care too. */
 #define JUDGE_LEAST_BOUND 0.02
 #define JUDGE_BEYOND_CARE 0.02
 #define JUDGE_BEYOND_UNUSABLE 0.5
@@ -50,7 +50,7 @@ JudgeGrade judge_reason_grade(double value, double care, double unusable);
 #define JUDGE_INTEGRAL_CARE 0.05
 #define JUDGE_INTEGRAL_UNUSABLE 0.25
 
-/* Directional-hemispherical reflectance that the tables ask for. Nothing gives back more light
+/* Directional-hemispherical reflectance that the tables state. Nothing gives back more light
  * than it got: 1 % is what sums over tables err by; a quarter too much is no noise but another
  * unit (BRDF times pi, a reflectance factor, per cent). */
 #define JUDGE_ALBEDO_CARE 1.01

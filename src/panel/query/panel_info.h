@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* panel_info.h -- what commands and reports want to know of an opened panel.
+/* panel_info.h -- what commands and reports report of an opened panel.
  *
  * Units    radians, nm. Threads: any number. Fails: never.
  */

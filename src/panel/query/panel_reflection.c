@@ -61,7 +61,7 @@ static inline Float8 mixed_rows(const PanelReflection *r, const PanelTables *mix
 typedef float Wide __attribute__((vector_size(4 * WIDE), aligned(WIDE_ALIGNED), may_alias));
 _Static_assert(WIDE <= 4 + PANEL_COEFFICIENTS_BEHIND, "rows of 4 may be read as one of WIDE");
 
-/* Tables that are asked together: 1 or 4. */
+/* Tables that are evaluated together: 1 or 4. */
 typedef struct TableGroup {
     const PanelTablesTerm *term;
     int count;
@@ -100,8 +100,8 @@ static inline void add_group(const PanelReflection *r, TableGroup group, const f
     if (k < padded) add_wides(r, group, component, k, 1, coefficient);
 }
 
-/* As many tables as are left are asked as four, of which some count nothing: how many there are
- * of a side cannot be predicted. */
+/* As many tables as are left are evaluated as four, of which some count nothing: how many there
+ * are of a side cannot be predicted. */
 static inline void add_loadings(const PanelReflection *r, const PanelTablesTerm *term,
                                 int count, const float *component, float *coefficient)
 {

@@ -16,8 +16,8 @@ bool panel_reflects(const Panel *panel);
 /* The same at all wavelengths: one is measured, or all are alike (or it reflects nothing). */
 bool panel_reflects_grey(const Panel *panel);
 
-/* A panel's reflection at the wavelengths of a path: made once, asked any number of times. It
- * is worth a query and a half. */
+/* A panel's reflection at the wavelengths of a path: made once, evaluated any number of times.
+ * It is worth a query and a half. */
 #define PANEL_LANES_COEFFICIENTS 32
 #define PANEL_LANES_TABLES 12 /* more of them are mixed in every query */
 typedef struct PanelLanes {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* sampling_make.h -- the sampling section that follows from queries of a panel's reflection: at
- * which incidences and azimuths a tree of directions is wanted, and the tree. Private to
+ * which incidences and azimuths a tree of directions is required, and the tree. Private to
  * src/panel.
  *
  * The same bytes on every machine. Some milliseconds for each incidence and azimuth. Where the

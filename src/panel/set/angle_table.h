@@ -4,7 +4,7 @@
  * Frame    the display's: theta from the normal, phi 0 right, 90 up.
  * Units    radians inside, degrees in files; XYZ with Y in cd m^-2, or BRDF in sr^-1.
  * Memory   the arena's. Threads: const once read.
- * Fails    with file, line, found and wanted.
+ * Fails    with file, line, found and required.
  */
 #pragma once
 #include "base/arena.h"

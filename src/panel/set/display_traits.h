@@ -3,7 +3,7 @@
  * polarised, and how its pixels are divided.
  *
  * Both hold for the whole display, at every angle and place.
- * Fails    with file, JSON path, found and wanted.
+ * Fails    with file, JSON path, found and required.
  */
 #pragma once
 #include "panel/query/panel.h"

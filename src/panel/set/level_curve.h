@@ -6,7 +6,7 @@
  * over ln code). Kept are the lowest row with more light than black (LEVEL_SHARE_LEAST of full
  * level), full level, and then, one by one, the row that is missed most, until no row is missed
  * by more than LEVEL_CURVE_MISS of its luminance and LEVEL_CURVE_FLOOR of full level together:
- * beside white, an eye or a picture of 8 bits does not tell less. Both would tell a step of
+ * beside white, an eye or a picture of 8 bits does not resolve less. Both would show a step of
  * half a per cent. Where LEVEL_CURVE_MAX rows do not do, the table is noise about a smooth
  * curve, and about 32 whole codes have what the least-squares line through the rows around each
  * says (local linear regression, Cleveland 1979); full level stays.

@@ -22,8 +22,9 @@
  *
  * Units    levels as codes in [0, 255]; luminance in cd m^-2; shares without unit.
  * Memory   the arena's. Threads: const once read.
- * Fails    with file, line, found and wanted: fewer than two rows, no or an unclear full level,
- *          values below zero, luminance that falls, a level twice, no light at full level.
+ * Fails    with file, line, found and required: fewer than two rows, no or an unclear full
+ *          level, values below zero, luminance that falls, a level twice, no light at full
+ *          level.
  */
 #pragma once
 #include "base/error.h"

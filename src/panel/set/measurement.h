@@ -2,7 +2,7 @@
 /* measurement.h -- reads and checks what a laboratory measured of one display.
  *
  * Memory   the arena's.
- * Fails    with file, line or JSON path, found and wanted.
+ * Fails    with file, line or JSON path, found and required.
  */
 #pragma once
 #include "panel/set/measured.h"

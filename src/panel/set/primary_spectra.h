@@ -2,7 +2,7 @@
 /* primary_spectra.h -- the relative spectra of a display's primaries from a table.
  *
  * Units    nm; values relative. Memory: the arena's. Threads: any number.
- * Fails    with the file, its line, what was found and what was wanted.
+ * Fails    with the file, its line, what was found and what was required.
  */
 #pragma once
 #include "base/arena.h"

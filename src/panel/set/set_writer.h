@@ -41,7 +41,7 @@ bool set_writer_add(SetWriter *writer, const char *name, const Text *text);
 /* The manifest, indented, numbers with so many digits. */
 bool set_writer_add_manifest(SetWriter *writer, const json_t *root, int digits);
 
-/* is_whole: all that was wanted has been added. False, and nothing left, when it is not, or
+/* is_whole: all that was required has been added. False, and nothing left, when it is not, or
  * when a file cannot get its name. */
 bool set_writer_close(SetWriter *writer, bool is_whole);
 

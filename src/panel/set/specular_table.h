@@ -10,7 +10,7 @@
  *           are round ones of the same solid angle, and one value serves all wavelengths: an
  *           approximation.
  * Units     radians, nm, reflectances of 1. Memory: the arena's. Threads: const once read.
- * Fails     with file, line or JSON path, found and wanted.
+ * Fails     with file, line or JSON path, found and required.
  */
 #pragma once
 #include "record/record.h"

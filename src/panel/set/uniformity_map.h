@@ -12,7 +12,7 @@
  * Only ratios count, so that cd m^-2 will do as well as shares of one.
  *
  * Memory   the arena's. Threads: const once read.
- * Fails    with file, place, found and wanted.
+ * Fails    with file, place, found and required.
  */
 #pragma once
 #include "record/record.h"

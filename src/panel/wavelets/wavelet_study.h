@@ -55,7 +55,7 @@ typedef struct WaveletStudy {
     int              level;
     double           sample_rms; /* in the table's unit */
     size_t           source_bytes; /* its numbers as float32 */
-    Tree             tree;       /* as it was asked for */
+    Tree             tree;       /* as it was requested */
     WaveletSize      kept;       /* the same */
     double           mean_miss;  /* largest difference of a father and his children's mean */
     WaveletLevel     levels[WAVELET_LEVEL_MAX + 1];

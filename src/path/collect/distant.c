@@ -73,8 +73,9 @@ static void send_way(const DistantCollector *questions, const PathState *from,
     path_follow(&path, surface, wo, &next);
 }
 
-/* Few paths go on by a mirror, each in one direction: sunlight by way of a pane or of a satin
- * ring would depend on a handful of paths. Ways cost a ray or two; a vertex asks hundreds. */
+/* Few paths go on by a mirror, each in one direction: sunlight via a pane or of a satin
+ * ring would depend on a handful of paths. Ways cost a ray or two; a vertex samples
+ * hundreds. */
 static void send_ways(const DistantCollector *questions, const PathState *path,
                       const Surface *surface, Vec3 wo, const Guiding *guiding)
 {
@@ -119,7 +120,7 @@ static bool ask(PathCollector *c, PathState *path, const Surface *surface, Vec3 
 }
 
 /* Chooses the mirror direction of a first display, so that chance leaves none of it out;
- * false: the mirror alone is not asked for, or this is no such display. */
+ * false: the mirror alone is not requested, or this is no such display. */
 static bool choose_mirror(PathCollector *c, PathState *path, const Surface *surface,
                           BsdfSample *next)
 {
@@ -140,7 +141,7 @@ static void turn_from(PathCollector *c, PathState *path, const Surface *surface,
     if (questions->distant->has_ways) questions->sent_ways |= !next->is_delta;
 }
 
-/* Vertices that scatter have asked for themselves. */
+/* Vertices that scatter have sampled lights themselves. */
 static bool leave(PathCollector *c, PathState *path)
 {
     const DistantCollector *questions = (const DistantCollector *)c;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* distant.h -- distant light as a question: from which directions does it reach the eye, or a
- * luxmeter, and how much of it? The path asks instead of being lit.
+ * luxmeter, and how much of it? The path samples it instead of being lit.
  *
  * Threads  one thread's, like the path.
  */
@@ -10,9 +10,9 @@
 #define PATH_WAYS 16 /* from a vertex: a ray or two each, beside hundreds of its questions */
 
 typedef struct PathDistant {
-    const Vec3 *towards; /* unit; every scattering vertex asks all of them */
+    const Vec3 *towards; /* unit; every scattering vertex samples all of them */
     int         count;
-    /* share: of the radiance from towards[i], per steradian, what comes to the eye by way of
+    /* share: of the radiance from towards[i], per steradian, what comes to the eye via
      * vertex `bounce` (0: the first surface that scatters), per lane; of a luxmeter to
      * tristimulus values in lx. pdf: with which ways find that direction from there, too,
      * sr^-1; 0: none does. */

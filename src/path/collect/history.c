@@ -69,7 +69,7 @@ static void turn(PathCollector *c, PathState *path, const Surface *surface, Vec3
                             spectrum_max_lane(path->throughput));
 }
 
-/* Of a lit surface the sun alone is asked, or nobody. */
+/* Of a lit surface the sun alone is sampled, or nothing. */
 static bool ask_less(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
                      const Guiding *guiding)
 {

@@ -35,11 +35,12 @@ typedef struct PathHistory {
                                        towards it */
     bool     is_distant;
     bool     is_extrapolated;       /* the first step sent it on as its panel extrapolates it
-                                       (bsdf_is_extrapolated); only where that is wanted */
+                                       (bsdf_is_extrapolated); only where that is requested */
     float    sr;                    /* of the field of view, that a light sample stands for; 0:
                                        the path met the light itself, or it has no extent */
     const float       *lanes;       /* its radiance, W m^-2 sr^-1 nm^-1 per lane; of a display
-                                       that is seen by its measured XYZ NULL, unless wanted */
+                                       that is seen by its measured XYZ NULL, unless
+                                       requested */
     const Wavelengths *wavelengths; /* of the lanes */
 } PathHistory;
 
@@ -51,11 +52,12 @@ static inline int path_steps_kept(const PathHistory *history)
 /* How far a listener's paths go. Through clear solids they always go on. */
 typedef enum PathReach {
     PATH_TO_ITS_END,
-    PATH_TO_SUNLIT_SURFACE, /* until a surface scatters or mirrors, which asks the sun alone */
+    PATH_TO_SUNLIT_SURFACE, /* until a surface scatters or mirrors, which samples the sun
+                               alone */
     PATH_TO_SURFACE,        /* or nobody */
     PATH_BY_MIRRORS,        /* from mirror to mirror and through panes, of which thin ones show
-                               both ways always, until a surface scatters; that asks nobody: all
-                               light that comes without being scattered, for little time */
+                               both ways always, until a surface scatters; that samples none:
+                               all light that comes without being scattered, for little time */
     PATH_BY_SURE_MIRRORS    /* the same, but what is opaque and mirrors always does, by as much
                                as it mirrors: what a ray finds is no matter of chance. A coat
                                whose normals are others than its base's is left out */
@@ -64,11 +66,11 @@ typedef enum PathReach {
 typedef struct PathListener {
     void (*on_light)(void *user, const PathHistory *history, const float xyz[3]);
     /* A mirror, the last step, turned it towards there (unit); the eye sees this share of what
-     * comes from there, in its brightest lane. NULL: nobody wants to know. */
+     * comes from there, in its brightest lane. NULL: not requested. */
     void (*on_mirror)(void *user, const PathHistory *history, Vec3 towards, float share);
     void  *user;
-    bool   with_lanes;  /* displays' lanes are wanted, too */
-    bool   with_extrapolated; /* is_extrapolated is wanted, too */
+    bool   with_lanes;  /* displays' lanes are requested, too */
+    bool   with_extrapolated; /* is_extrapolated is requested, too */
     bool   of_emitters; /* it gets these alone */
     PathReach reach;
 } PathListener;

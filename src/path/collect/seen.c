@@ -283,7 +283,7 @@ _Static_assert(COLLECTOR_ROOM(PolarisedRows) + COLLECTOR_ROOM(PixelRay) +
                    COLLECTORS_MAX_BYTES,
                "what an eye sees is collected by more than a sheet has room for");
 
-void path_seen(const PathStart *start, Ray ray, const SeenAsk *ask, SeenLight *out)
+void path_seen(const PathStart *start, Ray ray, const SeenRequest *request, SeenLight *out)
 {
     const PathContext *context = start->context;
     const PolarisedEye *eye = context->eye;
@@ -293,15 +293,15 @@ void path_seen(const PathStart *start, Ray ray, const SeenAsk *ask, SeenLight *o
     ReflectedPart    part, guess;
     HistoryCollector by_way;
     for (int i = 0; i < 3; i++) out->stokes[i] = out->lambertian[i] = out->extrapolated[i] = 0;
-    if (ask->listener) {
-        by_way = history_collector(ask->listener, own.collector);
+    if (request->listener) {
+        by_way = history_collector(request->listener, own.collector);
         own.collector = &by_way.base;
     }
-    if (ask->with_lambertian) {
+    if (request->with_lambertian) {
         part = display_part(lambertian_share, out->lambertian, own.collector);
         own.collector = &part.base;
     }
-    if (ask->with_extrapolated) {
+    if (request->with_extrapolated) {
         guess = display_part(extrapolated_share, out->extrapolated, own.collector);
         own.collector = &guess.base;
     }

@@ -3,7 +3,7 @@
  *
  * Units    "points" of the page, y down; a page is scaled to its picture as a whole.
  * Frame    angles of texts in radians, clockwise as y runs down.
- * Threads  one thread a canvas. Fails: never here; cairo's status is asked once at the end.
+ * Threads  one thread a canvas. Fails: never here; cairo's status is read once at the end.
  */
 #pragma once
 #include <cairo.h>

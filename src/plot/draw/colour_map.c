@@ -58,7 +58,7 @@ static void smooth_colour(ColourMap map, double t, double rgb[3])
     }
 }
 
-/* The lightness wanted at t: linear between the ends (of each half of the signed map). */
+/* The lightness required at t: linear between the ends (of each half of the signed map). */
 static double wanted_lightness(ColourMap map, double t)
 {
     double ends[2][3];

@@ -107,7 +107,7 @@ static void draw_luminances(Canvas *canvas, Box box, const PanelChart *shown,
     draw_curves(canvas, box, shown, out, &(AngleCurves){"Luminance, cd/m²", count, curve});
 }
 
-/* In the dark, and in the light that was asked for. */
+/* In the dark, and in the light that was requested. */
 static void draw_contrasts(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
 {
     const PlotData    *s = shown->data;

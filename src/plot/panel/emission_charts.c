@@ -28,7 +28,7 @@ static void choose_levels(PolarMap *map, double low, double high, int most)
     if (isfinite(map->strong)) map->level[map->level_count++] = map->strong;
 }
 
-/* The user's lines in place of ours, lettered as they were asked for. */
+/* The user's lines in place of ours, lettered as they were requested. */
 static bool take_contours(Canvas *canvas, PolarMap *map, const PlotContours *wanted,
                           double on_axis)
 {

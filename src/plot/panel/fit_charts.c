@@ -341,7 +341,7 @@ typedef struct BrdfPoints {
     double fine_deg[BRDF_FINE], fitted[BRDF_FINE];
 } BrdfPoints;
 
-/* The measured azimuth of the light that is nearest to the one asked for. */
+/* The measured azimuth of the light that is nearest to the one requested. */
 static int nearest_azimuth(const PlotData *s)
 {
     const Measurement *set = s->source.measured;

@@ -82,7 +82,7 @@ static bool fails_empty(const PlotData *s, PlotKind kind, Error *err)
     return error_at(err, ERROR_INPUT, file, "", "has nothing to draw for --kind %s", name);
 }
 
-/* Contrast in the light wants both: what the panel shines and what it reflects. */
+/* Contrast in the light needs both: what the panel shines and what it reflects. */
 static bool can_be_lit(const PlotData *s, Error *err)
 {
     if (!s->source.ambient.count || (s->emits && s->reflects)) return true;

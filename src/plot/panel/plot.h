@@ -33,8 +33,8 @@ typedef struct PlotInput {
 bool plot_write(const PlotInput *input, const PlotOptions *options, const char *path,
                 Arena *arena, int *charts, Error *err);
 
-/* Asks the panel for what options->kind shows; *report is the caller's to release. NULL: *err
- * has the reason. */
+/* Evaluates the panel for what options->kind shows; *report is the caller's to release. NULL:
+ * *err has the reason. */
 PlotData *plot_ask(const PlotInput *input, const PlotOptions *options, Arena *arena,
                        json_t **report, Error *err);
 

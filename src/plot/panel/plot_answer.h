@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* plot_answer.h -- the lines and contrasts that a user asked for, as numbers.
+/* plot_answer.h -- the lines and contrasts that a user requested, as numbers.
  *
  * Units    degrees, lux, the charts' units. Threads: one at a time for a PlotData's arena.
  */

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* plot_choice.h -- what a user may want drawn of a panel: kinds of charts, lines at values,
+/* plot_choice.h -- what a user may have drawn of a panel: kinds of charts, lines at values,
  * contrast in some light.
  *
  * Units    lux; a contour in the chart's own unit (cd m^-2, or a ratio), or in percent of the
  *          chart's value on the axis.
  * Threads  pure functions.
- * Fails    with the option, what was found and what was wanted.
+ * Fails    with the option, what was found and what was required.
  */
 #pragma once
 #include <stdbool.h>

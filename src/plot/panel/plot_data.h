@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* plot_data.h -- the panel that is drawn, asked once for everything that several charts need.
+/* plot_data.h -- the panel that is drawn, evaluated once for everything that several charts
+ * need.
  *
  * Frame    the display's: phi 0 right, 90 up. A polar map's rim is the horizon.
  * Units    radians, cd m^-2, sr^-1, nm, lux.
@@ -31,8 +32,8 @@ typedef struct PlotSource {
     bool               wants_maps;    /* samples emission over the hemisphere */
     bool               wants_reflectance; /* into every angle, though no ambient is given */
     int                threads;
-    PlotContours       contours;      /* lines that the user wants in place of ours */
-    PlotAmbient        ambient;       /* light in which contrast is asked besides the dark */
+    PlotContours       contours;      /* lines that the user requests in place of ours */
+    PlotAmbient        ambient;       /* light in which contrast is computed besides the dark */
 } PlotSource;
 
 typedef struct PlotData {
@@ -51,7 +52,7 @@ typedef struct PlotData {
     int    incidence_count;     /* of the light, measured, rising */
     double incidence[PANEL_INFO_INCIDENCES_MAX], last_incidence;
     bool   is_anisotropic;      /* reflection depends on the light's azimuth */
-    double diffuse_reflectance[PLOT_REFLECTANCES]; /* where contrast is asked in the light:
+    double diffuse_reflectance[PLOT_REFLECTANCES]; /* where contrast is computed in the light:
                                    haze and lambertian part, at 0, 1 ... 90 degrees */
     double brdf_cone;           /* leaving theta measured up to here */
     Arena *arena;
@@ -112,15 +113,15 @@ double plot_data_mirror(const PlotData *data, double theta, double nm);
  * panel's hemispherical-directional luminous reflectance: what it sends into direction d from a
  * uniform surround, over what a perfect white diffuser would send,
  *   R(d) = integral of f(d, w) cos theta_w over the hemisphere of w, plus the mirror part,
- * f the panel's own BRDF (haze and lambertian part, as a renderer asks it), by 2048 directions
- * drawn like it, to about 0.3 %; light from beyond the last measured incidence (beyond 70
- * degrees 12 % of it) is extrapolated. The mirror part counts, since a uniform surround is
- * mirrored too (specular included). Of an anisotropic panel the mean over eight azimuths of d.
- * E_s is the illuminance on the panel of a small directed source (sun, lamp) that stands at s;
- * pi f(d, s) is the panel's luminance factor in that geometry. The source's image in the mirror
- * part is seen in one direction only, which a render shows, and counts in none here.
- * Weighted by V(lambda) for equal-energy light: lamps of other spectra change R and f where
- * they depend on the wavelength. Source: E. F. Kelley, M. Lindfors, J. Penczek, Display
+ * f the panel's own BRDF (haze and lambertian part, as a renderer evaluates it), by 2048
+ * directions drawn like it, to about 0.3 %; light from beyond the last measured incidence
+ * (beyond 70 degrees 12 % of it) is extrapolated. The mirror part counts, since a uniform
+ * surround is mirrored too (specular included). Of an anisotropic panel the mean over eight
+ * azimuths of d. E_s is the illuminance on the panel of a small directed source (sun, lamp)
+ * that stands at s; pi f(d, s) is the panel's luminance factor in that geometry. The source's
+ * image in the mirror part is seen in one direction only, which a render shows, and counts in
+ * none here. Weighted by V(lambda) for equal-energy light: lamps of other spectra change R and
+ * f where they depend on the wavelength. Source: E. F. Kelley, M. Lindfors, J. Penczek, Display
  * daylight ambient contrast measurement methods and daylight readability, J. Soc. Inf. Display
  * 14 (2006): sky as a uniform surround and sun as a directed source are measured apart, scaled
  * to the illuminances and added; also SID's Information Display Measurements Standard. */

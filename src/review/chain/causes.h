@@ -48,7 +48,7 @@ typedef struct CauseFacts {
 } CauseFacts;
 
 /* Sets the case's causes: the greatest CAUSES_MOST, and "all other ways", which add up to the
- * reflected light by these paths, and the groups; that light itself where asked. */
+ * reflected light by these paths, and the groups; that light itself where requested. */
 CauseFacts case_causes(const CauseAsk *ask, ReviewCase *c, Arena *arena);
 
 /* The share of that light that comes via materials without data, alone: as the causes have it,

@@ -29,7 +29,7 @@
 typedef struct ChainLink {
     int part_id; /* the first of those that count as one */
     int event;   /* PathEvent */
-    int pane_id; /* the last pane before it; NO_ID: none; at the first link only if asked */
+    int pane_id; /* the last pane before it; NO_ID: none; at the first link only if requested */
 } ChainLink;
 
 /* Plain numbers, zero behind count: keys are compared as bytes. */
@@ -73,9 +73,9 @@ typedef struct ChainGroups {
     double *by_surface;         /* [part], by what is met next behind what is seen first, an
                                    emitter among it; */
     double  straight[LIGHT_SETS]; /* and what shines there by itself */
-    double  without_data;       /* by way of any material without data (material_data.h), each
+    double  without_data;       /* via any material without data (material_data.h), each
                                    path once */
-    double  guessed;            /* by way of any that was guessed (Material.guessed_as), or
+    double  guessed;            /* via any that was guessed (Material.guessed_as), or
                                    through one: likewise */
     double  extrapolated;       /* as the panel of the display that is seen first extrapolates
                                    its reflection */
@@ -87,12 +87,12 @@ typedef struct Chains {
     int         count;
     int         others; /* how many more there are */
     ChainFigure rest;   /* theirs */
-    ChainFigure all, mirror; /* mirror: by way of the mirror of a display that is seen first */
+    ChainFigure all, mirror; /* mirror: via the mirror of a display that is seen first */
     double      own;    /* cd m^-2 of `all` that began at the display that is seen first */
     double     *by_part; /* cd m^-2 that came by each part of the scene, surface or pane, behind
                             what is seen first; of parts that count as one at their first */
     ChainGroups groups;
-    PlaceSums   places; /* of an ask that has some */
+    PlaceSums   places; /* of a request that has some */
     const int  *alike;  /* [part] the first of those that count as one */
     long        paths;
 } Chains;

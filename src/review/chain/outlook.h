@@ -22,7 +22,7 @@ typedef struct OutlookAsk {
     Vec3 eye;       /* sees the surface from its front: its mirror image is marked */
 } OutlookAsk;
 
-/* One thing that is seen first, by node and material, or a source, by way of a pane. */
+/* One thing that is seen first, by node and material, or a source, via a pane. */
 typedef struct OutlookShare {
     const char *what;  /* "sky through Window_FL (glass)" */
     double      share; /* of the surface's illuminance */

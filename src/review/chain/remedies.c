@@ -176,7 +176,7 @@ static void add_brightness(Remedying *m)
 #define TILTS 6
 static const double TILT_DEG[TILTS] = {3, -3, 6, -6, 9, -9}; /* back is positive */
 #define TILT_PATHS 1024         /* of each that is tried */
-#define TILT_PRECISION 0.01     /* of the contrast, of the one that is told, */
+#define TILT_PRECISION 0.01     /* of the contrast, of the one that is reported, */
 #define TILT_MOST 65536         /* in so many paths at most, fresh ones: */
 #define TILT_SEED 0x74696c74u
 

@@ -28,9 +28,9 @@
 typedef struct EyePath {
     double seen;               /* cd m^-2, without the sun's disc; */
     double apart[EYE_SOURCES]; /* of it, the part that light samples do not read; */
-    double told;               /* of the latter, what the rays of glare_field.h tell; */
+    double told;               /* of the latter, what the rays of glare_field.h show; */
     double images;             /* and of the glints the sun's */
-    double mirrored;           /* and of bright lamps those that lamp_images.h tells */
+    double mirrored;           /* and of bright lamps those that lamp_images.h reports */
     int    lamp;               /* part that was met by mirrors; NO_ID: none */
     float  share;              /* that its last mirror lets the eye see of what lies there: */
     Ray    image;              /* (0: it met none) */
@@ -58,7 +58,7 @@ static Vec3 local_direction(double theta, double phi)
                 (float)cos(theta));
 }
 
-/* u, shifted round the unit circle as the round asks for that axis. */
+/* u, shifted round the unit circle as the round requires for that axis. */
 static double shifted(double u, int round, uint32_t axis)
 {
     double by = hash_combine(hash_u32(SHIFT_SEED + axis), (uint32_t)round) * 0x1p-32;
@@ -223,7 +223,7 @@ typedef struct EyeSums {
     EyeReading   reading;
     EstimateSums veil;           /* of paths in batches of rounds */
     double       image_veil, image_variance;
-    double      *rest;       /* [path] for glare: what neither samples nor its rays tell */
+    double      *rest;       /* [path] for glare: what neither samples nor its rays show */
     GlareImage  *images;     /* likewise */
     int          image_count;
 } EyeSums;

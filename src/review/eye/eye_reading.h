@@ -38,7 +38,7 @@ typedef enum EyeSource {
     EYE_SUN,      /* seen straight or through glass; so are the next two */
     EYE_SKY,
     EYE_LAMPS,    /* and displays */
-    EYE_GLINTS,   /* sun, lamps and displays by way of mirrors and panes alone */
+    EYE_GLINTS,   /* sun, lamps and displays via mirrors and panes alone */
     EYE_SURFACES, /* all else: what is lit, and the sky in mirrors */
     EYE_NEAR,     /* sky and surfaces within EYE_NEAR_DEG: what the eye looks at */
     EYE_SOURCES

@@ -9,7 +9,7 @@
 
 #define SEED 0x66616c73u
 #define BLOCK 10       /* rays along each side of a block: BLOCK_DEG by FALSE_SUN_STEP_DEG */
-#define ENOUGH 5       /* images a ray, on the average, that are wanted of a block */
+#define ENOUGH 5       /* images a ray, on the average, that are required of a block */
 #define RAYS_MOST 32   /* rays a direction */
 
 /* ---- rays -------------------------------------------------------------------------------- */
@@ -391,9 +391,9 @@ const FalseSunRays *sun_searches_ask(SunSearches *searches, const Setup *setup, 
     *search = (SunSearch){.identity = arena_string(arena, setup->identity,
                                                    strlen(setup->identity)),
                           .eye = eye, .before = searches->last};
-    if (!setup->lessons || !find_kept(setup, eye, arena, &search->rays)) {
+    if (!setup->guides || !find_kept(setup, eye, arena, &search->rays)) {
         false_suns_search(setup, eye, arena, &search->rays);
-        if (setup->lessons) keep(setup, eye, &search->rays, *arena);
+        if (setup->guides) keep(setup, eye, &search->rays, *arena);
     }
     searches->last = search;
     return &search->rays;

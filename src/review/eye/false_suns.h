@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* false_suns.h -- where the sun has to stand for a smooth surface to throw it into an eye.
  *
- * Rays from the eye, close together, are followed by way of mirrors, glass and the fronts of
+ * Rays from the eye, close together, are followed via mirrors, glass and the fronts of
  * displays until they leave the scene. Where they leave to is where the sun stands when the eye
  * sees its image there: the whole answer for any sun, without a path for each. Light keeps its
  * radiance, so that an image gives the eye the sun's illuminance by the share of the sun's disc
@@ -81,7 +81,7 @@ FalseSunSight false_suns_at(const FalseSuns *suns, Vec3 towards);
 /* ---- searches that are kept -------------------------------------------------------------- */
 
 /* One serves all gazes, moments and sweeps in which the same eye sees the same scene: it takes
- * some 2 million rays; neither the sun nor any other light has a part in it. Where lessons are
+ * some 2 million rays; neither the sun nor any other light has a part in it. Where guides are
  * kept, in a review that machines share, the setup's journal keeps it, too. One thread at a
  * time. */
 typedef struct SunSearch SunSearch;

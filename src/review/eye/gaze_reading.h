@@ -3,12 +3,12 @@
  * mirrors over that, such as the top of the dashboard in the windscreen.
  *
  * Means over the cone of GAZE_CONE_DEG about the gaze, the part of the field that an eye sees
- * sharply. A pane is what lets light through: glass. It mirrors what comes by way of a
+ * sharply. A pane is what lets light through: glass. It mirrors what comes via a
  * reflection at it before the gaze meets anything else than glass; all other light came through
  * it, or there is no pane. Both add up to what a camera would see there, but for the sun's own
  * disc: that one is no background of anything.
  *
- * A pilot tells how many paths both figures take; fresh ones make them (estimate/estimate.h).
+ * A pilot shows how many paths both figures take; fresh ones make them (estimate/estimate.h).
  * Their upper ends have, besides, what the brightest lamp could send there that no path met,
  * straight or by mirrors and panes alone.
  *

@@ -15,7 +15,7 @@
 #define FIELD_BYTES ((size_t)1 << 32) /* of address space */
 _Static_assert(SIDE % GLARE_DEAL == 0, "as many in each group");
 
-/* ---- what a ray tells -------------------------------------------------------------------- */
+/* ---- what a ray shows -------------------------------------------------------------------- */
 
 static bool comes_straight(const PathHistory *history, int steps)
 {
@@ -46,7 +46,7 @@ bool glare_field_tells(const PathHistory *history)
 
 typedef enum FieldClass { FIELD_DIM, FIELD_SOURCE, FIELD_PEAK, FIELD_CLASSES } FieldClass;
 
-/* One ray: what it told. sr 0: it does not look ahead. */
+/* One ray: what it showed. sr 0: it does not look ahead. */
 typedef struct FieldRay {
     float sky, lit; /* cd m^-2 */
     float sr;

@@ -2,7 +2,7 @@
 /* glare_field.h -- the sources of glare that have no light samples of their own: sky in
  * windows, sunlit surfaces, and what is mirrored; and the background.
  *
- * A picture of the half space in front of the eye: equidistant, a ray a pixel. What a ray tells
+ * A picture of the half space in front of the eye: equidistant, a ray a pixel. What a ray shows
  * without noise (glare_field_tells) is taken from it; all else from GlareRest. Where a small
  * source ends, pixels are looked at again, 64 rays each. Pixels that touch one another, by a
  * corner at least, are one source.
@@ -29,7 +29,7 @@ typedef struct GlareFieldAsk {
     uint32_t seed;
 } GlareFieldAsk;
 
-/* Adds the sources; *background_lx: light from all else, what the rays tell and the rest. */
+/* Adds the sources; *background_lx: light from all else, what the rays show and the rest. */
 typedef struct GlareBackground {
     double told_lx[GLARE_GROUPS]; /* they add up to it */
     double rest_lx;

@@ -47,7 +47,7 @@ typedef struct GlareAsk {
     GlareHead          head;
     GlarePaths         told; /* what glare_field_tells of paths, */
     GlarePaths         rest; /* and of the same ones what neither samples nor
-                                rays tell, */
+                                rays show, */
     const BrightLamps *lamps; /* nor images of these */
     const GlareSample *samples[LIGHT_SETS]; /* [rest.count] */
     int                rounds;   /* of as many of both: they differ in nothing but chance */

@@ -82,7 +82,7 @@ static void settle(const RestWork *work, int square, int size, const RestSums *s
     }
 }
 
-/* Settles what squares of `size` cells tell surely; the sums of all others stay. */
+/* Settles what squares of `size` cells show surely; the sums of all others stay. */
 static void settle_all(const RestWork *work, int size, RestSums *sums)
 {
     int squares = work->rest->side / size;

@@ -3,7 +3,7 @@
  * from them the figures of glare, with their intervals.
  *
  * Every figure is a function of sums. Samples are dealt out to GLARE_GROUPS groups that differ
- * in nothing but chance; leaving out one group after the other tells how sure the figure is
+ * in nothing but chance; leaving out one group after the other shows how sure the figure is
  * (J. W. Tukey's jackknife; Miller, Biometrika 61 (1974) 1-15).
  *
  * Units    cd m^-2, sr, lx.

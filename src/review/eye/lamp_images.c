@@ -176,7 +176,7 @@ static bool meets_part(const BrightLamps *lamps, int i, Ray ray, RayWidth width)
     return false;
 }
 
-/* A second ray, at half a cell's width to the side and up, tells how mirrors spread a cell; its
+/* A second ray, at half a cell's width to the side and up, shows how mirrors spread a cell; its
  * far corner lies at most twice as far off. Mirrors that the other ray does not meet are taken
  * for flat. */
 #define CORNER 2.5
@@ -429,7 +429,7 @@ static void cut(const LampCell *cell, LampCell *to)
                            .y = cell->y * PER_SIDE + i / PER_SIDE};
 }
 
-/* Tells what is known well, and leaves the cells of the next picture. */
+/* Reports what is known well, and leaves the cells of the next picture. */
 static void go_finer(LampSearch *search, bool is_last, LampPairs *pairs, LampImages *out,
                      Arena *arenas[3])
 {

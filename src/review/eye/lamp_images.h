@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* lamp_images.h -- images of bright lamps in mirrors, panes and the fronts of displays, as an
  * eye sees them: how bright, how large, where. Glare weighs luminance by its square, so that a
- * mean over a field of view that is wider than the image does not tell it.
+ * mean over a field of view that is wider than the image does not show it.
  *
  * A picture of the half space in front of the eye, a ray a cell. Cells behind whose mirrors a
  * lamp may lie are cut, again and again, until enough of them show the image: so that one of a
  * thousandth of a degree is found. Rays go by sure mirrors (PATH_BY_SURE_MIRRORS); where a
  * laminated pane shows one of two images by chance, each is the mean of many.
  *
- * Told         lamps by way of opaque mirrors; the first may be a thin pane. What comes by
+ * Reported     lamps via opaque mirrors; the first may be a thin pane. What comes by
  *              solids of glass, or by a pane that stands behind a mirror, is not.
  * Approximate  a mirror narrower than a cell of the first picture may be missed.
  * Units        cd m^-2, sr, metres, scene.
@@ -32,7 +32,7 @@ typedef struct BrightLamps {
 
 BrightLamps bright_lamps(const Scene *scene, double least_cd_m2, Arena *arena);
 
-/* Is this light of a bright lamp that lamp_images_find tells? */
+/* Is this light of a bright lamp that lamp_images_find reports? */
 bool bright_lamps_tell(const BrightLamps *lamps, const PathHistory *history);
 
 /* A piece of the image of a lamp in the mirror that the eye sees. */

@@ -4,7 +4,7 @@
  *
  * Lamps are emitting parts, displays among them (by their white over the hemisphere). The sun
  * is none: false_suns.h looks for its images. Whether something stands before a lamp is not
- * asked.
+ * requested.
  *
  * Units    cd m^-2; metres, scene; radians.
  * Memory   lists live in the arena.

@@ -31,7 +31,7 @@ typedef struct LiveFrame {
     LivePlanes scene, displays; /* add up to the frame's R, G, B */
 } LiveFrame;
 
-/* Wants display.emitted and display.coverage. */
+/* Needs display.emitted and display.coverage. */
 bool live_frame_split(const FrameImage *frame, Arena *arena, LiveFrame *out, Error *err);
 
 /* At most so large, as it is or smaller: each pixel is the mean over its area. */

@@ -119,7 +119,7 @@ static Lines to_publish(const ReviewDraft *draft, const Review *review, Arena *a
     return files;
 }
 
-/* Removes what reviews made here and this one does not have. The page asks for a frame's layers
+/* Removes what reviews made here and this one does not have. The page loads a frame's layers
  * only if they are published with it. Returns what stays. */
 static Lines remove_earlier(const ReviewDraft *draft, const Review *review, const Lines *made,
                             const Lines *published, Arena *arena)

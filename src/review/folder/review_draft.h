@@ -3,14 +3,14 @@
  * what goes on after a kill, until they take their places all together.
  *
  *     DIR/unfinished/journal         readings that were taken (keep/journal.h)
- *     DIR/unfinished/HASH.lesson     what a moment's paths were taught
+ *     DIR/unfinished/HASH.lesson     a moment's trained guide
  *     DIR/unfinished/HASH.checkpoint of the frame in hand
  *     DIR/unfinished/new/            files as they will stand in DIR
  *
  * So what stands in DIR is always of one review: the earlier one until the new one is whole, or
  * has worked for a minute and shows what it knows so far, marked as such.
  * The files then move one by one, within milliseconds, review.json last; a kill in between is
- * mended by the same command.
+ * replaced by the same command.
  *
  * Memory   from the arena.
  * Threads  one at a time.

@@ -3,7 +3,7 @@
  *
  * index.html (with many cases cases.html beside it), live.js, summary-SYMBOL.html, review.json,
  * cases.csv, junit.xml; sweeps/NAME.csv; frames/NAME.exr and .png, and
- * NAME.layers.js, which the page asks for when its reader looks at the picture;
+ * NAME.layers.js, which the page loads when its reader looks at the picture;
  * responses/NAME.response; run.json with what may differ from run to run; diff.json beside an
  * earlier review; unfinished/ (review_draft.h) until all is there.
  *

@@ -6,6 +6,6 @@
 #pragma once
 #include "keep/journal.h"
 
-/* False: INT, TERM or HUP asked to stop (signals_stopped: there is no error), or the journal
- * (NULL: none) could not keep what was found. */
+/* False: INT, TERM or HUP requested to stop (signals_stopped: there is no error), or the
+ * journal (NULL: none) could not keep what was found. */
 bool review_goes_on(const Journal *journal, Error *err);

@@ -268,7 +268,7 @@ static void keep_answers(DistantProbe *const *probes, int count, const DistantTo
                     answer_bytes(tools->table));
 }
 
-/* ---- skies that are asked ---------------------------------------------------------------- */
+/* ---- skies that are sampled -------------------------------------------------------------- */
 
 static bool sum_skies(DistantProbe *const *probes, int count, const DistantTools *tools,
                       Arena scratch, Error *err)
@@ -365,7 +365,7 @@ static int *suns_that_reach(const Response *response, const ProbeSuns *suns, int
     return list;
 }
 
-/* Asks only suns that may light it: most of them stand behind a roof. */
+/* Samples only suns that may light it: most of them stand behind a roof. */
 static const float *ask_scattered(const DistantProbe *probe, const ReadingTools *with,
                                   const ResponseOptions *options, const ProbeSuns *all,
                                   Arena *arena)

@@ -5,7 +5,7 @@
  * A response (response.h) is traced once. Clear skies of a table of the sun's elevations are
  * summed over it for every azimuth of the sun; what lies between is interpolated. Skies of a
  * weather file are summed one by one (hour_sky.h). The first vertex's answer to the sun itself
- * is asked for each of the suns.
+ * is sampled for each of the suns.
  *
  * Frame    azimuths of the vehicle: 0 ahead, 90 right; elevations apparent; degrees.
  * Units    cd m^-2 (a luxmeter: lx).
@@ -45,7 +45,7 @@ typedef struct DistantTools {
     int             paths;       /* the response's, at most, */
     double          precision;   /* and when it ends before */
     int             sun_paths;   /* the first vertex's */
-    bool            has_mirror;  /* it may be one: that is asked by paths of its own */
+    bool            has_mirror;  /* it may be one: that is sampled by paths of its own */
     const HourSkies *hours;     /* a weather file's, read instead of the table; or NULL */
 } DistantTools;
 

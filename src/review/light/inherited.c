@@ -6,7 +6,7 @@
 #include "render/identity.h"
 
 #define BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
-#define SKIES_MAX 64            /* 130 MB; what is asked for beyond is built again each time */
+#define SKIES_MAX 64            /* 130 MB; what is requested beyond is built again each time */
 
 typedef struct KeptGuide {
     const LightGuide *guide; /* NULL: there is none */

@@ -103,7 +103,7 @@ int light_parts_worst(const LightParts *parts, const double *values, double *mea
     return worst_of(parts, means);
 }
 
-/* ---- what samples tell of them ----------------------------------------------------------- */
+/* ---- what samples show of them ----------------------------------------------------------- */
 
 /* Samples of a target less what is known of it; light by cell, so that cells of more paths
  * count no more. */

@@ -25,7 +25,7 @@ void light_parts_place(const LightParts *parts, int part, int *column, int *row)
 
 /* Sets means[part], over the cells of each that are seen, of values[target]; NaN: the part does
  * not count. Returns the worst, of equal ones the nearest to the middle; -1: nothing is
- * seen. counts: [part] how many cells are seen; NULL: not wanted. */
+ * seen. counts: [part] how many cells are seen; NULL: not requested. */
 int light_parts_worst(const LightParts *parts, const double *values, double *means,
                       int *counts, Arena scratch);
 

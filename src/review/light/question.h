@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* question.h -- what a probe is asked, as the key of its answer (keep/journal.h).
+/* question.h -- what a probe has to find, as the key of its answer (keep/journal.h).
  *
  * Everything that decides the answer is in it: the program, the scene's files, its light as it
- * is now, where the probe is and looks, and what is asked.
+ * is now, where the probe is and looks, and what it has to find.
  *
  * Threads  pure functions.
  */

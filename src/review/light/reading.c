@@ -188,7 +188,7 @@ static void keep_stream(const Stream *stream, Batch *batches, int *paths)
     *paths = stream->end;
 }
 
-/* ---- a pilot, and what it asks for ------------------------------------------------------- */
+/* ---- a pilot, and what it requires ------------------------------------------------------- */
 
 /* A pilot, and what would do. */
 typedef struct PilotWork {
@@ -243,7 +243,7 @@ static Reading take_planned(const ProbeAim *aim, const ReadingGoal *goal,
     return reading;
 }
 
-/* parts: NULL: nobody wants them. */
+/* parts: NULL: not requested. */
 static Reading take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
                     ReadingParts *parts, Arena scratch)
 {
@@ -259,7 +259,7 @@ static Reading take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingT
 
 /* ---- what is kept ------------------------------------------------------------------------ */
 
-/* Where it was asked to stop a reading may be cut off: nobody goes on with it
+/* Where a stop was requested a reading may be cut off: nobody goes on with it
  * (review_goes_on). */
 static void keep(Journal *journal, JournalKey key, const void *answer, size_t size)
 {
@@ -297,7 +297,7 @@ static int displays_of(const ProbeAim *aim)
     return aim->context->scene->display_count;
 }
 
-/* No plan asks for more: whoever kept it took no more. */
+/* No plan requires more: whoever kept it took no more. */
 static long most_paths(const ReadingGoal *goal)
 {
     long most = goal->most > READING_ASKED_LEAST ? goal->most : READING_ASKED_LEAST;

@@ -6,7 +6,7 @@
  * number of paths is given, there is no pilot. Intervals are those of all estimates
  * (estimate/estimate.h).
  *
- * Where it is asked to stop (render/signals.h), a reading ends at once and means nothing.
+ * Where a stop is requested (render/signals.h), a reading ends at once and means nothing.
  *
  * Units    cd m^-2 (a luxmeter: lx).
  * Memory   scratch only.
@@ -27,7 +27,7 @@ typedef struct ReadingQuestion {
     bool (*is_decided)(void *user, MeanInterval reflected, Arena scratch);
     void  *user;
     double precision; /* at which a decided question may end: coarser than the goal's, and
-                         asked of the reading itself too */
+                         requested of the reading itself too */
     const char *name; /* besides the reading, all that decides the answer: readings that are
                          kept are known by it */
 } ReadingQuestion;
@@ -44,7 +44,7 @@ typedef struct ReadingGoal {
     double known;            /* the part by the display's mirror: paths leave it out
                                 (path_context.h); it is added, with the error of
                                 response_mirror_paths */
-    bool   is_shared;        /* reading_scaled will be asked: what it needs is kept. Counts of
+    bool   is_shared;        /* reading_scaled will be called: what it needs is kept. Counts of
                                 scenes with no more than PROBE_DISPLAYS displays */
     const ReadingQuestion *question; /* NULL: none */
 } ReadingGoal;
@@ -64,7 +64,7 @@ typedef struct Reading {
     double reflected;      /* Y; of a luxmeter the illuminance */
     double sigma;          /* its standard error */
     MeanInterval interval; /* 95 %, whether there was a question or not */
-    double mirror;         /* part by way of the display's mirror */
+    double mirror;         /* part via the display's mirror */
     double found_share;    /* paths whose first surface was a display */
     BrightSamples bright;  /* its paths, by the light that each found */
     double batches[READING_BATCHES]; /* of each batch by itself; their mean is `reflected` */
@@ -83,12 +83,12 @@ Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const Reading
 
 /* The reading by the same paths with light of displays times scale[display]: of a reading that
  * was shared, by its aim and goal but for emitted light and how it may be decided. Its paths do
- * not depend on its result: the pilot asks for as many, or it is not returned. False: it is not
+ * not depend on its result: the pilot requires as many, or it is not returned. False: it is not
  * known, or takes more paths. */
 bool reading_scaled(const ProbeAim *aim, const ReadingGoal *goal, const double *scale,
                     const ReadingTools *tools, Arena scratch, Reading *out);
 
-/* A reading that also tells which target sends how much: to find what is read then. */
+/* A reading that also reports which target sends how much: to find what is read then. */
 typedef struct FieldAsk {
     long          paths;     /* as many, whatever they find: a multiple of READING_BATCHES */
     double        known;     /* as a goal's */

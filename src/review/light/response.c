@@ -11,15 +11,16 @@
 #include "review/light/light_bands.h"
 
 #define WAVE 16    /* chunks that are traced before they are added, in order */
-#define PILOT 8    /* chunks that ask every triangle */
-#define NEAR 1.2f  /* widths of a triangle: what is asked for a sun; one lies within, or more */
-/* Later ones ask a cell that those found in every so manyth chunk: as many rays go out along
+#define PILOT 8    /* chunks that sample every triangle */
+#define NEAR 1.2f  /* widths of a triangle: what is sampled for a sun; one lies within, or
+                      more */
+/* Later ones sample a cell that those found in every so manyth chunk: as many rays go out along
  * so many times as many paths, whose noise is greater than that of directions within a
  * triangle. */
 #define OFTEN RESPONSE_CLASSES
 #define SELDOM (8 * OFTEN) /* a cell that none of those found */
 
-/* ---- which triangles are asked ----------------------------------------------------------- */
+/* ---- which triangles are sampled --------------------------------------------------------- */
 
 static ProbeCells cells_of_level(int level, Arena *arena)
 {
@@ -40,7 +41,7 @@ static int slab_of(float y)
     return slab < 0 ? 0 : slab < RESPONSE_SLABS ? slab : RESPONSE_SLABS - 1;
 }
 
-/* How seldom each is asked, of so many times. is_open: NULL: always. */
+/* How seldom each is sampled, of so many times. is_open: NULL: always. */
 static void set_every(const bool *is_open, ProbeCells *cells, float *every)
 {
     for (int cell = 0; cell < cells->count; cell++)
@@ -49,7 +50,7 @@ static void set_every(const bool *is_open, ProbeCells *cells, float *every)
 }
 
 /* A chunk's cells: some of the open ones for all of them, a few of the others for many. Cells
- * that follow each other are neighbours and are asked by different chunks; later by others
+ * that follow each other are neighbours and are sampled by different chunks; later by others
  * again, since chunks come back to the same points of a symbol. asked: room for all. */
 static ProbeCells ask_for(const ProbeCells *cells, int chunk, int *asked)
 {
@@ -103,7 +104,7 @@ typedef struct Trace {
     float       white[RESPONSE_BANDS];
 } Trace;
 
-/* A wave asks every open triangle once, so that groups of whole waves are alike. */
+/* A wave samples every open triangle once, so that groups of whole waves are alike. */
 static int group_of(int chunk)
 {
     return chunk < PILOT ? 0 : (chunk - PILOT) / WAVE % RESPONSE_GROUPS;
@@ -395,7 +396,7 @@ static double fit_of(const NearCell *near, int count, const double *values)
     return fit_value(&fit);
 }
 
-/* Each group's part of white light by way of further vertices. */
+/* Each group's part of white light via further vertices. */
 static const float *rest_groups(const Response *response, int cell)
 {
     return response->groups + ((size_t)cell * 2 + 1) * RESPONSE_GROUPS;
@@ -415,7 +416,7 @@ static double white_fit(const Response *response, const NearCell *near, int coun
     return fit_of(near, count, values);
 }
 
-/* The groups' parts of a reading by way of each triangle: a wave asks that with the paths of
+/* The groups' parts of a reading via each triangle: a wave samples that with the paths of
  * one chunk. */
 static void add_samples(const Response *response, const NearCell *near, int count,
                         double reading, BrightSamples *to)

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* response.h -- what a probe would read for light from any direction outside.
  *
- * The light that an eye sees by way of a surface is linear in what shines from outside. Paths
- * from the eye ask every triangle of a sphere (probe.h) once; a sky is then a sum over
+ * The light that an eye sees via a surface is linear in what shines from outside. Paths
+ * from the eye sample every triangle of a sphere (probe.h) once; a sky is then a sum over
  * triangles, a sun what its direction gets, and no path is traced again. The first vertex's
  * own answer to a sun is exact for any direction (response_suns.h); what comes by further
  * vertices is a mean over the triangle and those about it, as wide as the triangles are.
  *
- * Approximate  glints by way of a further mirror are spread over that width.
+ * Approximate  glints via a further mirror are spread over that width.
  * Spectrum     16 bands, those of the lanes of a path. Light is given by the luminance of each
  *              of its bands (light_bands.h), so that bands add up to it; a response is the
  *              share of that, a mean over the band.
  * Errors       paths come in up to RESPONSE_GROUPS independent groups, each of whole waves that
- *              ask every triangle equally often; each one's part of white light is kept:
+ *              sample every triangle equally often; each one's part of white light is kept:
  *              readings without one of them give the interval (a jackknife).
  * Units        shares: cd m^-2 by cd m^-2 (of a luxmeter lx by cd m^-2); of a sun cd m^-2 by
  *              lx on a plane that faces it.
@@ -36,13 +36,13 @@ typedef struct ResponseOptions {
 
 #define RESPONSE_CHUNK 16
 #define RESPONSE_GROUPS 16
-#define RESPONSE_CLASSES 16 /* triangles that get light are asked by the same paths where their
-                               numbers differ by a multiple of it, else by others */
+#define RESPONSE_CLASSES 16 /* triangles that get light are sampled by the same paths where
+                               their numbers differ by a multiple of it, else by others */
 
 #define RESPONSE_SLABS 128
 
 typedef struct Response {
-    ProbeCells cells;   /* geometry; nothing is asked any more */
+    ProbeCells cells;   /* geometry; nothing is sampled any more */
     const Vec3 *centers; /* [cell] directions, unit, world */
     const int  *slabs;   /* cells of each of RESPONSE_SLABS equal steps of y, rising; */
     const int  *slab_first; /* [RESPONSE_SLABS + 1] its place among them */

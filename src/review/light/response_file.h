@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* response_file.h -- a response in a file, for the next review that asks the same probe.
+/* response_file.h -- a response in a file, for the next review that needs the same probe.
  *
  * File     assets/schemas/response.md. It holds the text of everything that decides it, and is
  *          named by that text's hash; what it gives is bit for bit what tracing gives.

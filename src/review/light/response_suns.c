@@ -95,7 +95,7 @@ static int *rising_order(const ProbeSuns *suns, Arena *arena)
     return order;
 }
 
-/* What is asked for by target. */
+/* What is sampled by target. */
 typedef struct TargetSums {
     const float *weights;
     double      *of;    /* [sun][target] */
@@ -242,7 +242,7 @@ static void ask_blocks(const LightParts *parts, const ResponseOptions *options,
     }
 }
 
-/* Few suns of many have their image in what is looked at: those alone are asked by target. */
+/* Few suns of many have their image in what is looked at: those alone are sampled by target. */
 static void ask_mirrored(const LightParts *parts, const ResponseOptions *options,
                          const ProbeSuns *suns, float *shares, Arena scratch)
 {

@@ -94,7 +94,8 @@ static void add_inputs(const ReviewRequest *request, bool with_request, Text *te
 }
 
 /* The identity has the setup's scene; keys other files, too; plans the request as well. What is
- * asked stands in each key, so that a changed word of the request keeps the other answers. */
+ * requested stands in each key, so that a changed word of the request keeps the other
+ * answers. */
 static void identify(Setup *setup, const SceneOptions *options, Arena *arena)
 {
     Text own = {.arena = arena}, files = {.arena = arena}, all = {.arena = arena};
@@ -132,7 +133,7 @@ bool setup_open(const SetupOptions *options, Arena *arena, Problems *problems, S
     *out = (Setup){.request = options->request, .condition = options->condition,
                    .tools = {.threads = options->means.threads,
                              .journal = options->means.journal},
-                   .sensor_lux = (double)NAN, .lessons = options->means.lessons,
+                   .sensor_lux = (double)NAN, .guides = options->means.guides,
                    .inherited = options->means.inherited};
     if (!kernel_choose(options->means.isa, &out->tools.kernel, err)) return false;
     if (!scene_load(&scene, arena, problems, &out->scene, err)) return false;

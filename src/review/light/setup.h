@@ -36,10 +36,10 @@ typedef struct Setup {
     double       sensor_lux;   /* NaN: no level follows the light */
     double      *scene_levels; /* the displays', before the condition's */
     const char  *identity;     /* program and scene (render/identity.h), not its light */
-    const char  *lessons;      /* SetupOptions' */
+    const char  *guides;       /* SetupOptions' */
     Inherited   *inherited;
     JournalKey   planned;      /* program, files and request */
-    bool         is_shared;    /* its readings will be asked for under other levels, too */
+    bool         is_shared;    /* its readings will be requested under other levels, too */
     SetupOther  *other;        /* levels for readings; NULL: as it is lit */
 } Setup;
 
@@ -50,8 +50,8 @@ typedef struct SetupMeans {
     int         threads;
     const char *isa;       /* kernel.h's; NULL: the best */
     Journal    *journal;   /* of readings that were taken before; NULL: none is kept */
-    const char *lessons;   /* folder of what paths were taught before (run/cases.h); NULL: it is
-                              not kept */
+    const char *guides;    /* folder of guides that were trained before (run/cases.h); NULL:
+                              none is kept */
     Inherited  *inherited; /* what variants take over from their review, or NULL */
 } SetupMeans;
 
@@ -126,8 +126,8 @@ Reading setup_ask(const Setup *setup, const ProbeAim *aim, const ReadingGoal *go
 Reading setup_field(const Setup *setup, const ProbeAim *aim, long paths, double known,
                     TargetLight *targets, Arena scratch);
 
-/* Lights a setup beside another for its own levels, for who asks for more than readings; until
- * setup_unlight no other may be asked. */
+/* Lights a setup beside another for its own levels, for who needs more than readings; until
+ * setup_unlight no other may be requested. */
 Setup setup_lit(const Setup *setup);
 void  setup_unlight(const Setup *setup);
 

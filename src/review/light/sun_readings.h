@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* sun_readings.h -- what a luxmeter reads under suns, kept so that none is asked for twice.
+/* sun_readings.h -- what a luxmeter reads under suns, kept so that none is sampled twice.
  *
- * Symbols are asked for suns between the steps of a year, and many for the same: a sensor reads
- * the same for all of them, the face of a display for all eyes. A reading does not depend on
- * the others that are asked for beside it.
+ * Symbols are evaluated for suns between the steps of a year, and many for the same: a sensor
+ * reads the same for all of them, the face of a display for all eyes. A reading does not depend
+ * on the others that are requested beside it.
  *
  * Frame    angles as those of distant_probe.h; a sun is known by their bits and by those of its
  *          light: two dates share a direction, and differ in the earth's distance.

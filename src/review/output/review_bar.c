@@ -86,8 +86,8 @@ static double sum_of(const BarPart *parts)
     return sum;
 }
 
-/* The sum that the contrast is taken of, and nothing else: a veil that the limit does not ask
- * for is no part of it. The mirror's and the scattered light share what is reflected. */
+/* The sum that the contrast is taken of, and nothing else: a veil that the limit does not
+ * include is no part of it. The mirror's and the scattered light share what is reflected. */
 static void stack(const CaseLuminances *l, double emitted, bool has_veil, BarPart out[PARTS])
 {
     double mirror = or_zero(l->mirror), both = mirror + or_zero(l->scattered);

@@ -113,7 +113,7 @@ static void add_unjudged(ReviewFacts *facts, const Review *review, const ReviewC
     add(facts, "To judge it", words_to_judge(c));
 }
 
-/* ---- what mends it ----------------------------------------------------------------------- */
+/* ---- the remedy -------------------------------------------------------------------------- */
 
 /* Those with which the case passes first, each in their order. */
 static const CaseRemedy *next_mend(const ReviewCase *c, const bool *is_listed)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* review_facts.h -- what is said of a review's worst case beside its verdict, on the page's
- * first screen and on the console alike: when it is, how often, why, and what mends it; of one
+ * first screen and on the console alike: when it is, how often, why, and the remedy; of one
  * that cannot be judged why that is, and what would have it judged.
  *
  * Memory   texts from the arena. Threads: pure. Fails: never.

@@ -402,7 +402,7 @@ TABLE(sensitivity_json, ReviewSensitivity,
     OWN(FIGURE, ReviewSensitivity, at), OWN(FIGURE, ReviewSensitivity, step),
     AS("compared", RANGE, ReviewSensitivity, low), TOLD("symbols", 0, write_slopes));
 
-/* ---- what is told of the whole ----------------------------------------------------------- */
+/* ---- what is stated of the whole --------------------------------------------------------- */
 
 static json_t *write_variants(const void *item)
 {

@@ -88,5 +88,5 @@ typedef struct ReviewLive {
 bool review_live_write(const Review *review, const ReviewLive *live, const char *path,
                        Error *err);
 
-/* A block of JSON that is not shown, or what asks for it: before the page ends. */
+/* A block of JSON that is not shown, or what loads it: before the page ends. */
 bool review_live_add(Text *html, const Review *review, const ReviewLive *live, Error *err);

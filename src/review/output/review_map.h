@@ -35,7 +35,7 @@ typedef struct ReviewMap {
     const ReviewSweep   *of;            /* one of the review's sweeps: the pointer */
     bool                 is_of_vehicle; /* azimuth 0 is ahead, 90 right; else north and east */
     ReviewAxis           azimuth_deg, elevation_deg;
-    const float         *contrast; /* NaN: not asked there */
+    const float         *contrast; /* NaN: not evaluated there */
     const float         *margin;   /* LimitVerdict's (verdict.h); NaN: no limit */
     const unsigned char *verdict;  /* a Verdict each */
     bool                 is_between_steps; /* of a year: what the sun passes between two steps

@@ -2,7 +2,7 @@
 /* review_page.h -- a glare review as an HTML page, for a meeting.
  *
  * The first screen is the answer: pass or fail, every symbol and eye at its worst, and the
- * worst case of all with its picture, when, why and what mends it. Then maps and calendars of
+ * worst case of all with its picture, when, why and the remedy. Then maps and calendars of
  * the sweeps; folded, all verdicts, a card for every case, and where every limit comes from.
  * Where a review has many cases the page keeps the cards of the worst (Review.main_cards), and
  * another, written of the same with is_beside, the others.

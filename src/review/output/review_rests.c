@@ -63,8 +63,8 @@ static const CasePanel *panel_of(const Review *review, const char *display)
     return NULL;
 }
 
-/* What its file says of itself (panel/query/panel_stated.h); why it is not usable is told of
- * every case of it. */
+/* What its file says of itself (panel/query/panel_stated.h); why it is not usable is reported
+ * of every case of it. */
 static void add_stated(Text *text, const CasePanel *panel, Arena *arena)
 {
     text_format(text, ", %s", panel->verdict ? panel->verdict : "no verdict of its own");
@@ -108,7 +108,7 @@ static const char *stated_words(const Review *review, const ReviewRest *r, Arena
 static void add_panels(Text *line, const Review *review, Arena *arena)
 {
     int          count = review->rests_on_count;
-    const char **stated = ARENA_NEW(arena, const char *, count); /* NULL: none, or told */
+    const char **stated = ARENA_NEW(arena, const char *, count); /* NULL: none, or reported */
     for (int i = 0; i < count; i++)
         if (review->rests_on[i].kind == REST_PANEL)
             stated[i] = stated_words(review, &review->rests_on[i], arena);

@@ -13,7 +13,7 @@ void values_add_matrices(const PageValues *v);
 /* Every case and every sweep's worst, the worst first; most: so many, 0 is all. */
 void values_add_list(const PageValues *v, int most);
 
-/* Every limit that was asked, once, with where its value was read. */
+/* Every limit that was requested, once, with where its value was read. */
 void values_add_limits(const PageValues *v);
 
 /* Effects of a change of the design. */

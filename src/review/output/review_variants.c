@@ -45,7 +45,7 @@ static int compare(const void *a, const void *b)
 
 /* ---- words ------------------------------------------------------------------------------- */
 
-#define SHOWN_SHARE 0.001 /* of a limit: the least that is told */
+#define SHOWN_SHARE 0.001 /* of a limit: the least that is reported */
 
 static const char *difference_words(const ReviewDifference *d, Arena *arena)
 {
@@ -420,7 +420,7 @@ static void add_sensitivities(const PageValues *v)
             add_slope(rows[k > 0], list[i], k, most, v->arena);
 }
 
-/* ---- what would mend it ------------------------------------------------------------------ */
+/* ---- what would remedy it ---------------------------------------------------------------- */
 
 static void add_mends(const PageValues *v)
 {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* review_variants.h -- what if: variants beside each other, the best first, and what each
- * changes of every symbol; how margins hang on parameters; the smallest change that mends it.
+ * changes of every symbol; how margins hang on parameters; the smallest change that remedies
+ * it.
  *
  * Memory   the document's (jansson) and the arena's. Threads: one at a time.
  * Fails    for a picture that cannot be read.

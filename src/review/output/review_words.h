@@ -65,7 +65,7 @@ const char *words_minutes(double minutes, Arena *arena);
 /* "2 : 1": the limit itself. */
 const char *words_limit(const LimitVerdict *limit, Arena *arena);
 
-/* ">= 2 : 1", "<= 2 : 1"; "(advice)" behind what is preferred and not asked. */
+/* ">= 2 : 1", "<= 2 : 1"; "(advice)" behind what is preferred and not required. */
 const char *words_required(const LimitVerdict *limit, Arena *arena);
 
 /* "Passes", "Fails", "Too close to call", "Cannot be judged": begins a sentence. */

@@ -40,7 +40,7 @@ typedef struct WorkPlan {
 
 typedef struct Work {
     Progress progress; /* shows it */
-    WorkPlan planned, done, timed, seconds; /* timed: of what is done, what `seconds` tell */
+    WorkPlan planned, done, timed, seconds; /* timed: of what is done, what `seconds` holds */
     double   mark_s, mark_waited_s; /* when the last part of it was done */
     double   recent_s, recent_own_s; /* of late, and of that by itself */
 } Work;
@@ -48,7 +48,7 @@ typedef struct Work {
 Work work_start(ProgressMode mode, const WorkPlan *planned);
 
 /* So much of a kind is done since the last was: all that time was its. What took next to none
- * of it was done before a restart, and tells no pace. */
+ * of it was done before a restart, and shows no pace. */
 void work_add(Work *work, WorkKind kind, double weight);
 
 /* What was planned as `before` is `now`. */
@@ -58,7 +58,7 @@ void work_replan(Work *work, const WorkPlan *before, const WorkPlan *now);
 double work_left_s(const Work *work);
 
 /* For progress_part of work->progress: a part of that kind and weight, of which work_add will
- * tell when it is done. */
+ * show when it is done. */
 double work_share(const Work *work, WorkKind kind, double weight);
 
 void work_end(Work *work);

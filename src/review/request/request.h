@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* request.h -- what a review is asked: REVIEW.json as plain arrays.
+/* request.h -- what a review has to do: REVIEW.json as plain arrays.
  *
  * request_read.h reads it, request_check.h holds it against the scene.
  *
@@ -41,7 +41,7 @@ typedef struct ReviewLevel {
     const char       *name;
     ReviewFixedLevel *fixed;
     int               fixed_count;
-    /* or, of all displays, a curve: */
+    /* In place of fixed levels: a curve for all displays. */
     bool    is_curve;
     double  position_m[3], normal[3]; /* the sensor's, scene's frame; normal is unit */
     const ReviewLevelPoint *points;   /* lux rises, level does not fall */
@@ -240,8 +240,8 @@ typedef struct ReviewVariant {
     ReviewChange change;
     ReviewLevel *levels;       /* take the places of those of their names */
     int          level_count;
-    const char **scenes;       /* instead of the review's; */
-    int          scene_count;  /* 0: those */
+    const char **scenes;       /* in place of the review's */
+    int          scene_count;  /* 0: the review's scenes */
     const char **more;         /* files besides */
     int          more_count;
     double     (*eye_moves)[3]; /* m, one an eye */
@@ -321,7 +321,7 @@ typedef struct ReviewRequest {
     int              condition_count;
     ReviewWeather   *weathers;
     int              weather_count;
-    double           precision_contrast; /* relative standard error wanted */
+    double           precision_contrast; /* relative standard error required */
     double           precision_clear;    /* enough where the verdict is clear; at least that */
     long             decide_times; /* reads on where too close to call, until a case has had
                                       so many times precision_paths; 0: does not */

@@ -6,7 +6,7 @@
  *
  * Memory   the arena's. Threads: one at a time.
  * Fails    with the file, the JSON path (/conditions/2/sweep/sun), what was found and what was
- *          wanted, in one line; of an unknown key the nearest known one is named.
+ *          required, in one line; of an unknown key the nearest known one is named.
  */
 #pragma once
 #include "base/problems.h"

@@ -10,7 +10,7 @@
  *          there is the first. The earth is a sphere here: within 0.2 degrees of the
  *          ellipsoid's.
  * Memory   the arena's. Threads: const once read.
- * Fails    ERROR_INPUT with file and line, what was found and what was wanted.
+ * Fails    ERROR_INPUT with file and line, what was found and what was required.
  */
 #pragma once
 #include "review/route/route_points.h"

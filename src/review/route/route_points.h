@@ -2,10 +2,11 @@
 /* route_points.h -- the points of a route while its file is read: texts become numbers. And
  * those of a table: a header line, then a line a point.
  *
- * Columns  time, lat, lon wanted; heading and altitude_m may be missing, and their cells empty.
- *          Commas, semicolons or tabs between cells; # comments and empty lines are skipped.
+ * Columns  time, lat, lon required; heading and altitude_m may be missing, and their cells
+ *          empty. Commas, semicolons or tabs between cells; # comments and empty lines are
+ *          skipped.
  * Memory   the arena's. Threads: one at a time.
- * Fails    with the file, the line, the value's name in the file, what was found and wanted.
+ * Fails    with the file, the line, the value's name in the file, what was found and required.
  */
 #pragma once
 #include "base/arena.h"
@@ -33,7 +34,7 @@ typedef struct RoutePoints {
 
 /* A point as it stands in the file; NULL or "": it has none. */
 typedef struct RouteText {
-    const char *lat, *lon, *time; /* wanted */
+    const char *lat, *lon, *time; /* required */
     const char *altitude, *heading;
     int         line;
 } RouteText;

@@ -7,7 +7,7 @@
 #include "base/units.h"
 #include "review/judge.h"
 #include "review/eye/eye_reading.h"
-#include "review/light/lesson.h"
+#include "review/light/trained_guide.h"
 #include "review/light/read_on.h"
 #include "review/light/response_suns.h"
 #include "review/light/setup_eyes.h"
@@ -400,8 +400,8 @@ static void set_to_decide(const ReviewRequest *request, DirectSun direct, Review
     c->decide_times = ceil(c->paths_to_decide / request->precision_paths);
 }
 
-/* A variant asks for no causes, and its light may come by other materials than the review's:
- * its own paths tell, where any of them has no data. Of one whose levels alone differ, and to
+/* A variant has no causes, and its light may come by other materials than the review's:
+ * its own paths show, where any of them has no data. Of one whose levels alone differ, and to
  * find the worst of many points, the review's share counts. */
 static double data_share_of(const CaseTools *tools, const CaseLook *look, const ProbeAim *aim,
                             const ReviewCase *c, Arena scratch)
@@ -494,11 +494,11 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
 bool setup_learn(Setup *setup, const SetupSymbol *symbols, int count, Arena *arena, Error *err)
 {
     Vec3 eye, sum = vec3(0, 0, 0);
-    if (lesson_inherit(setup)) return true;
+    if (trained_guide_inherit(setup)) return true;
     if (!setup_eye_middle(setup, &setup->request->eyes[0], *arena, &eye, err)) return false;
     for (int i = 0; i < count; i++) sum = vec3_add(sum, symbol_middle(&symbols[i]).position);
     Vec3 towards = vec3_sub(vec3_scale(sum, 1 / (float)count), eye);
-    if (vec3_dot(towards, towards) > 0) lesson_take(setup, eye, towards, arena);
+    if (vec3_dot(towards, towards) > 0) trained_guide_take(setup, eye, towards, arena);
     return review_goes_on(setup->tools.journal, err);
 }
 

@@ -87,7 +87,7 @@ typedef struct Tally {
 typedef struct Tallies {
     Tally  list[TALLIES];
     int    count;
-    double minutes, suns; /* that were asked */
+    double minutes, suns; /* that were tested */
 } Tallies;
 
 static Tally *tally_of(Tallies *all, int part_id)

@@ -9,8 +9,8 @@
  *
  * Memory   scratch only; names live in the arena.
  * Threads  starts its own; the same frames for any count.
- * Fails    when a file cannot be written, and nothing half-written is left; when the user asks
- *          to stop, after a checkpoint.
+ * Fails    when a file cannot be written, and nothing half-written is left; when the user
+ *          stops it, after a checkpoint.
  */
 #pragma once
 #include "review/light/setup.h"

@@ -185,7 +185,7 @@ static void add_condition(Text *text, const ReviewRequest *request,
                   (unsigned long long)base.low);
 }
 
-/* Answers of something else would find nobody who asks. */
+/* Answers of something else would find nobody who needs them. */
 static bool check_planned(const ReviewRun *run, const Setup *setup, Arena scratch, Error *err)
 {
     Text own = {.arena = &scratch};
@@ -287,7 +287,7 @@ static bool run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *ou
 
 /* ---- what is there ----------------------------------------------------------------------- */
 
-/* All moments, or all sweeps, of one scene: they ask for the same, and are done as the first
+/* All moments, or all sweeps, of one scene: they need the same, and are done as the first
  * is. */
 static void mark_scene(const ReviewRequest *request, int first, int *done_by)
 {
@@ -299,7 +299,7 @@ static void mark_scene(const ReviewRequest *request, int first, int *done_by)
             done_by[i] = first;
 }
 
-/* A moment has symbols, but asks for no response. */
+/* A moment has symbols, but needs no response. */
 static bool plan_condition(const ReviewRun *run, const ReviewCondition *condition,
                            ReviewPlan *plan, JournalKey *base, Error *err)
 {
@@ -307,7 +307,7 @@ static bool plan_condition(const ReviewRun *run, const ReviewCondition *conditio
     Arena scratch = arena_reserve(SETUP_BYTES);
     Setup setup;
     options.means.journal = NULL; /* nothing is read */
-    options.means.lessons = NULL;
+    options.means.guides = NULL;
     options.means.inherited = NULL;
     bool  ok = setup_open(&options, &scratch, run->problems, &setup, err);
     if (ok) {

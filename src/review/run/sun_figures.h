@@ -10,7 +10,7 @@
 
 SunFigures sun_figures_start(int count, Arena *arena);
 
-/* Judges the case under each of the sweep's suns, of which the sight was asked. */
+/* Judges the case under each of the sweep's suns, of which the sight was sampled. */
 void sun_figures_judge(const Sweep *sweep, const Sight *sight, const DistantTools *tools,
                        SunFigures *figures, Arena room);
 
@@ -24,7 +24,7 @@ typedef struct FarSteps {
 int sun_figures_next(const SunFigures *figures, const SweepSuns *suns, FarSteps of,
                      const SweepSun *others, int count);
 
-/* [ambient] the contrast limit that is asked of a sight; NULL: none. */
+/* [ambient] the contrast limit that is required of a sight; NULL: none. */
 const LimitVerdict *const *sun_figures_limits(const Sight *sight, const Profile *profile,
                                               Arena *arena);
 

@@ -132,7 +132,7 @@ static SunFigures judge_others(const SweepReport *to, const Sight *sight, const 
     return figures;
 }
 
-/* A sun about a step, and the margin there, as the probes tell it. */
+/* A sun about a step, and the margin there, as the probes show it. */
 typedef struct Refined {
     SweepSun sun;
     double   margin;
@@ -208,7 +208,7 @@ static bool read_worst(SweepReport *to, const Sight *sight, const SweepSun *sun,
                        .symbols = sight->symbol, .symbol_count = 1,
                        .base = sweep->run->base};
     bool ok = setup_case(&tools, sight->symbol, sight->eye, to->arena, out, err);
-    setup.scene->environment = dark; /* as the next sight is asked */
+    setup.scene->environment = dark; /* as the next sight is sampled */
     return ok;
 }
 
@@ -314,7 +314,7 @@ static void add_table(const SweepReport *to, const Sight *sight, const SunFigure
                                   sun_figures_limits(sight, profile, to->arena)};
 }
 
-/* A variant's figures, whose tables nobody asks for, last as long as the scratch. asked: the
+/* A variant's figures, whose tables nobody needs, last as long as the scratch. asked: the
  * sight with its suns. */
 static SunFigures figures_of(SweepReport *to, const Sight *sight, const Sight *asked,
                              ReviewSweep *out)
@@ -353,7 +353,7 @@ static bool report_sight(SweepReport *to, const Sight *sight, const Sight *asked
     return true;
 }
 
-/* A sight for the review, then for its riders: its suns are asked, and forgotten when all is
+/* A sight for the review, then for its riders: its suns are sampled, and forgotten when all is
  * reported. */
 static bool report_asked(Sweep *sweep, SweepReport *to, int count, const Sight *sight,
                          Arena room, Error *err)

@@ -6,7 +6,7 @@
  * its face and the sensor of the level are luxmeters. The worst case of each is read again as a
  * moment, with all paths, so that its figures are not the response's.
  *
- * Approximate  an eye box counts by its middle; glints by way of a mirror that is no display
+ * Approximate  an eye box counts by its middle; glints via a mirror that is no display
  *              are spread over the width of a response's triangle; clear skies between two
  *              elevations of the table are interpolated.
  * Memory       the results live in the arena; the rest is given back.
@@ -16,7 +16,7 @@
 #include "review/run/cases.h"
 #include "review/run/job.h"
 
-/* Can the condition be swept? To be asked before long work; the error names its place. */
+/* Can the condition be swept? To be checked before long work; the error names its place. */
 bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, Error *err);
 
 /* The clear sky of the setup's sweep under one of its suns; that of its weather file, where the

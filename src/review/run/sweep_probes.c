@@ -175,7 +175,7 @@ static void leave_others(Sweep *sweep)
         sweep->sensors[i].is_left = !has_any;
 }
 
-/* ---- what is asked of them --------------------------------------------------------------- */
+/* ---- what they have to find -------------------------------------------------------------- */
 
 static double response_precision(const Sweep *sweep)
 {
@@ -269,7 +269,7 @@ static void read_chunk(void *user, int item, int worker)
         work->read[sun] = distant_probe_read(work->probe, work->tools, sun);
 }
 
-/* [sun] of a probe that was asked of them. */
+/* [sun] of a probe that was taken by them. */
 static const DistantReading *read_suns(const DistantProbe *probe, const DistantTools *tools,
                                        Arena *arena)
 {
@@ -290,7 +290,7 @@ static void ask_meter_suns(const SweepMeter *meter, const DistantTools *tools, A
     for (int i = 0; i < tools->suns.count; i++) lux[i] = distant_reading_sum(read[i]);
 }
 
-/* All suns whose reading is not kept are asked at once, and kept. */
+/* All suns whose reading is not kept are sampled at once, and kept. */
 static void keep_missing(const SweepMeter *meter, const DistantTools *tools, Arena room)
 {
     DistantSun *missing = ARENA_NEW(&room, DistantSun, tools->suns.count);

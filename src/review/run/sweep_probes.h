@@ -17,7 +17,7 @@ typedef struct SweepMeter {
     OwnLight own;
     const double *lux; /* [sun of the condition in hand] all of its light but its own */
     SunReadings  *kept; /* of other suns of that condition; NULL: none are kept */
-    bool     is_left; /* to other parts of the review (share.h): nothing is asked of it */
+    bool     is_left; /* to other parts of the review (share.h): nothing is sampled with it */
 } SweepMeter;
 
 typedef struct Sight {
@@ -31,10 +31,10 @@ typedef struct Sight {
     OwnLight           own;
     const SweepMeter  *face;
     int                twin;    /* an earlier sight from the same place, as an eye box about an
-                                   eye is: what is asked of that holds for both; NO_ID: none */
+                                   eye is: what is sampled there holds for both; NO_ID: none */
     bool               has_twin; /* a later one has this for its twin */
     bool               is_left; /* as a meter */
-    const DistantReading *read;    /* [sun], where several ask for them; else NULL */
+    const DistantReading *read;    /* [sun], where several need them; else NULL */
 } Sight;
 
 /* The setup under the sun for which it was lit last: eyes that share a symbol often share its
@@ -90,14 +90,14 @@ bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err);
  * them is kept in sweep->between. */
 bool sweep_ask_light(Sweep *sweep, Arena *arena, Error *err);
 
-/* One sight, for these suns: some 150 bytes a sun, so that they are asked one by one. */
+/* One sight, for these suns: some 150 bytes a sun, so that they are sampled one by one. */
 Sight sweep_ask_sight(Sweep *sweep, const Sight *sight, Arena *arena);
 
-/* And read once for all who ask. */
+/* And read once for all who need it. */
 const DistantReading *sweep_read_sight(const Sight *asked, const DistantTools *tools,
                                        Arena *arena);
 
-/* The meter's readings under each of the tools' suns, asked where they are not kept. */
+/* The meter's readings under each of the tools' suns, sampled where they are not kept. */
 const double *sweep_meter_read(const SweepMeter *meter, const DistantTools *tools,
                                Arena *arena);
 

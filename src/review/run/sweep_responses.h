@@ -7,7 +7,7 @@
  *
  * Memory   from the arena that is passed in.
  * Threads  starts its own; the same numbers for any count.
- * Fails    when a file cannot be written, or the user asks to stop.
+ * Fails    when a file cannot be written, or the user stops it.
  */
 #pragma once
 #include "review/light/distant_probe.h"
@@ -33,7 +33,7 @@ void responses_find(const ReviewRun *run, const Setup *setup, ResponseAsk *asks,
                     Arena *arena);
 
 /* The own light of those that were not there: the scene is dark but for its lamps, or for its
- * lamps and displays at level 1, which is asked after them. */
+ * lamps and displays at level 1, which is sampled after them. */
 bool responses_read_own(const ReviewRun *run, const Setup *setup, const ResponseAsk *asks,
                         int count, bool displays, Error *err);
 

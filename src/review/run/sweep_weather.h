@@ -7,7 +7,7 @@
  *
  * Memory   from the arena.
  * Threads  sweep_weather_skies starts its own; the same skies for any count.
- * Fails    on gaps: with the weather file, its line, the step that wants it, and how many do.
+ * Fails    on gaps: with the weather file, its line, the step that needs it, and how many do.
  */
 #pragma once
 #include "review/suns/sweep_suns.h"

@@ -93,7 +93,7 @@ static bool find_kept(const Journal *journal, JournalKey key, TextsFound *found)
     return ok;
 }
 
-/* Every condition and variant asks again, mostly of the same content. */
+/* Every condition and variant does this again, mostly of the same content. */
 static TextsFound find_texts(const Setup *setup, const ContentLight *light, Arena scratch)
 {
     TextsFound    found = {0};

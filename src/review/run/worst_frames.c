@@ -184,7 +184,8 @@ static bool make_lit(const FrameWork *work, Setup *setup, FrameAsk *ask, Arena *
            frame_make(ask, scratch, made, err);
 }
 
-/* *made: the picture's name, in the arena. of: gets what the frame shows; NULL: not wanted. */
+/* *made: the picture's name, in the arena. of: gets what the frame shows; NULL: not
+ * requested. */
 static bool make_frame(const FrameWork *work, ReviewCase *of, Arena *arena, const char **made,
                        Error *err)
 {

@@ -9,6 +9,6 @@
 #pragma once
 #include "review/run/job.h"
 
-/* As many as the request asks for, into the run's folder; the cases then name them. Where there
+/* As many as the request requires, into the run's folder; the cases then name them. Where there
  * is any, variants name two of the worst case, without and with their change. */
 bool review_frames(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Error *err);

@@ -10,9 +10,9 @@
 #define CELLS_MOST 1024
 #define SUN_PATHS 2048   /* the direct sun's, of all cells together */
 #define FIELD_PATHS 2048 /* where the direct sun tells parts apart; else */
-#define SHADE_PATHS 8192 /* they tell a rise of about 15 % in the shipped car, by day */
+#define SHADE_PATHS 8192 /* they show a rise of about 15 % in the shipped car, by day */
 #define FIELD_SEED 0x6669656cu /* whatever the review's: all seeds judge the same part */
-#define LIT_POINTS 4096  /* that tell the share in the sun: within half a percent */
+#define LIT_POINTS 4096  /* that show the share in the sun: within half a percent */
 
 /* The direct sun of each cell that is seen, and its mean by the display's mirror. */
 static double add_sun(const Setup *setup, const LightParts *parts, double *known, Arena scratch)

@@ -5,7 +5,7 @@
  * It is found by the direct sun, which is known for every place, and by paths to all of the
  * symbol, whose mean is the symbol's. That is a selection: who judges the part reads it by
  * paths of other seeds, as of the aim that is set here. Where light is even within what the
- * paths tell, chance may select a part that reflects less than the mean: worst_part_is_better
+ * paths show, chance may select a part that reflects less than the mean: worst_part_is_better
  * says so of a reading, and all of the symbol is judged then.
  *
  * Units    cd m^-2; uv of the content.

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* failures.h -- for how long a sweep fails, also between the steps at which it was asked.
+/* failures.h -- for how long a sweep fails, also between the steps at which it was sampled.
  *
  * Steps that fail one after the other are a stretch. Where it begins and ends is looked for
  * between the steps, so that hours do not round every failure to hours: to a minute; where

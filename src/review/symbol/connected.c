@@ -8,7 +8,7 @@
 typedef struct PartSearch {
     const uint8_t *set;
     int      width, height;
-    int32_t *part_of, *stack; /* pixels whose neighbours are still to be asked */
+    int32_t *part_of, *stack; /* pixels whose neighbours are still to be visited */
     size_t   waiting;
 } PartSearch;
 

@@ -47,7 +47,7 @@ static bool place_pixels(const double uv[4], ContentLight *light, Error *err)
                      "%d x %d", uv[0], uv[1], uv[2], uv[3], w, h);
 }
 
-/* Neighbours mostly show the same: then the panel is not asked again. */
+/* Neighbours mostly show the same: then the panel is not evaluated again. */
 static void fill(const Panel *panel, ContentLight *light)
 {
     float last[3] = {-1, -1, -1}, xyz[3] = {0};

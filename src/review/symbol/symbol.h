@@ -55,5 +55,5 @@ typedef struct SymbolSplit {
 /* Fails, without naming the symbol, when the rectangle is one that content_light refuses, holds
  * fewer than 16 pixels or one luminance only, or the foreground is less than half a percent of
  * it; or when the mask has another size, only one class there, or another polarity than the one
- * that is asked. */
+ * that is required. */
 bool symbol_split(const SymbolQuestion *question, Arena *arena, SymbolSplit *out, Error *err);

@@ -22,7 +22,7 @@ typedef struct SymbolVisibility {
                              equal energy by V(lambda); NaN where nothing is visible */
 } SymbolVisibility;
 
-/* is_visible: [surface->point_count], filled; NULL: not wanted. */
+/* is_visible: [surface->point_count], filled; NULL: not requested. */
 SymbolVisibility symbol_visibility(const SymbolSurface *surface, const PathContext *context,
                                    Vec3 eye, bool *is_visible);
 
@@ -53,7 +53,7 @@ double symbol_lit_share(const SymbolSurface *surface, const bool *is_visible,
 
 /* XYZ that the display sends towards the eye: means of light (not of codes) over the pixels of
  * a class; edges are in neither. Pixels that turn their back to the eye are left out; NaN: all
- * of them do. What stands between is not asked. */
+ * of them do. What stands between is not tested. */
 typedef struct SymbolEmission {
     double foreground_xyz[3], background_xyz[3];
 } SymbolEmission;

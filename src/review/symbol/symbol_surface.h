@@ -12,7 +12,7 @@
 #include "review/request/request.h"
 #include "scene/scene.h"
 
-/* Which rectangle of which display, and how many points are wanted of it. Of a display whose
+/* Which rectangle of which display, and how many points are required of it. Of a display whose
  * material two nodes wear, ReviewDisplay holds the parts of one ("node:NAME"). */
 typedef struct SymbolPlace {
     const Scene         *scene;

@@ -12,7 +12,7 @@
 
 #define TRIALS_MOST 64
 #define FINE 8             /* parts of a step: a narrower gap is none */
-#define CONFIRMS 5         /* values that fresh paths are asked of */
+#define CONFIRMS 5         /* values that fresh paths are traced for */
 #define FRESH_TIMES 2      /* reviews by paths of their own at each */
 #define FRESH_SEED 0x20000000u
 

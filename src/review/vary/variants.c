@@ -57,7 +57,7 @@ void review_riders_end(ReviewRun *run)
     run->rider_count = 0;
 }
 
-/* A parameter's variant is made anew whenever one asks. */
+/* A parameter's variant is made anew whenever it is needed. */
 static bool is_same(const ReviewVariant *a, const ReviewVariant *b)
 {
     const ReviewChange *one = &a->change, *other = &b->change;

@@ -23,7 +23,7 @@
  * room until review_riders_end.
  *
  * Sets run->riders: the variants, and both ends of the sensitivities' ranges, that can ride.
- * with_parameters: sensitivities are wanted. */
+ * with_parameters: sensitivities are requested. */
 void review_riders_start(ReviewRun *run, bool with_parameters, Arena *arena);
 void review_riders_end(ReviewRun *run);
 

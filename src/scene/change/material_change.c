@@ -139,7 +139,7 @@ void materials_change(GltfFile *file)
     for (int i = 0; i < options->change_count; i++) {
         const SceneChange *change = &options->changes[i];
         if (change->kind != CHANGE_MATERIAL) continue;
-        /* asked each time: what was added to the root may have moved its members */
+        /* looked up each time: what was added to the root may have moved its members */
         for (int m = 0; m < tree_count(file->root, "materials"); m++) {
             const GltfValue *material = tree_element(file->root, "materials", m);
             if (strcmp(tree_text(material, "name", ""), change->name) != 0) continue;

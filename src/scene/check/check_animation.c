@@ -61,7 +61,7 @@ static int morph_targets(const GltfValue *node)
     return tree_count(tree_item(tree_member(mesh, "primitives"), 0), "targets");
 }
 
-/* KHR_animation_pointer allows every type of component, and asks for bytes where something is
+/* KHR_animation_pointer allows every type of component, and requires bytes where something is
  * shown or not; glTF itself floats, or integers that are normalised. */
 static bool is_component(const GltfValue *output, AnimationPath path, bool is_pointed)
 {

@@ -155,7 +155,7 @@ static void check_bounds(const DocumentCheck *check, const GltfValue *accessor)
     }
 }
 
-/* Then accessors without a view may hold what is unpacked: gltf/packed_mesh.c asks. */
+/* Then accessors without a view may hold what is unpacked: gltf/packed_mesh.c checks. */
 static bool has_packed_meshes(const DocumentCheck *check)
 {
     return document_uses(check->file, DRACO_EXTENSION);

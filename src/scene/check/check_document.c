@@ -72,7 +72,7 @@ static void check_pointer(const DocumentCheck *check, const GltfValue *pointer)
     }
 }
 
-/* Only the first of two variants with one name can be asked for. */
+/* Only the first of two variants with one name can be selected. */
 void check_variant_names(const DocumentCheck *check, const GltfValue *extension)
 {
     const GltfValue *variants = tree_member(extension, "variants");
@@ -281,7 +281,7 @@ static void check_members(const DocumentCheck *check, const GltfValue *environme
     }
 }
 
-/* ISO 8601 with minutes, and seconds if wanted, and the offset from UTC. */
+/* ISO 8601 with minutes, and optional seconds, and the offset from UTC. */
 static bool is_moment(const char *text)
 {
     int year, month, day, hour, minute, second = 0, used = 0, more = 0, off_hour, off_minute,

@@ -8,7 +8,7 @@
 void check_layer(const DocumentCheck *check, const GltfValue *layer);
 void check_coating(const DocumentCheck *check, const GltfValue *coating);
 
-/* A warning for each member that asks for what a clear solid does not have. */
+/* A warning for each member that requires what a clear solid does not have. */
 void check_clear_solid(const DocumentCheck *check, const GltfValue *material);
 
 /* Whether a coating or a conductor fits the material that has it. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* check_vertices.h -- the numbers at vertices: unit vectors, colours, weights.
  *
- * What is off is mended while the scene is built (vectors are normalised, colours clamped,
+ * What is off is corrected while the scene is built (vectors are normalised, colours clamped,
  * weights divided by their sum), so that it only warns: once an attribute, with its first
  * place.
  */

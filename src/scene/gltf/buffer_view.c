@@ -7,7 +7,7 @@
 #include "scene/gltf/document.h"
 
 /* A packed byte holds at most as many: vertices have two bits for sixteen bytes that do not
- * change, indices a byte for each of them or for a triangle. So a small file cannot ask for
+ * change, indices a byte for each of them or for a triangle. So a small file cannot require
  * much memory. */
 #define MOST_UNPACKED 64
 

@@ -23,7 +23,7 @@ void draft_flat_normals(PartDraft *draft, Arena *scratch);
  * slot's coordinates. */
 void draft_tangents(PartDraft *draft, const TextureSlot *slot, Arena *scratch);
 
-/* Any frame will do where a texture asks for one but has no coordinates. */
+/* Any frame will do where a texture needs one but has no coordinates. */
 void draft_any_tangents(PartDraft *draft, Arena *scratch);
 
 /* The unit direction of growing u; returns 0 where the coordinates span no area, 1 where the

@@ -302,7 +302,7 @@ static void open_panel(Loader *load, int id)
     const DisplayPlace *place = list_item(&load->display_places, id);
     display->panel = find_panel(load, id, display->panel_path);
     if (display->panel) return;
-    ARENA_NEW(load->arena, uint64_t, 0); /* the next bytes are aligned as a panel wants it */
+    ARENA_NEW(load->arena, uint64_t, 0); /* the next bytes are aligned as a panel needs it */
     if (load_read(load, display->panel_path, load->arena, &bytes, &err) &&
         panel_open_memory(bytes.data, bytes.size, display->panel_path, load->arena, &panel,
                           &err)) {

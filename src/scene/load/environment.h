@@ -23,6 +23,6 @@ typedef struct EnvironmentFound {
 } EnvironmentFound;
 
 /* What it keeps lies in the arena; one at a time. Fails with the file, the JSON pointer, what
- * was found and what was wanted; warnings go to the caller's problems. */
+ * was found and what was required; warnings go to the caller's problems. */
 bool environment_text_read(const EnvironmentText *text, Arena *arena, Problems *problems,
                            EnvironmentFound *out, Error *err);

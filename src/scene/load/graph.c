@@ -108,7 +108,7 @@ static void add_mesh(GltfFile *file, const GltfValue *node, const Transform *wor
     }
 }
 
-/* For options that ask for a node by its name. */
+/* For options that look up a node by its name. */
 static void note_name(GltfFile *file, const GltfValue *node)
 {
     Loader     *load = file->load;

@@ -191,7 +191,7 @@ void pose_build(GltfFile *file)
     }
 }
 
-/* ---- what was asked for and is not there ------------------------------------------------- */
+/* ---- what was requested and is not there ------------------------------------------------- */
 
 static void report_unknown(Loader *load, const char *noun, const char *const *asked,
                            int asked_count, const char *const *known, int known_count)

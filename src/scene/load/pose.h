@@ -26,6 +26,6 @@ typedef struct NodePose {
 /* Notes the file's animations and sets file->poses. The document has passed the check. */
 void pose_build(GltfFile *file);
 
-/* Reports what the options ask for and no file has: names of variants and animations, or any
+/* Reports what the options request and no file has: names of variants and animations, or any
  * animation at all. After the last file. */
 void pose_report_missing(Loader *load);

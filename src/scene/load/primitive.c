@@ -86,7 +86,7 @@ static VertexColor *read_colors(GltfFile *file, const GltfValue *primitive,
     return out;
 }
 
-/* Decoded and morphed, still in the mesh's own frame; what nobody will ask for stays away. */
+/* Decoded and morphed, still in the mesh's own frame; what nobody will need stays away. */
 static void read_attributes(GltfFile *file, const GltfValue *primitive, const float *weights,
                             const bool uses_set[SCENE_UV_SETS], PartDraft *draft)
 {

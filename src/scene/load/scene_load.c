@@ -38,7 +38,7 @@
 
 /* ---- materials marked BLEND or MASK that are opaque everywhere ------------------------- */
 
-/* Exporters mark whole models so; asking such surfaces at every ray costs time for nothing. */
+/* Exporters mark whole models so; testing such surfaces at every ray costs time for nothing. */
 
 static bool has_full_alpha(const Image *image)
 {
@@ -342,7 +342,7 @@ static const char **names_for(Loader *load, SceneChangeKind kind, int *count)
     return names;
 }
 
-/* The names that changes ask for and no file has. */
+/* The names that changes request and no file has. */
 static void report_unused_changes(Loader *load)
 {
     static const char *const WHAT[] = {

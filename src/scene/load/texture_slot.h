@@ -18,7 +18,7 @@ TextureSlot texture_slot(GltfFile *file, const GltfValue *info);
 void texture_slots_place(GltfFile *file, const GltfValue *value, Material *material,
                          TextureSlot *content, int sets[SCENE_UV_SETS]);
 
-/* Which of Part.uv anything asks a placed material for: the first always, since frames show it
+/* Which of Part.uv a placed material uses: the first always, since frames show it
  * (the uv layer), the second where a slot has it. */
 void texture_slots_used(const Loader *load, const Material *material,
                         bool uses_set[SCENE_UV_SETS]);

@@ -16,7 +16,7 @@
  *          with that luminance. evalglare's mean over all pixels above the threshold
  *          dims and widens a disc of n pixels across, and UGR is some 9/n too low. A source
  *          without a core has the mean weighed by luminance: its UGR and DGP are too low, and
- *          only a larger frame tells by how much.
+ *          only a larger frame shows by how much.
  *
  * Noise    a pixel above the threshold may be a few bright samples. An area counts when one
  *          half of the samples has it above the threshold where the other half found it so

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* fit_options.h -- what a user may ask of a fit, and sentences that its report keeps: what was
- * chosen, missed, assumed.
+/* fit_options.h -- what a user may request of a fit, and sentences that its report keeps: what
+ * was chosen, missed, assumed.
  *
  * Memory   the notes' arena. Threads: one at a time. Fails: never; beyond FIT_NOTES_MAX
  * sentences, and 511 bytes of one, the rest is dropped.

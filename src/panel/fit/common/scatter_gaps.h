@@ -2,7 +2,7 @@
 /* scatter_gaps.h -- what a panel may miss between scattered samples of a table.
  *
  * At 2,113 directions, where samples stand all round, the surface through the samples'
- * logarithms is asked how far it may be off (scatter_surface_doubt), and how far the panel
+ * logarithms states how far it may be off (scatter_surface_doubt), and how far the panel
  * differs from it: a hole between samples costs where the values around it bend, wherever it
  * lies. Estimates are two standard deviations.
  *
@@ -21,7 +21,7 @@ typedef struct ScatterGaps {
 /* The panel's logarithm at a direction. *off: the surface's less it. */
 typedef double ScatterRead(void *context, Vec3 at, double *off);
 
-/* What is asked of a table. */
+/* What is checked in a table. */
 typedef struct ScatterAsked {
     const ScatterSurface *surface;
     ScatterRead          *read;

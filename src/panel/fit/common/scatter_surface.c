@@ -377,7 +377,7 @@ void scatter_surface_read(const ScatterSurface *surface, Vec3 at, float *out)
     for (int k = 0; k < surface->channels; k++) out[k] = (float)sum[k];
 }
 
-#define NOISE_ROWS 2000 /* at most about so many tell a table's noise */
+#define NOISE_ROWS 2000 /* at most about so many show a table's noise */
 #define LEAST_LOG_SHARE 1e-6 /* of the largest value, where logarithms are taken */
 
 double scatter_surface_table_noise(const AngleTable *table, int channel, bool in_logs,

@@ -190,7 +190,7 @@ static double row_error(const EmissionCoder *coder, int row)
     return (double)emission_coder_excess(coder, row, components, 5);
 }
 
-/* Over all rows: what no tightening mends. *row: where. */
+/* Over all rows: what no tightening corrects. *row: where. */
 double emission_coder_uncoded(const EmissionCoder *coder, int *row)
 {
     double worst = 0;

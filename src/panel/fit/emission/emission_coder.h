@@ -64,7 +64,7 @@ bool emission_coder_start(EmissionModel *model, int level, const float *rest, Ar
 float emission_coder_excess(const EmissionCoder *coder, int row, const float *components,
                             float sigmas);
 
-/* Over all rows: what no tightening mends. *row: where. */
+/* Over all rows: what no tightening corrects. *row: where. */
 double emission_coder_uncoded(const EmissionCoder *coder, int *row);
 
 /* Fits again with more weight on dark rows that the surface passes far above. */

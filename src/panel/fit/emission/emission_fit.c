@@ -13,7 +13,7 @@
 #include "panel/set/primary_bands.h"
 #include "panel/shape/spectral_warp.h"
 
-#define TOLERANCE 0.0025 /* relative, where the noise does not ask for more */
+#define TOLERANCE 0.0025 /* relative, where the noise does not allow more */
 #define SIGMAS 4.0      /* of the noise that the components have left */
 
 /* ---- what is known of the tables -------------------------------------------------------- */

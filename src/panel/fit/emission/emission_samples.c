@@ -279,7 +279,7 @@ void emission_samples_note(const EmissionSamples *samples, Arena scratch, FitNot
 #define DARK_SHARE 0.02 /* of the rows: fewer are dead pixels */
 
 /* Zeros, which no logarithm follows: only then does the fit need the floor. Without them it
- * holds the darkest values relative to themselves, which is more than is asked. */
+ * holds the darkest values relative to themselves, which is more than is required. */
 static bool has_darkness(const AngleTable *table, int channel)
 {
     int dark = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* emission_values.h -- values at the vertices of a lattice by least squares: what the smooth
- * part leaves of an emission's scores, as smooth as their noise asks for.
+ * part leaves of an emission's scores, as smooth as their noise requires.
  *
  * Threads  pure functions. Fails: on numbers that are not finite (ERROR_INPUT).
  */

@@ -42,7 +42,7 @@ typedef struct ReflectionModel {
     ReflectionParts   *parts;
     Arena             *arena;
     int    tables, wavelengths;
-    bool   is_trial; /* only to compare frames: nothing is mended */
+    bool   is_trial; /* only to compare frames: nothing is corrected */
     bool   is_last;  /* no finer level follows: everything is tried */
     ReflectionSurface surface;
     double bound;  /* relative error allowed at every sample, noise apart */

@@ -61,7 +61,7 @@ static float *copy_values(const AngleTable *slice, Arena *arena, AngleTable *haz
 #define CHI_SQUARED 4.0   /* two standard deviations of one number */
 #define LEAST_POWER 1.05   /* of the haze */
 #define MOST_POWER 4.0
-#define POWERS 12          /* of them, that are asked everywhere */
+#define POWERS 12          /* of them, that are tried everywhere */
 #define WIDTHS 28          /* and widths */
 #define POWER_BISECTIONS 8
 #define BISECTIONS 12
@@ -113,7 +113,7 @@ static void take_model(RangeSearch *search, PeakModel *model, double chi)
     }
 }
 
-/* Asks one width; true: the rows allow it. */
+/* Tries one width; true: the rows allow it. */
 static bool ask_width(RangeSearch *search, PeakModel *model, double log_width)
 {
     model->width = exp_d(log_width);
@@ -136,7 +136,7 @@ static void walk(RangeSearch *search, PeakModel model, double limit)
     }
 }
 
-/* Asks a power with its best width, and from there all widths; true: the rows allow it. */
+/* Tries a power with its best width, and from there all widths; true: the rows allow it. */
 static bool ask_power(RangeSearch *search, PeakModel *model, double power)
 {
     const PeakWindow *window = search->window;
@@ -210,7 +210,7 @@ static void finish(const RangeSearch *search, PeakRange *out)
     out->haze[0] = search->haze[0][0], out->haze[1] = search->haze[1][0];
 }
 
-/* All widths and powers of the haze are asked that explain the rows nearly as well as the best
+/* All widths and powers of the haze are tried that explain the rows nearly as well as the best
  * ones (chi squared within 4 of theirs: two standard deviations), each with what its own least
  * squares leave open. sigma: by what a row may miss the model, relative. step: of the rows,
  * radians. */

@@ -23,7 +23,8 @@
 #define TIGHTER 0.6        /* a miss makes the places around it so much more precise */
 #define TIGHTEST 0.2       /* of the bound, beyond what the components leave out: rounding */
 #define ROUNDS 5
-#define HOPELESS 200 /* one miss in fewer samples: a finer level is wanted, not smaller steps */
+#define HOPELESS 200 /* one miss in fewer samples: a finer level is required, not smaller
+                        steps */
 #define ATTEMPTS 8
 #define LOOSER 1.3f
 #define CHUNK 256
@@ -137,7 +138,7 @@ static void loosen(ReflectionModel *model)
 }
 
 /* The coder's steps are as fine as the tightest places need, and may then be too fine for the
- * largest details: it is asked for less until it can do what it is asked for. */
+ * largest details: less is required of it until it reaches what is required. */
 static bool build_tree(ReflectionModel *model, Error *err)
 {
     bool ok = false;

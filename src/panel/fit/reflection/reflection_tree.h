@@ -9,5 +9,5 @@ typedef struct ReflectionMisses {
     double worst;           /* largest error over its bound */
 } ReflectionMisses;
 
-/* The tree; what samples and places miss by is mended as far as the level lets it be. */
+/* The tree; what samples and places miss by is corrected as far as the level lets it be. */
 bool reflection_tree_build(ReflectionModel *model, ReflectionMisses *misses, Error *err);

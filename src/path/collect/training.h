@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* lesson.h -- what a guide that is to learn asks of paths: where they scatter, and what arrives
+/* training.h -- what a guide's training takes from paths: where they scatter, and what arrives
  * there.
  *
  * Threads  one thread's, like the path.
@@ -15,21 +15,21 @@ typedef struct PathPlaces {
     LitPoint place[PATH_PLACES_MAX];
 } PathPlaces;
 
-typedef struct LessonPlaces {
+typedef struct TrainingPlaces {
     PathCollector base;
     PathPlaces   *out;
-} LessonPlaces;
+} TrainingPlaces;
 
 /* The context must have a guide, trained or not. */
-LessonPlaces lesson_places(PathPlaces *out);
+TrainingPlaces training_places(PathPlaces *out);
 
 /* Keeps the luminance, cd m^-2, of the sky that a path to a point (PathStart.from) sees
  * straight from there; 0: none. The path's own light is all other, and ends at the second
- * surface that scatters widely: a lesson, no measurement. */
-typedef struct LessonSky {
+ * surface that scatters widely: a training pass, no measurement. */
+typedef struct TrainingSky {
     PathCollector base;
     float        *sky_cd_m2;
     int           wide; /* surfaces so far that scatter widely */
-} LessonSky;
+} TrainingSky;
 
-LessonSky lesson_sky(float *sky_cd_m2);
+TrainingSky training_sky(float *sky_cd_m2);

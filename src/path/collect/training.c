@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: no allocation, no lock, no libm. */
-#include "path/collect/lesson.h"
+#include "path/collect/training.h"
 
 #include "scene/point/ray_ends.h"
 
@@ -9,26 +9,26 @@ static bool note_place(PathCollector *c, PathState *path, const Surface *surface
                        const Guiding *guiding)
 {
     (void)path;
-    PathPlaces *places = ((LessonPlaces *)c)->out;
+    PathPlaces *places = ((TrainingPlaces *)c)->out;
     if (!guiding->is_wide || places->count == PATH_PLACES_MAX) return true;
     Vec3 origin = ray_start(&surface->point, wo);
     places->place[places->count++] = (LitPoint){origin, surface->frame.z, false};
     return true;
 }
 
-static bool ask_for_no_light(PathCollector *c, PathState *path)
+static bool end_without_light(PathCollector *c, PathState *path)
 {
     (void)c, (void)path;
     return true;
 }
 
-LessonPlaces lesson_places(PathPlaces *out)
+TrainingPlaces training_places(PathPlaces *out)
 {
     static const CollectorKind kind = {
-        .size = sizeof(LessonPlaces),
-        .steer = {.vertex = note_place, .escape = ask_for_no_light}};
+        .size = sizeof(TrainingPlaces),
+        .steer = {.vertex = note_place, .escape = end_without_light}};
     out->count = 0;
-    return (LessonPlaces){{&kind, NULL}, out};
+    return (TrainingPlaces){{&kind, NULL}, out};
 }
 
 static void take_sky(PathCollector *c, PathState *path, Spectrum *radiance)
@@ -36,7 +36,7 @@ static void take_sky(PathCollector *c, PathState *path, Spectrum *radiance)
     float xyz[3] = {0};
     if (path->bounce != 1) return;
     spectrum_add_xyz(path->wavelengths, path->throughput * *radiance, xyz);
-    *((LessonSky *)c)->sky_cd_m2 = xyz[1];
+    *((TrainingSky *)c)->sky_cd_m2 = xyz[1];
     *radiance = spectrum_all(0);
 }
 
@@ -46,7 +46,7 @@ static bool ends_at(PathCollector *c, PathState *path, const Surface *surface, V
                     const Guiding *guiding)
 {
     (void)path, (void)surface, (void)wo;
-    LessonSky *sky = (LessonSky *)c;
+    TrainingSky *sky = (TrainingSky *)c;
     sky->wide += guiding->is_wide;
     return sky->wide > 1;
 }
@@ -55,14 +55,14 @@ static bool has_ended(PathCollector *c, PathState *path, const Surface *surface,
                       const BsdfSample *next)
 {
     (void)path, (void)surface, (void)next;
-    return ((const LessonSky *)c)->wide > 1;
+    return ((const TrainingSky *)c)->wide > 1;
 }
 
-LessonSky lesson_sky(float *sky_cd_m2)
+TrainingSky training_sky(float *sky_cd_m2)
 {
     static const CollectorKind kind = {
-        .size = sizeof(LessonSky),
+        .size = sizeof(TrainingSky),
         .steer = {.sky = take_sky, .vertex = ends_at, .refuse = has_ended}};
     *sky_cd_m2 = 0;
-    return (LessonSky){.base = {&kind, NULL}, .sky_cd_m2 = sky_cd_m2};
+    return (TrainingSky){.base = {&kind, NULL}, .sky_cd_m2 = sky_cd_m2};
 }
