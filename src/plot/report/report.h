@@ -15,7 +15,7 @@ typedef struct ReportOutput {
     const char *tables; /* a folder for the CSV files and report.json */
 } ReportOutput;
 
-/* Makes all tables and writes what is asked for; *answer is the caller's: the document of
+/* Makes all tables and writes what is requested; *answer is the caller's: the document of
  * report.json. */
 bool panel_report_write(const PlotInput *input, const PlotOptions *options,
                         const ReportOutput *output, Arena *arena, json_t **answer, Error *err);

@@ -31,5 +31,5 @@ typedef struct PixelLight {
     PixelFigure radiance[PIXEL_BANDS]; /* means over the bands */
 } PixelLight;
 
-/* aim: of a pixel (ProbeAim.pixel). As many paths as chains_find takes of it, the same ones. */
+/* ask: of a pixel (ProbeAim.pixel). As many paths as chains_find takes of it, the same ones. */
 PixelLight pixel_light_find(const ChainAsk *ask);

@@ -36,7 +36,7 @@ typedef struct EyePath {
     Ray    image;              /* (0: it met none) */
 } EyePath;
 
-/* Angles are drawn evenly in their logarithm, as f cos theta sin theta, about 1 / theta, asks;
+/* Angles are drawn evenly in their logarithm: f cos theta sin theta is about as 1 / theta;
  * Hammersley's points, which each round but the first shifts (Cranley and Patterson 1976). */
 typedef struct EyePaths {
     const Setup *setup;
