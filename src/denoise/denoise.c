@@ -3,393 +3,253 @@
 
 #include <math.h>
 
-#include "base/mathf.h"
+#include "base/file.h"
 #include "base/parallel.h"
-#include "denoise/buffers.h"
-#include "denoise/feature_weights.h"
-#include "denoise/fireflies.h"
-#include "denoise/noise.h"
-#include "denoise/patch_weights.h"
-#include "denoise/pilot.h"
-#include "denoise/regression.h"
+#include "base/program.h"
+#include "denoise/network.h"
+#include "denoise/transfer.h"
 
-enum { COARSE = 6, FINE = 2 }; /* reaches of the corrections */
+/* ---- the frame's layers ------------------------------------------------------------------ */
 
-/* ---- of two filters, each pixel's better one --------------------------------------------- */
+typedef struct Layers {
+    const float *light[3], *normal[3], *albedo[3], *emitted[3];
+    const float *coverage[3]; /* one */
+    const float *fine[3];     /* NULL without that layer */
+} Layers;
 
-/* What a filter made of one half of the samples is held against the other half, whose noise it
- * does not have: it differs from it by that noise, the same for both filters, and by the
- * filter's own error (Rousselle, Knaus and Zwicker 2012). Over the pixels around, the smaller
- * difference marks the better filter. */
+typedef struct LayerRow {
+    const char *name, *channels[3];
+    size_t      offset;
+    bool        may_miss;
+} LayerRow;
 
-/* Both filters' results for each half: R, G, B. */
-typedef struct Candidates {
-    float *patches[2][3], *features[2][3];
-} Candidates;
+static const LayerRow layer_rows[] = {
+    {"R, G, B", {"R", "G", "B"}, offsetof(Layers, light), false},
+    {"normal", {"normal.X", "normal.Y", "normal.Z"}, offsetof(Layers, normal), false},
+    {"albedo", {"albedo.R", "albedo.G", "albedo.B"}, offsetof(Layers, albedo), false},
+    {"display.emitted", {"display.emitted.R", "display.emitted.G", "display.emitted.B"},
+     offsetof(Layers, emitted), false},
+    {"display.coverage", {"display.coverage"}, offsetof(Layers, coverage), false},
+    {"display.fine", {"display.fine.R", "display.fine.G", "display.fine.B"},
+     offsetof(Layers, fine), true},
+};
 
-enum { REACH = 4 };
+enum { LAYER_ROWS = sizeof layer_rows / sizeof *layer_rows };
 
-typedef struct FilterChoice {
-    const DenoiseBuffers *buffers;
-    const Candidates     *candidates;
-    float                *gain; /* a pixel: how much closer the filter by features came */
-    float                *share; /* of the filter by features, 0 to 1 */
-} FilterChoice;
-
-static float square(float value)
+static bool find_layer(const FrameImage *frame, const LayerRow *row, Layers *out)
 {
-    return value * value;
-}
-
-/* In units of the light's variance, so that bright pixels do not decide for dark ones. */
-static float gain_of(const FilterChoice *work, size_t i)
-{
-    const DenoiseBuffers *b = work->buffers;
-    float                 gain = 0;
-    for (int half = 0; half < 2; half++)
-        for (int c = 0; c < 3; c++) {
-            float other = b->light[1 - half][c][i];
-            float patches = work->candidates->patches[half][c][i];
-            float features = work->candidates->features[half][c][i];
-            float unit = b->variance[c][i] + 1e-6f * square(buffers_mean(b, c, i)) + 1e-20f;
-            gain += (square(patches - other) - square(features - other)) / unit;
-        }
-    return gain;
-}
-
-static void fill_gains(void *context, int y, int worker)
-{
-    const FilterChoice   *work = context;
-    const DenoiseBuffers *b = work->buffers;
-    (void)worker;
-    for (int x = 0; x < b->width; x++) {
-        size_t i = (size_t)y * (size_t)b->width + (size_t)x;
-        if (b->kind[i] != PIXEL_LEFT) work->gain[i] = gain_of(work, i);
+    const float **planes = (const float **)(void *)((char *)out + row->offset);
+    bool          is_there = true;
+    for (int c = 0; c < 3 && row->channels[c]; c++) {
+        planes[c] = frame_channel(frame, row->channels[c]);
+        is_there = is_there && planes[c];
     }
+    if (!is_there) planes[0] = NULL;
+    return is_there || row->may_miss;
 }
 
-/* The gains around by their own uncertainty: nothing below no gain, all from one standard
- * error on. Not on displays, where what is shown makes the halves differ too. */
-static float share_at(const FilterChoice *work, size_t pixel)
+static bool find_layers(const FrameImage *frame, Arena scratch, Layers *out, Error *err)
 {
-    const DenoiseBuffers *b = work->buffers;
-    PixelWindow           w = buffers_window(b, pixel, REACH);
-    float                 sum = 0, squares = 0;
-    for (int y = w.y0; y < w.y1; y++)
-        for (int x = w.x0; x < w.x1; x++) {
-            size_t i = (size_t)y * (size_t)b->width + (size_t)x;
-            if (b->kind[i] != b->kind[pixel]) continue;
-            float like = buffers_likeness(b, pixel, i);
-            sum += like * work->gain[i];
-            squares += square(like * work->gain[i]);
-        }
-    return sum > 0 ? fminf(sum / sqrtf(squares), 1) : 0;
+    const char *missing = "";
+    for (int i = 0; i < LAYER_ROWS; i++)
+        if (!find_layer(frame, &layer_rows[i], out))
+            missing = arena_format(&scratch, "%s%s%s", missing, *missing ? ", " : "",
+                                   layer_rows[i].name);
+    return !*missing ||
+           error_set(err, ERROR_INPUT,
+                     "lacks what --denoise requires (missing: %s) — render it with --layers "
+                     DENOISE_LAYERS, missing);
 }
 
-static void fill_shares(void *context, int y, int worker)
+/* ---- one pixel --------------------------------------------------------------------------- */
+
+static bool are_finite(const float *const planes[3], size_t i)
 {
-    const FilterChoice   *work = context;
-    const DenoiseBuffers *b = work->buffers;
-    (void)worker;
-    for (int x = 0; x < b->width; x++) {
-        size_t i = (size_t)y * (size_t)b->width + (size_t)x;
-        if (b->kind[i] == PIXEL_SURFACE || b->kind[i] == PIXEL_VOID)
-            work->share[i] = share_at(work, i);
-    }
+    return isfinite(planes[0][i]) && isfinite(planes[1][i]) && isfinite(planes[2][i]);
 }
 
-/* Puts into the light by patches, of both halves, the better of the two, and a mean of both
- * where it is unsure. The buffers have halves. */
-static void selection_apply(const DenoiseBuffers *b, const Candidates *candidates, int threads,
-                            Arena scratch)
+static float luminance_of(const float rgb[3])
 {
-    size_t       count = (size_t)b->width * (size_t)b->height;
-    FilterChoice work = {b, candidates, ARENA_NEW(&scratch, float, count),
-                         ARENA_NEW(&scratch, float, count)};
-    parallel_for(threads, b->height, fill_gains, &work);
-    parallel_for(threads, b->height, fill_shares, &work);
-    for (int half = 0; half < 2; half++)
-        for (int c = 0; c < 3; c++) {
-            float       *kept = candidates->patches[half][c];
-            const float *other = candidates->features[half][c];
-            for (size_t i = 0; i < count; i++) kept[i] += work.share[i] * (other[i] - kept[i]);
-        }
+    return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
 }
 
-/* ---- what the filter took away and noise cannot have been -------------------------------- */
-
-#define STRICTNESS 1.5f /* squared standard errors that are not believed */
-
-typedef struct Correction {
-    const DenoiseBuffers *buffers;
-    float *const         *light;
-    float                *add[3];
-    int                   reach;
-} Correction;
-
-typedef struct Residual {
-    float sum[3], variance[3], weight;
-} Residual;
-
-static Residual residual_around(const Correction *work, size_t pixel, int x0, int y0)
+/* What the pixel's own samples saw of what displays emit: not filtered. */
+static void own_light(const Layers *layers, size_t i, float out[3])
 {
-    const DenoiseBuffers *b = work->buffers;
-    PixelWindow w = buffers_window(b, pixel, work->reach);
-    Residual    r = {{0}, {0}, 0};
-    float       narrow = -2 / (float)(work->reach * work->reach);
-    for (int y = w.y0; y < w.y1; y++)
-        for (int x = w.x0; x < w.x1; x++) {
-            size_t i = (size_t)y * (size_t)b->width + (size_t)x;
-            if (b->kind[i] != b->kind[pixel]) continue;
-            float distance = (float)((x - x0) * (x - x0) + (y - y0) * (y - y0));
-            float weight = exp_f(narrow * distance -
-                                 BUFFERS_UNLIKE * buffers_feature_distance(b, pixel, i));
-            for (int c = 0; c < 3; c++) {
-                r.sum[c] += weight * (buffers_mean(b, c, i) - work->light[c][i]);
-                r.variance[c] += weight * weight * b->variance[c][i];
-            }
-            r.weight += weight;
-        }
-    return r;
+    const float coverage = layers->coverage[0][i];
+    const bool  shows = coverage > 0 && are_finite(layers->emitted, i);
+    for (int c = 0; c < 3; c++) out[c] = shows ? layers->emitted[c][i] * coverage : 0;
 }
 
-/* The positive part of James and Stein's shrinkage: nothing of a difference within its standard
- * error, all of one far beyond. */
-static void correct_row(void *context, int y, int worker)
+/* The rest, which is filtered; nothing where a pixel is not finite. */
+static void other_light(const Layers *layers, size_t i, float out[3])
 {
-    const Correction     *work = context;
-    const DenoiseBuffers *b = work->buffers;
-    (void)worker;
-    for (int x = 0; x < b->width; x++) {
-        size_t i = (size_t)y * (size_t)b->width + (size_t)x;
-        if (b->kind[i] == PIXEL_LEFT) continue;
-        Residual r = residual_around(work, i, x, y);
-        float    sigma[3];
-        for (int c = 0; c < 3; c++) sigma[c] = sqrtf(r.variance[c]);
-        float error = buffers_luminance(sigma), found = buffers_luminance(r.sum);
-        float unsure = STRICTNESS * error * error, square = found * found;
-        if (!(square > unsure)) continue;
-        for (int c = 0; c < 3; c++)
-            work->add[c][i] = (1 - unsure / square) * r.sum[c] / r.weight;
-    }
-}
-
-/* light: the filtered light, R, G, B. The difference between it and the buffers' own, averaged
- * over pixels of like features at most `reach` away, is added as far as it is larger than its
- * standard error lets expect. */
-static void correction_add(const DenoiseBuffers *b, float *const light[3], int reach,
-                           int threads, Arena scratch)
-{
-    size_t     count = (size_t)b->width * (size_t)b->height;
-    Correction work = {.buffers = b, .light = light, .reach = reach};
-    for (int c = 0; c < 3; c++) work.add[c] = ARENA_NEW(&scratch, float, count);
-    parallel_for(threads, b->height, correct_row, &work);
+    float own[3];
+    own_light(layers, i, own);
     for (int c = 0; c < 3; c++)
-        for (size_t i = 0; i < count; i++) light[c][i] += work.add[c][i];
+        out[c] = are_finite(layers->light, i) ? fmaxf(layers->light[c][i] - own[c], 0) : 0;
 }
 
-/* ---- the filters ------------------------------------------------------------------------- */
+/* What is put back: the mean emission by more camera rays than the pixel's samples, where the
+ * frame has it. */
+static void shown_light(const Layers *layers, size_t i, float out[3])
+{
+    own_light(layers, i, out);
+    if (!layers->fine[0] || !(layers->coverage[0][i] > 0) || !are_finite(layers->fine, i))
+        return;
+    for (int c = 0; c < 3; c++) out[c] = layers->fine[c][i];
+}
 
-/* How fast unlike patches stop to count, where noisy light guides. A half that guides itself
- * must be generous: every patch is most like itself. */
-#define STRENGTH_OF_HALVES 2.0f
-#define STRENGTH_ALONE 0.4f
-
-typedef struct Scratch {
-    PatchScratch *patches;
-    float       (*weights)[PATCH_OFFSETS];
-} Scratch;
+/* ---- the picture that the network sees --------------------------------------------------- */
 
 typedef struct Filtering {
-    const DenoiseBuffers *buffers;
-    PatchGuide            guide;
-    bool                  is_last;      /* the filter by features runs, too */
-    int                   tiles_x, tiles_y;
-    int                   odd_x, odd_y; /* which tiles' turn it is */
-    Scratch              *scratch;      /* one a worker */
-    RegressionSums        patches[2], features[2]; /* of each half */
+    const Layers *layers;
+    int           width, height;
+    float         exposure; /* relative light per cd m^-2 */
+    float        *out[3];
+    double       *before, *after; /* luminance of each row, summed up */
+    long         *left;           /* pixels of each row that were not filtered */
 } Filtering;
 
-static void filter_pixel(const Filtering *work, int half, int x, int y, float *weights)
+/* Pixels that show a surface, as far as the network's range goes. The others, the sky, suns and
+ * what is not finite, stay as they are. */
+static bool is_filtered(const Filtering *work, size_t i)
 {
-    const DenoiseBuffers  *b = work->buffers;
-    const RegressionWindow window = {b, x, y, PATCH_SEARCH, weights};
-    if (b->kind[(size_t)y * (size_t)b->width + (size_t)x] == PIXEL_LEFT) return;
-    regression_add(&window, half, &work->patches[half]);
-    if (!work->is_last) return;
-    feature_weights(b, x, y, weights);
-    regression_add(&window, half, &work->features[half]);
-}
-
-static void filter_tile(void *context, int item, int worker)
-{
-    const Filtering      *work = context;
-    const DenoiseBuffers *b = work->buffers;
-    const Scratch        *scratch = &work->scratch[worker];
-    int columns = (work->tiles_x - work->odd_x + 1) / 2;
-    int x0 = (item % columns * 2 + work->odd_x) * PATCH_TILE;
-    int y0 = (item / columns * 2 + work->odd_y) * PATCH_TILE;
-    for (int half = 0; half < (b->has_halves ? 2 : 1); half++) {
-        patch_weights(&work->guide, half, x0, y0, scratch->patches, scratch->weights);
-        for (int k = 0; k < PATCH_TILE * PATCH_TILE; k++) {
-            int x = x0 + k % PATCH_TILE, y = y0 + k / PATCH_TILE;
-            if (x < b->width && y < b->height)
-                filter_pixel(work, half, x, y, scratch->weights[k]);
-        }
-    }
-}
-
-/* The mean of the fits; where there is none, the light as it was. */
-static void average_fits(const DenoiseBuffers *b, int half, const RegressionSums *sums)
-{
+    const Layers *layers = work->layers;
+    const float   most = TRANSFER_MOST / work->exposure;
+    if (!are_finite(layers->light, i)) return false;
     for (int c = 0; c < 3; c++)
-        for (size_t i = 0; i < (size_t)b->width * (size_t)b->height; i++)
-            sums->light[c][i] = sums->weight[i] > 0 ? sums->light[c][i] / sums->weight[i]
-                                                    : b->light[half][c][i];
+        if (!(layers->light[c][i] < most)) return false;
+    return layers->coverage[0][i] > 0 ||
+           (are_finite(layers->normal, i) && are_finite(layers->albedo, i));
 }
 
-static RegressionSums create_sums(size_t count, Arena *arena)
+static void fill_row(void *user, int y, float *row)
 {
-    RegressionSums sums;
-    for (int c = 0; c < 3; c++) sums.light[c] = ARENA_NEW(arena, float, count);
-    sums.weight = ARENA_NEW(arena, float, count);
-    return sums;
-}
-
-/* Windows reach into the tiles around: of every two by two tiles one is filtered at a time, so
- * that no two write to one pixel and the order of sums is always the same. */
-static void filter_tiles(Filtering *work, int threads, Arena *arena)
-{
-    size_t count = (size_t)work->buffers->width * (size_t)work->buffers->height;
-    for (int half = 0; half < 2; half++) {
-        work->patches[half] = create_sums(count, arena);
-        if (work->is_last) work->features[half] = create_sums(count, arena);
-    }
-    for (int turn = 0; turn < 4; turn++) {
-        work->odd_x = turn % 2;
-        work->odd_y = turn / 2;
-        int columns = (work->tiles_x - work->odd_x + 1) / 2;
-        int rows = (work->tiles_y - work->odd_y + 1) / 2;
-        parallel_for(threads, columns * rows, filter_tile, work);
-    }
-    for (int half = 0; half < 2; half++) {
-        average_fits(work->buffers, half, &work->patches[half]);
-        if (work->is_last) average_fits(work->buffers, half, &work->features[half]);
-    }
-}
-
-static Filtering create_filtering(const DenoiseBuffers *b, int threads, Arena *arena)
-{
-    Filtering work = {.buffers = b, .guide = {.buffers = b},
-                      .tiles_x = (b->width + PATCH_TILE - 1) / PATCH_TILE,
-                      .tiles_y = (b->height + PATCH_TILE - 1) / PATCH_TILE,
-                      .scratch = ARENA_NEW(arena, Scratch, threads)};
-    work.guide.strength = b->has_halves ? STRENGTH_OF_HALVES : STRENGTH_ALONE;
-    for (int c = 0; c < 3; c++) {
-        for (int half = 0; half < 2; half++) work.guide.light[half][c] = b->light[half][c];
-        work.guide.variance[c] = b->variance[c];
-    }
-    for (int i = 0; i < threads; i++) {
-        work.scratch[i].patches = patch_scratch_create(arena);
-        work.scratch[i].weights = arena_alloc(arena, sizeof *work.scratch[i].weights,
-                                              sizeof(float), (size_t)PATCH_TILE * PATCH_TILE);
-    }
-    return work;
-}
-
-/* Once more, guided by what the first filter made, and by features alone. */
-static void filter_again(Filtering *work, int threads, Arena *arena)
-{
-    Candidates candidates;
-    float     *first[2][3];
-    for (int half = 0; half < 2; half++)
-        for (int c = 0; c < 3; c++) first[half][c] = work->patches[half].light[c];
-    work->guide = pilot_guide(work->buffers, first, threads, arena);
-    work->is_last = true;
-    filter_tiles(work, threads, arena);
-    for (int half = 0; half < 2; half++)
+    const Filtering *work = user;
+    const Layers    *layers = work->layers;
+    for (int x = 0; x < work->width; x++, row += NETWORK_STRIDE) {
+        const size_t i = (size_t)y * (size_t)work->width + (size_t)x;
+        float        light[3];
+        other_light(layers, i, light);
         for (int c = 0; c < 3; c++) {
-            candidates.patches[half][c] = work->patches[half].light[c];
-            candidates.features[half][c] = work->features[half].light[c];
+            const float exposed = fminf(light[c] * work->exposure, TRANSFER_MOST);
+            const float albedo = layers->albedo[c][i], normal = layers->normal[c][i];
+            row[c] = transfer_encode(exposed);
+            row[3 + c] = isfinite(albedo) ? clampf(albedo, 0, 1) : 0;
+            row[6 + c] = isfinite(normal) ? 0.5f * clampf(normal, -1, 1) + 0.5f : 0.5f;
         }
-    selection_apply(work->buffers, &candidates, threads, *arena);
-}
-
-static void join_halves(const Filtering *work, float *const light[3])
-{
-    const DenoiseBuffers *b = work->buffers;
-    for (size_t i = 0; i < (size_t)b->width * (size_t)b->height; i++)
-        for (int c = 0; c < 3; c++)
-            light[c][i] = b->share[0] * work->patches[0].light[c][i] +
-                          b->share[1] * work->patches[1].light[c][i];
-}
-
-/* Single fits may be negative: without those that are, what is left of the noise would be
- * brighter than what was there. Their mean is cut at 0, or at the frame's own value where that
- * is negative. */
-static void keep_positive(const DenoiseBuffers *b, float *const light[3])
-{
-    for (size_t i = 0; i < (size_t)b->width * (size_t)b->height; i++)
-        for (int c = 0; c < 3; c++)
-            light[c][i] = fmaxf(light[c][i], fminf(0, buffers_mean(b, c, i)));
-}
-
-static void filter(const DenoiseBuffers *b, float *const light[3], int threads, Arena scratch)
-{
-    Filtering work = create_filtering(b, threads, &scratch);
-    filter_tiles(&work, threads, &scratch);
-    if (b->has_halves) filter_again(&work, threads, &scratch);
-    join_halves(&work, light);
-    correction_add(b, light, COARSE, threads, scratch);
-    correction_add(b, light, FINE, threads, scratch);
-    keep_positive(b, light);
-}
-
-/* Light becomes the frame again; returns the luminance of all of it. */
-static void compose(const DenoiseBuffers *b, float *const light[3])
-{
-    for (size_t i = 0; i < (size_t)b->width * (size_t)b->height; i++)
-        for (int c = 0; c < 3; c++)
-            light[c][i] = b->kind[i] == PIXEL_LEFT
-                              ? b->base[c][i]
-                              : light[c][i] * b->factor[c][i] + b->base[c][i];
-}
-
-static double energy_of(const FrameImage *frame)
-{
-    const float *rgb[3];
-    double       sum = 0;
-    frame_rgb(frame, "", rgb);
-    for (size_t i = 0; i < frame_pixel_count(frame); i++) {
-        float luminance = buffers_luminance((float[]){rgb[0][i], rgb[1][i], rgb[2][i]});
-        if (isfinite(luminance)) sum += (double)luminance;
     }
-    return sum;
+}
+
+static void take_row(void *user, int y, const float *row)
+{
+    const Filtering *work = user;
+    const Layers    *layers = work->layers;
+    for (int x = 0; x < work->width; x++, row += NETWORK_STRIDE) {
+        const size_t i = (size_t)y * (size_t)work->width + (size_t)x;
+        const float  light[3] = {layers->light[0][i], layers->light[1][i], layers->light[2][i]};
+        float        rgb[3], shown[3];
+        const bool   filtered = is_filtered(work, i);
+        shown_light(layers, i, shown);
+        for (int c = 0; c < 3; c++) {
+            const float decoded = transfer_decode(fminf(row[c], 1)) / work->exposure;
+            rgb[c] = filtered ? decoded + shown[c] : light[c];
+            work->out[c][i] = rgb[c];
+        }
+        work->left[y] += !filtered;
+        if (!are_finite(layers->light, i)) continue;
+        work->before[y] += (double)luminance_of(light);
+        work->after[y] += (double)luminance_of(rgb);
+    }
+}
+
+/* ---- exposure ---------------------------------------------------------------------------- */
+
+enum { BLOCK = 16 };
+
+/* Mean luminance of a block of the filtered light. */
+static double block_mean(const Filtering *work, int x0, int y0)
+{
+    const int x1 = x0 + BLOCK < work->width ? x0 + BLOCK : work->width;
+    const int y1 = y0 + BLOCK < work->height ? y0 + BLOCK : work->height;
+    double    sum = 0;
+    for (int y = y0; y < y1; y++)
+        for (int x = x0; x < x1; x++) {
+            float light[3];
+            other_light(work->layers, (size_t)y * (size_t)work->width + (size_t)x, light);
+            sum += (double)luminance_of(light);
+        }
+    return sum / ((double)(y1 - y0) * (double)(x1 - x0));
+}
+
+#define BLOCK_NOTHING 1e-8 /* cd m^-2: blocks without light are left out */
+#define KEY 0.18           /* what the geometric mean of the blocks becomes */
+
+/* As in the network's training. */
+static float exposure_of(const Filtering *work)
+{
+    double sum = 0;
+    long   count = 0;
+    for (int y = 0; y < work->height; y += BLOCK)
+        for (int x = 0; x < work->width; x += BLOCK) {
+            const double mean = block_mean(work, x, y);
+            if (!(mean > BLOCK_NOTHING)) continue;
+            sum += log2(mean);
+            count++;
+        }
+    return count ? (float)(KEY / exp2(sum / (double)count)) : 1;
+}
+
+/* ---- the weights ------------------------------------------------------------------------- */
+
+enum { WEIGHTS_BYTES_MAX = 64 << 20 };
+
+static bool read_weights(Arena *arena, Network *out, Error *err)
+{
+    static const ProgramPart part = {"the denoiser's weights",
+                                     "../../assets/denoise/rt_hdr_alb_nrm.tza",
+                                     INSTALLED_SHARE "/denoise/rt_hdr_alb_nrm.tza"};
+    char      path[PATH_MAX];
+    FileBytes bytes;
+    return program_find(&part, path, err) &&
+           file_read(path, WEIGHTS_BYTES_MAX, arena, &bytes, err) &&
+           network_read(bytes.data, bytes.size, path_name(path), arena, out, err);
+}
+
+/* ---- all of it --------------------------------------------------------------------------- */
+
+static DenoiseReport report_of(const Filtering *work)
+{
+    double before = 0, after = 0, left = 0;
+    for (int y = 0; y < work->height; y++) {
+        before += work->before[y];
+        after += work->after[y];
+        left += (double)work->left[y];
+    }
+    return (DenoiseReport){before > 0 ? after / before : 1,
+                           left / ((double)work->width * (double)work->height)};
 }
 
 bool denoise_frame(const FrameImage *frame, int threads, Arena *arena, FrameImage *out,
                    DenoiseReport *report, Error *err)
 {
-    DenoiseBuffers buffers;
-    DenoiseReport  made = {0};
-    float         *light[3];
-    Arena          kept = *arena;
-    FrameImage     filtered = frame_create(1, 1, frame->data, 3, 0, &kept);
-    filtered.display = frame->display;
-    for (int c = 0; c < 3; c++)
-        light[c] = frame_add_channel(&filtered, (char[]){"RGB"[c], 0}, false, &kept);
-    Arena scratch = kept;
-    if (!buffers_create(frame, &scratch, &buffers, err)) return false;
-    made.has_halves = buffers.has_halves;
-    made.fireflies = fireflies_spread(&buffers, scratch);
-    noise_estimate(&buffers, scratch);
-    buffers_fill_rows(&buffers);
-    filter(&buffers, light, threads, scratch);
-    compose(&buffers, light);
-    double before = energy_of(frame);
-    made.energy_ratio = before > 0 ? energy_of(&filtered) / before : 1;
-    *arena = kept;
-    *out = filtered;
-    *report = made;
+    Layers    layers = {.fine = {NULL}};
+    Network   network;
+    Filtering work = {.layers = &layers, .width = frame->data.x1 - frame->data.x0,
+                      .height = frame->data.y1 - frame->data.y0};
+    if (!find_layers(frame, *arena, &layers, err)) return false;
+    for (int c = 0; c < 3; c++) work.out[c] = ARENA_NEW(arena, float, frame_pixel_count(frame));
+    FrameImage made = frame_with_rgb(frame, work.out, arena);
+    Arena      scratch = *arena;
+    if (!read_weights(&scratch, &network, err)) return false;
+    work.before = ARENA_NEW(&scratch, double, (size_t)work.height);
+    work.after = ARENA_NEW(&scratch, double, (size_t)work.height);
+    work.left = ARENA_NEW(&scratch, long, (size_t)work.height);
+    work.exposure = exposure_of(&work);
+    const NetworkPicture picture = {work.width, work.height, &work, fill_row, take_row};
+    network_run(&network, &picture, threads, scratch);
+    *report = report_of(&work);
+    *out = made;
     return true;
 }

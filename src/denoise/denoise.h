@@ -2,23 +2,27 @@
 /* denoise.h -- a frame without most of its noise, for a picture to look at.
  *
  * Never for figures: what is measured, compared or judged is the frame itself. README.md
- * describes the method and its cost.
+ * describes the method and what it cannot do.
  *
  * Units    cd m^-2.
- * Memory   the new frame comes from the arena; 300 bytes a pixel of scratch.
+ * Memory   the new frame comes from the arena; scratch of 60 KB for each pixel of the width.
  * Threads  as many as requested; the same bits for any number.
- * Fails    when the frame lacks a layer that the filter goes by (DENOISE_LAYERS).
+ * Fails    when the frame lacks a layer that is required (DENOISE_LAYERS), and when the weights
+ *          are not there or damaged.
  */
 #pragma once
-#include "denoise/buffers.h"
+#include "image/frame.h"
+
+/* The layers that it goes by, as --layers names them. The last one may be missing: what
+ * displays show is then as noisy as the frame's samples have it. */
+#define DENOISE_LAYERS "normal,albedo,display.emitted,display.fine"
 
 typedef struct DenoiseReport {
-    bool   has_halves;    /* else each pixel's noise chose its own weights: under 24 samples */
-    long   fireflies;     /* pixels whose excess was spread */
-    double energy_ratio;  /* luminance of the filtered frame by that of the frame, summed up;
-                             pixels that are not finite left out */
+    double energy_ratio; /* luminance of the filtered frame by that of the frame, summed up;
+                            pixels that are not finite left out */
+    double left_share;   /* of the pixels that were not filtered: sky, not finite */
 } DenoiseReport;
 
-/* A frame of R, G, B alone. */
+/* The frame with other R, G, B; the rest is shared with it. */
 bool denoise_frame(const FrameImage *frame, int threads, Arena *arena, FrameImage *out,
                    DenoiseReport *report, Error *err);

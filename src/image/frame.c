@@ -118,6 +118,21 @@ bool frame_rgb(const FrameImage *frame, const char *layer, const float *rgb[3])
     return true;
 }
 
+FrameImage frame_with_rgb(const FrameImage *frame, float *const planes[3], Arena *arena)
+{
+    FrameImage   out = *frame;
+    const float *rgb[3];
+    frame_rgb(frame, "", rgb);
+    out.channels = ARENA_NEW(arena, ExrChannel, frame->channel_count);
+    out.channel_room = frame->channel_count;
+    for (int i = 0; i < frame->channel_count; i++) {
+        out.channels[i] = frame->channels[i];
+        for (int c = 0; c < 3; c++)
+            if (frame->channels[i].values == rgb[c]) out.channels[i].values = planes[c];
+    }
+    return out;
+}
+
 int frame_id_of(const FrameImage *frame, const char *what, const char *name)
 {
     char prefix[64];

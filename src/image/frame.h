@@ -97,6 +97,9 @@ const char         *frame_string(const FrameImage *frame, const char *name);
 /* The R, G, B channels of a layer ("" is the frame itself); false when one is missing. */
 bool frame_rgb(const FrameImage *frame, const char *layer, const float *rgb[3]);
 
+/* The frame with these planes in place of its R, G, B, which it has; the rest is shared. */
+FrameImage frame_with_rgb(const FrameImage *frame, float *const planes[3], Arena *arena);
+
 /* The number that names a display (or "part") in id.*, -1 when there is none such. what is
  * "display" or "part". */
 int frame_id_of(const FrameImage *frame, const char *what, const char *name);

@@ -58,21 +58,6 @@ static EyeView view_of(const FrameImage *frame, double fov_deg)
                      .pixel = high / (whole.y1 - whole.y0)};
 }
 
-/* The frame with other planes as its R, G, B, which are put in place of those there. */
-static FrameImage with_planes(const FrameImage *frame, const float *const rgb[3],
-                              float *const planes[3], Arena *arena)
-{
-    FrameImage out = *frame;
-    out.channels = ARENA_NEW(arena, ExrChannel, frame->channel_count);
-    out.channel_room = frame->channel_count;
-    for (int i = 0; i < frame->channel_count; i++) {
-        out.channels[i] = frame->channels[i];
-        for (int c = 0; c < 3; c++)
-            if (frame->channels[i].values == rgb[c]) out.channels[i].values = planes[c];
-    }
-    return out;
-}
-
 /* The frame with R, G, B filtered; other channels are shared with it. out may be the frame. */
 static bool apply_eye(const EyeOption *option, const FrameImage *frame, int threads,
                       Arena *arena, FrameImage *out, Error *err)
@@ -88,7 +73,7 @@ static bool apply_eye(const EyeOption *option, const FrameImage *frame, int thre
     const EyeFilter filter = {view_of(frame, fov_deg), option->eye, threads};
     const EyeLayer layer = {{rgb[0], rgb[1], rgb[2]}, {planes[0], planes[1], planes[2]}};
     if (!eye_filter(&filter, &layer, 1, *arena, err)) return false;
-    *out = with_planes(frame, rgb, planes, arena);
+    *out = frame_with_rgb(frame, planes, arena);
     return true;
 }
 
@@ -144,9 +129,7 @@ const char *look_options_words(const LookReport *report, Arena *arena)
     const DenoiseReport *denoise = &report->denoise;
     const char          *words = "";
     if (report->develop.is_denoised)
-        words = arena_format(arena, ", denoised (%.4g of the light, %ld fireflies spread%s)",
-                             denoise->energy_ratio, denoise->fireflies,
-                             denoise->has_halves ? "" : "; better from 24 samples on");
+        words = arena_format(arena, ", denoised (%.4g of the light)", denoise->energy_ratio);
     if (report->develop.is_adapted) words = arena_format(arena, "%s, locally adapted", words);
     return report->develop.eye[0] ? arena_format(arena, "%s, %s", words, report->develop.eye)
                                   : words;
@@ -157,9 +140,8 @@ void look_options_json(const LookReport *report, json_t *answer)
     const DenoiseReport *denoise = &report->denoise;
     json_object_set_new(answer, "denoised",
                         report->develop.is_denoised
-                            ? json_pack("{s:b, s:I, s:f}", "halves", denoise->has_halves,
-                                        "fireflies", (json_int_t)denoise->fireflies,
-                                        "energy_ratio", denoise->energy_ratio)
+                            ? json_pack("{s:f, s:f}", "energy_ratio", denoise->energy_ratio,
+                                        "left_share", denoise->left_share)
                             : json_null());
     json_object_set_new(answer, "adapt",
                         report->develop.is_adapted ? json_string("local") : json_null());

@@ -11,7 +11,7 @@
 #include "cli/panel/show_scene.h"
 #include "cli/render/cmd_render.h"
 #include "cli/render/command_line.h"
-#include "denoise/buffers.h"
+#include "denoise/denoise.h"
 #include "image/image.h"
 #include "panel/query/panel_open.h"
 #include "panel/query/panel_report.h"
