@@ -73,7 +73,7 @@ def main():
              if path.startswith(("src/", "shaders/", "third_party/"))}
     for word, most in LAYER_WORDS:
         found = files_with(word, texts)
-        report.claim(0 < len(found) <= most, f"{word} is named in {len(found)} files, required: "
+        report.claim(0 < len(found) <= most, f"{word} is named in {len(found)} files, required "
                                              f"1 to {most}: {found}")
     report.claim(files_with("a", {"x": "BA", "y": "b"}) == ["x"],
                  "a word in another case is not seen")

@@ -62,7 +62,6 @@ const MaterialLayer material_layers[] = {
             TEXTURE(Material, clearcoat_roughness_texture)},
            {"clearcoatNormalTexture", RULE_OBJECT, .schema = &SCHEMA_NORMAL_TEXTURE_INFO,
             OF(Material, clearcoat_normal_texture, 0)}),
-     .amount = "clearcoatFactor",
      .on_solid = ON_CLOSED_SOLID "on which no coat is shown"},
     {LAYER("KHR_materials_diffuse_transmission", NULL,
            {"diffuseTransmissionFactor", RULE_NUMBER, .max = 1,
@@ -73,7 +72,6 @@ const MaterialLayer material_layers[] = {
             OF(Material, diffuse_transmission_color, 1)},
            {"diffuseTransmissionColorTexture", RULE_OBJECT,
             TEXTURE(Material, diffuse_transmission_color_texture)}),
-     .amount = "diffuseTransmissionFactor",
      .on_solid = "is not seen: KHR_materials_transmission makes the solid clear"},
     {LAYER("KHR_materials_volume", NULL,
            {"thicknessFactor", RULE_NUMBER, .flags = RULE_FROM_MIN},
@@ -93,14 +91,12 @@ const MaterialLayer material_layers[] = {
             OF(MaterialFilm, most_nm, 400)},
            {"iridescenceThicknessTexture", RULE_OBJECT,
             TEXTURE(MaterialFilm, thickness_texture)}),
-     .amount = "iridescenceFactor",
      OWN_STRUCT(MaterialFilm, film),
      .hidden_by = HIDDEN_BY_COATING},
     {LAYER("KHR_materials_anisotropy", NULL,
            {"anisotropyStrength", RULE_NUMBER, .max = 1, OF(Brushing, strength, 0)},
            {"anisotropyRotation", .kind = RULE_NUMBER, OF(Brushing, turn, 0)},
            {"anisotropyTexture", RULE_OBJECT, TEXTURE(Brushing, texture)}),
-     .amount = "anisotropyStrength",
      OWN_STRUCT(Brushing, brushing),
      .hidden_by = HIDDEN},
     {LAYER("KHR_materials_sheen", NULL,
@@ -110,7 +106,6 @@ const MaterialLayer material_layers[] = {
            {"sheenRoughnessFactor", RULE_NUMBER, .max = 1, OF(MaterialOverlay, roughness, 0)},
            {"sheenRoughnessTexture", RULE_OBJECT,
             TEXTURE(MaterialOverlay, roughness_texture)}),
-     .amount = "sheenColorFactor",
      OWN_STRUCT(MaterialOverlay, overlay),
      .hidden_by = HIDDEN,
      .on_solid = ON_CLOSED_SOLID "on which sheen is not shown",
@@ -122,13 +117,13 @@ const MaterialLayer material_layers[] = {
 
 const int material_layer_count = COUNT_OF(material_layers);
 
-/* As the scene keeps its numbers: floats. */
 bool material_layer_shows(const MaterialLayer *layer, const GltfValue *extension)
 {
-    const GltfValue *amount = layer->amount ? tree_member(extension, layer->amount) : NULL;
-    bool shows = amount && amount->kind == GLTF_NUMBER && (float)amount->number > 0;
-    for (int i = 0; amount && amount->kind == GLTF_ARRAY && i < amount->count; i++)
-        shows |= (float)amount->items[i].number > 0;
+    const Rule      *amount = layer->rule.schema->rules;
+    const GltfValue *value = tree_member(extension, amount->name);
+    bool shows = false;
+    if (amount->kind == RULE_NUMBER) return tree_number(extension, amount->name, 0) > 0;
+    for (int i = 0; value && i < value->count; i++) shows |= value->items[i].number > 0;
     return shows;
 }
 

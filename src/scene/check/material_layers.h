@@ -9,11 +9,10 @@
 #include "scene/scene.h"
 
 /* A layer of a material: the extension that brings it, and all that the checks and the loader
- * need to know of it. Its keys, with their fields, are the schema's. */
+ * need to know of it. Its keys, with their fields, are the schema's; the first is how much
+ * there is of it. */
 typedef struct MaterialLayer {
     ExtensionRule rule;
-    const char *amount;      /* the key by which it is there: a number, or one of several, is
-                                above 0 */
     size_t size, at;         /* of a layer with a struct of its own: its bytes, and where
                                 Material points to it; 0: its keys fill Material itself */
     const char *const *hidden_by; /* extensions beside which it has no effect; a NULL ends them;
@@ -26,11 +25,13 @@ typedef struct MaterialLayer {
 #define ON_CLOSED_SOLID \
     "has no effect: KHR_materials_volume makes the material a closed solid, "
 
-/* By their textures' places among a scene's two sets of coordinates. */
+/* In the order in which their textures take the two sets of coordinates, and in which what hides
+ * them is reported. */
 extern const MaterialLayer material_layers[];
 extern const int material_layer_count;
 
-/* Whether a material with this extension, which may be NULL, has the layer. */
+/* Whether a material with this extension, which may be NULL, has the layer: its first key, or
+ * one of that key's numbers, is above 0. Only of layers whose first key is 0 by default. */
 bool material_layer_shows(const MaterialLayer *layer, const GltfValue *extension);
 
 /* The struct that its keys fill; NULL: the material does not have it. */
