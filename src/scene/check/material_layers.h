@@ -25,8 +25,8 @@ typedef struct MaterialLayer {
 #define ON_CLOSED_SOLID \
     "has no effect: KHR_materials_volume makes the material a closed solid, "
 
-/* In the order in which their textures take the two sets of coordinates, and in which what hides
- * them is reported. */
+/* In the order in which their textures take the two sets of coordinates, and in which what
+ * hides them is reported. */
 extern const MaterialLayer material_layers[];
 extern const int material_layer_count;
 
