@@ -40,7 +40,8 @@
  * a dispersive one within 0.6 %, and a brushed one whose alphas a texture changes within
  * 1 %. Without that it would lose up to a third at alpha 1.
  *
- * Not modelled: sheen. A boundary between equal indices, filmed or not, is smooth.
+ * Not modelled: an overlay (layers/overlay.h). A boundary between equal indices, filmed or not,
+ * is smooth.
  */
 #include "shaders/solid_facet.h"
 

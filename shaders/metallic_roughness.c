@@ -22,7 +22,7 @@
  *                                                    sides alike; default none
  *   film              a clear film of some 100 nm on the share `share` of metal and non-metal
  *                     (KHR_materials_iridescence)
- *   sheen_color, sheen_alpha    fibres of cloth that stand up (KHR_materials_sheen), under the
+ *   overlay           sheen (KHR_materials_sheen), fibres of cloth that stand up, under the
  *                     coat; default none. Alcantara 0.1..0.3, alpha 0.1; velvet 0.8, alpha 0.3
  *   coating           a stack of thin layers (PARHELION_coating) or a metal of measured n, k
  *                     (PARHELION_spectrum): its own reflectance at every angle and wavelength
@@ -170,7 +170,7 @@ static Spectrum model_pass(const void *parameters, Vec3 wo)
     const MetallicRoughness *m = parameters;
     if (!is_smooth(m->alpha) || !(m->transmission > 0) || !(wo.z > 0)) return spectrum_all(0);
     MetallicFace b = boundary_of(m);
-    float    kept = has_sheen(m) ? sqrtf(sheen_kept(m, wo.z)) : 1;
+    float    kept = has_overlay(m) ? sqrtf(energy_kept(m, wo.z)) : 1;
     Spectrum through = facet_through(m, &b, wo.z);
     if (m->clearcoat > 0) {
         float      open = coat_open(m, wo);
@@ -215,7 +215,7 @@ typedef enum Part {
     PART_DIFFUSE,
     PART_THROUGH,
     PART_ACROSS,
-    PART_SHEEN,
+    PART_OVERLAY,
     PART_NONE
 } Part;
 
@@ -224,7 +224,7 @@ typedef enum Part {
 static Part choose_part(const MetallicChoices *choices, float *u)
 {
     const float prob[] = {choices->coat, choices->mirror, choices->diffuse, choices->through,
-                          choices->across, choices->sheen};
+                          choices->across, choices->overlay};
     for (int part = 0; part < PART_NONE; part++) {
         if (*u < prob[part]) {
             *u = fminf(*u / prob[part], 0x1.fffffep-1f);
@@ -247,7 +247,7 @@ static Vec3 turned_over(Vec3 w)
     return vec3(w.x, w.y, -w.z);
 }
 
-/* A direction by the rough coat, the rough mirror, the Lambert base, fibres or rough sheet. */
+/* A direction by the rough coat, the rough mirror, the Lambert base, overlay or rough sheet. */
 static Vec3 sample_rough(const MetallicView *view, Part part, const float u[3])
 {
     const MetallicRoughness *m = view->m;
@@ -259,7 +259,7 @@ static Vec3 sample_rough(const MetallicView *view, Part part, const float u[3])
     }
     if (part == PART_MIRROR) return base_sample(m, view->wo, u[0], u[1]);
     if (part == PART_DIFFUSE) return microfacet_cosine(u[0], u[1]);
-    if (part == PART_SHEEN) return anywhere_above(u[0], u[1]);
+    if (part == PART_OVERLAY) return anywhere_above(u[0], u[1]);
     if (part == PART_ACROSS) return turned_over(microfacet_cosine(u[0], u[1]));
     bool by_facet = u[2] < view->energy.all;
     Vec3 up = by_facet ? base_sample(m, view->wo, u[0], u[1])
@@ -299,7 +299,7 @@ static void model_facts(const void *parameters, BsdfFacts *facts)
     const MetallicRoughness *m = parameters;
     bool has_base = (1 - m->metallic) * (1 - m->transmission) > 0;
     bool has_coat = m->clearcoat > 0 && !is_smooth(m->clearcoat_alpha);
-    facts->scatters = has_base || has_coat || !is_smooth(m->alpha) || has_sheen(m);
+    facts->scatters = has_base || has_coat || !is_smooth(m->alpha) || has_overlay(m);
     facts->sends_across = m->across > 0;
     facts->alpha = m->alpha;
 }
@@ -333,11 +333,12 @@ static void model_lobes(const void *parameters, Vec3 wo, BsdfLobes *lobes)
     lobe_shares(view, &f0, &metal, &face);
     lobes->prob = view->choices.diffuse;
     lobes->diffuse = under * solid * (1 - m->transmission) * (1 - face) * base;
-    if (has_sheen(m)) { /* fibres spread it as widely */
-        float left = 1 - sheen_most(m) * view->sheen.albedo;
-        lobes->prob += view->choices.sheen;
+    if (has_overlay(m)) { /* it spreads light as widely */
+        float left = 1 - overlay_most(&m->overlay) * view->overlay.albedo;
+        lobes->prob += view->choices.overlay;
         lobes->diffuse = lobes->diffuse * left +
-                         under * view->sheen.albedo * spectrum_mean(sheen_tint(m));
+                         under * view->overlay.albedo *
+                             spectrum_mean(overlay_tint(&m->overlay, m->wavelengths));
     }
     float alpha = is_brushed(m) ? sqrtf(m->alpha_along * m->alpha) : m->alpha;
     if (alpha < WIDE_ALPHA) return;
@@ -395,10 +396,10 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
     albedo_parts(m, wo, &solid, &clear, &metal);
     Spectrum dielectric = solid + (clear - solid) * spectrum_all(m->transmission);
     Spectrum mixed = dielectric + (metal - dielectric) * spectrum_all(m->metallic);
-    if (has_sheen(m)) {
-        float own = sheen_albedo(&common_sheen_table, wo.z, m->sheen_alpha);
-        mixed = sheen_tint(m) * spectrum_all(own) +
-                mixed * spectrum_all(1 - sheen_most(m) * own);
+    if (has_overlay(m)) {
+        float own = overlay_albedo(&m->overlay, wo.z);
+        mixed = overlay_tint(&m->overlay, m->wavelengths) * spectrum_all(own) +
+                mixed * spectrum_all(1 - overlay_most(&m->overlay) * own);
     }
     if (!(m->clearcoat > 0)) return mixed;
     float    own = coat_albedo(m, wo) / m->clearcoat;

@@ -24,6 +24,12 @@ typedef struct Energy {
     float all, shape;
 } Energy;
 
+/* Of a layer over facets (layers/overlay.h): what it sends, and what it takes of their energy;
+ * each in [0, 1]. */
+typedef struct OverlayShare {
+    float albedo, all, shape;
+} OverlayShare;
+
 typedef struct EnergyTable {
     float  ior;
     Energy average[ENERGY_ALPHAS]; /* over the hemisphere, weighted by the cosine */

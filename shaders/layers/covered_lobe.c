@@ -17,7 +17,7 @@ typedef struct Directions {
     Spectrum x, y, z;
 } Directions;
 
-/* From where light comes, and what coat and sheen let pass of it. */
+/* From where light comes, and what coat and overlay let pass of it. */
 typedef struct Origins {
     Directions    w;
     Spectrum open, kept;
@@ -125,7 +125,7 @@ static Spectrum opened(const Cover *cover, const Directions *w)
 
 static Spectrum kept(const Cover *cover, Spectrum cosine)
 {
-    return cover->has_sheen ? by_cosine(cover->kept, cosine) : spectrum_all(1);
+    return cover->has_overlay ? by_cosine(cover->kept, cosine) : spectrum_all(1);
 }
 
 static Origins origins_of(const Cover *cover, Directions w)

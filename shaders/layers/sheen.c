@@ -94,22 +94,23 @@ static Energy excess_at(const Energy rows[SHEEN_BASES][SHEEN_WIDE], EnergyKnot b
     return energy_between(rows[b.low] + c.low, SHEEN_WIDE, b.t, c.t);
 }
 
-SheenShare sheen_share(const SheenTable *table, float cosine, float alpha, float base)
+OverlayShare sheen_share(const SheenTable *table, float cosine, float alpha, float base)
 {
     EnergyKnot  r = roughness_knot(alpha, SHEEN_BROAD), b = base_knot(base);
     EnergyKnot  c = energy_cosine_knot(cosine, SHEEN_WIDE);
     Energy      excess = energy_mix(excess_at(table->excess[r.low], b, c),
                                     excess_at(table->excess[r.low + 1], b, c), r.t);
     float       albedo = sheen_albedo(table, cosine, alpha);
-    return (SheenShare){albedo, fminf(albedo + excess.all, 1), fminf(albedo + excess.shape, 1)};
+    return (OverlayShare){albedo, fminf(albedo + excess.all, 1),
+                          fminf(albedo + excess.shape, 1)};
 }
 
-SheenShare sheen_mean(const SheenTable *table, float alpha, float base)
+OverlayShare sheen_mean(const SheenTable *table, float alpha, float base)
 {
     EnergyKnot  r = roughness_knot(alpha, SHEEN_BROAD), b = base_knot(base);
     Energy      mean = energy_between(table->mean[r.low] + b.low, SHEEN_BASES, r.t, b.t);
     float albedo = lerpf(table->mean_albedo[r.low], table->mean_albedo[r.low + 1], r.t);
-    return (SheenShare){albedo, mean.all, mean.shape};
+    return (OverlayShare){albedo, mean.all, mean.shape};
 }
 
 static float open_at(const float rows[SHEEN_BASES][SHEEN_WIDE], EnergyKnot k, EnergyKnot c)

@@ -11,11 +11,7 @@
  * would send back more than it gets (2.9 times at 0.07): there it is divided by the greater of
  * what it would send along either direction.
  *
- * SheenShare holds its albedo, and what it takes from GGX facets beneath: a facet's light is
- * scaled by 1 - c max(albedo(wo), albedo(wi)), c the greatest of the sheen's colour. Over all
- * of the facets' light from wo that is 1 - c `all`; `shape` is the same where each facet
- * reflects as the exact Fresnel curve's shape does (energy.h; of index 1.5, near enough for
- * any).
+ * Its OverlayShare (overlay.h) is of facets of index 1.5, near enough for any.
  *
  * Source   Estevez and Kulla 2017, "Production Friendly Microfacet Sheen BRDF"; the
  *          extension's text.
@@ -34,11 +30,6 @@
 #define SHEEN_BASES 21       /* energy.h's octaves of the facets' alpha, two rows each */
 #define SHEEN_LEAST 0.26457513f /* the fourth root of the least alpha: roughness 0.07 */
 #define SHEEN_LEAST_ALPHA 0.0049f
-
-/* All in [0, 1]. */
-typedef struct SheenShare {
-    float albedo, all, shape;
-} SheenShare;
 
 typedef struct SheenTable {
     float       full[SHEEN_ROUGHNESSES][SHEEN_COSINES]; /* the albedo, were it not bounded */
@@ -59,11 +50,11 @@ float sheen_lobe(const SheenTable *table, Vec3 wo, Vec3 wi, float alpha);
 float sheen_albedo(const SheenTable *table, float cosine, float alpha);
 
 /* Over facets of GGX alpha `base`, [0, 1]; of a smooth face all and shape are the albedo. */
-SheenShare sheen_share(const SheenTable *table, float cosine, float alpha, float base);
+OverlayShare sheen_share(const SheenTable *table, float cosine, float alpha, float base);
 
 /* Over the hemisphere, weighted by the cosine: of the albedo, and of all and shape by the light
  * that the facets send. */
-SheenShare sheen_mean(const SheenTable *table, float alpha, float base);
+OverlayShare sheen_mean(const SheenTable *table, float alpha, float base);
 
 /* Share of the light which fibres send, of that from one direction, that a lacquer (coat.h)
  * over them lets out. */

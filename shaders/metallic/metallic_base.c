@@ -15,14 +15,14 @@ Spectrum base_lambert_albedo(const MetallicRoughness *m)
 
 /* ---- what comes to the Lambert base ------------------------------------------------------ */
 
-/* Share that comes to the Lambert base, sent neither by the sheen nor by facets. reflected:
- * what a coated or filmed face sends back in all, without the sheen. */
-static Spectrum enters_below_sheen(const MetallicView *view, Spectrum reflected, Energy e,
-                                   SheenShare share)
+/* Share that comes to the Lambert base, sent neither by the overlay nor by facets.
+ * reflected: what a coated or filmed face sends back in all, without the overlay. */
+static Spectrum enters_below_overlay(const MetallicView *view, Spectrum reflected, Energy e,
+                                     OverlayShare share)
 {
     const MetallicRoughness *m = view->m;
-    float    most = sheen_most(m);
-    Spectrum in = let_in(&view->boundary, sheen_lets_through(m, e, share));
+    float    most = overlay_most(&m->overlay);
+    Spectrum in = let_in(&view->boundary, overlay_passes(&m->overlay, e, share));
     if (coated_face(m) || has_film(m))
         in = spectrum_all(1) - reflected * spectrum_all(1 - most * share.all);
     return spectrum_clamp(in - spectrum_all(most * share.albedo), 0, 1);
@@ -30,10 +30,10 @@ static Spectrum enters_below_sheen(const MetallicView *view, Spectrum reflected,
 
 /* reflected: what a coated or filmed face sends back in all. */
 static Spectrum enters_layers(const MetallicView *view, Spectrum reflected, Energy e,
-                              const SheenShare *sheen)
+                              const OverlayShare *share)
 {
     const MetallicRoughness *m = view->m;
-    if (has_sheen(m)) return enters_below_sheen(view, reflected, e, *sheen);
+    if (has_overlay(m)) return enters_below_overlay(view, reflected, e, *share);
     if (coated_face(m) || has_film(m)) return spectrum_all(1) - reflected;
     return let_in(&view->boundary, e);
 }
@@ -41,12 +41,12 @@ static Spectrum enters_layers(const MetallicView *view, Spectrum reflected, Ener
 Spectrum base_enters_layers(const MetallicView *view, Vec3 w, Energy e)
 {
     const MetallicRoughness *m = view->m;
-    SheenShare sheen;
-    Spectrum   reflected = coated_face(m) ? energy_coated(m, w) :
-                           has_film(m)    ? energy_filmed(view, w) :
-                                            spectrum_all(0);
-    if (has_sheen(m)) sheen = sheen_towards(m, w);
-    return enters_layers(view, reflected, e, &sheen);
+    OverlayShare share;
+    Spectrum     reflected = coated_face(m) ? energy_coated(m, w) :
+                             has_film(m)    ? energy_filmed(view, w) :
+                                              spectrum_all(0);
+    if (has_overlay(m)) share = energy_overlay(m, w);
+    return enters_layers(view, reflected, e, &share);
 }
 
 static Spectrum enters_layers_on_average(const MetallicView *view)
@@ -55,7 +55,7 @@ static Spectrum enters_layers_on_average(const MetallicView *view)
     Spectrum reflected = coated_face(m) ? energy_coated_average(m) * spectrum_all(m->specular) :
                          has_film(m)    ? energy_filmed_average(view, m->alpha) :
                                           spectrum_all(0);
-    return enters_layers(view, reflected, base_average(m), &view->sheen_mean);
+    return enters_layers(view, reflected, base_average(m), &view->overlay_mean);
 }
 
 Spectrum base_lambert_towards(const MetallicView *view)
@@ -64,7 +64,7 @@ Spectrum base_lambert_towards(const MetallicView *view)
     Spectrum share = spectrum_all((1 - m->metallic) * (1 - m->transmission) * INV_PI_F);
     Spectrum in, mean;
     if (has_layers(m)) {
-        in = enters_layers(view, view->coated, view->energy, &view->sheen);
+        in = enters_layers(view, view->coated, view->energy, &view->overlay);
         mean = enters_layers_on_average(view);
     } else {
         in = let_in(&view->boundary, view->energy);
@@ -83,20 +83,21 @@ static float rebound_lobe(float out, float in, float missing)
     return missing > 1e-6f ? out * in / missing * INV_PI_F : 0;
 }
 
-/* Share of the light that gets past the sheen and that facets hide. */
-static float hidden_below_sheen(const MetallicRoughness *m, Energy e, SheenShare share)
+/* Share of the light that gets past the overlay and that facets hide. */
+static float hidden_below_overlay(const MetallicRoughness *m, Energy e, OverlayShare share)
 {
-    return fmaxf(1 - sheen_most(m) * share.albedo - sheen_lets_through(m, e, share).all, 0);
+    float sent = overlay_most(&m->overlay) * share.albedo;
+    return fmaxf(1 - sent - overlay_passes(&m->overlay, e, share).all, 0);
 }
 
 float base_rebound_lobe(const MetallicView *view, Vec3 wi, Energy in)
 {
     const MetallicRoughness *m = view->m;
     Energy mean = base_average(m);
-    if (!has_sheen(m)) return rebound_lobe(1 - view->energy.all, 1 - in.all, 1 - mean.all);
-    return rebound_lobe(hidden_below_sheen(m, view->energy, view->sheen),
-                        hidden_below_sheen(m, in, sheen_towards(m, wi)),
-                        hidden_below_sheen(m, mean, view->sheen_mean));
+    if (!has_overlay(m)) return rebound_lobe(1 - view->energy.all, 1 - in.all, 1 - mean.all);
+    return rebound_lobe(hidden_below_overlay(m, view->energy, view->overlay),
+                        hidden_below_overlay(m, in, energy_overlay(m, wi)),
+                        hidden_below_overlay(m, mean, view->overlay_mean));
 }
 
 /* The share of the rebound that a metal leaves. */
@@ -256,12 +257,12 @@ Spectrum coat_rebound(const MetallicView *view, Energy in, const ThroughCoat *be
 
 /* ---- over brushed, filmed, coated and woven bases ---------------------------------------- */
 
-/* Share that fibres send out of the light that the coat let in along w. */
-static float open_fibres(const MetallicRoughness *m, float cosine)
+/* Share that the overlay sends out of the light that the coat let in along w. */
+static float open_overlay(const MetallicRoughness *m, float cosine)
 {
-    if (!has_sheen(m)) return 0;
-    return sheen_most(m) * sheen_albedo(&common_sheen_table, cosine, m->sheen_alpha) *
-           sheen_open(&common_sheen_table, cosine, m->sheen_alpha, m->clearcoat_alpha);
+    if (!has_overlay(m)) return 0;
+    return overlay_most(&m->overlay) * overlay_albedo(&m->overlay, cosine) *
+           overlay_open(&m->overlay, cosine, m->clearcoat_alpha);
 }
 
 static Spectrum face_at(const MetallicView *view, float cosine)
@@ -277,8 +278,8 @@ CoveredRest covered_rest(const MetallicView *view, Vec3 w)
 {
     const MetallicRoughness *m = view->m;
     const CoveredBase *covered = &view->covered;
-    float    open = coat_open(m, w), kept = sheen_kept(m, w.z);
-    float    above = 1 - open_fibres(m, w.z);
+    float    open = coat_open(m, w), kept = energy_kept(m, w.z);
+    float    above = 1 - open_overlay(m, w.z);
     Spectrum face;
     if (is_smooth(m->alpha)) {
         face = face_at(view, w.z) * spectrum_all(open * kept);
@@ -295,29 +296,29 @@ CoveredRest covered_rest(const MetallicView *view, Vec3 w)
 static void set_cover(const MetallicRoughness *m, Cover *cover)
 {
     cover->normal = m->clearcoat_normal;
-    cover->has_sheen = has_sheen(m);
+    cover->has_overlay = has_overlay(m);
     cover->alpha = is_smooth(m->alpha) ? (Vec2){SMOOTH_ALPHA, SMOOTH_ALPHA} : facet_alphas(m);
     for (int i = 0; i < ENERGY_COSINES; i++) {
         float cosine = energy_cosine_of_node(i);
         cover->open[i] =
             1 - coat_reflectance(m->clearcoat_energy, cosine, m->clearcoat_alpha);
-        if (cover->has_sheen) cover->kept[i] = sheen_kept(m, cosine);
+        if (cover->has_overlay) cover->kept[i] = energy_kept(m, cosine);
     }
 }
 
-/* Over the hemisphere, weighted by the cosine, by the trapezoid rule: what fibres take of the
- * light that the coat let in, and what they send out through it. */
-static void mean_of_fibres(const MetallicRoughness *m, const Cover *cover, float *taken,
+/* Over the hemisphere, weighted by the cosine, by the trapezoid rule: what the overlay takes
+ * of the light that the coat let in, and what it sends out through that. */
+static void mean_of_overlay(const MetallicRoughness *m, const Cover *cover, float *taken,
                            float *sent)
 {
     *taken = *sent = 0;
-    if (!has_sheen(m)) return;
+    if (!has_overlay(m)) return;
     for (int i = 0; i < ENERGY_COSINES; i++) {
         float root = (float)i / (ENERGY_COSINES - 1);
         float open = 4 * root * root * root * cover->open[i] / (ENERGY_COSINES - 1);
         if (i == ENERGY_COSINES - 1) open *= 0.5f;
         *taken += open * (1 - cover->kept[i]);
-        *sent += open * open_fibres(m, energy_cosine_of_node(i));
+        *sent += open * open_overlay(m, energy_cosine_of_node(i));
     }
 }
 
@@ -327,7 +328,7 @@ void covered_set(MetallicView *view)
     CoveredBase *covered = &view->covered;
     float    taken, sent;
     set_cover(m, &covered->cover);
-    mean_of_fibres(m, &covered->cover, &taken, &sent);
+    mean_of_overlay(m, &covered->cover, &taken, &sent);
     for (int i = 0; i < LOBE_FACETS; i++)
         covered->face[i] =
             m->metallic < 1 ? face_at(view, facet_cosine[i]) : spectrum_all(0);

@@ -22,7 +22,7 @@ Spectrum base_lambert_across(const MetallicRoughness *m);
 /* Albedo of both sides together. */
 Spectrum base_lambert_albedo(const MetallicRoughness *m);
 
-/* Share of the light along w that comes to the Lambert base below film, coating or sheen. */
+/* Share of the light along w that comes to the Lambert base below film, coating or overlay. */
 Spectrum base_enters_layers(const MetallicView *view, Vec3 w, Energy e);
 
 /* The factor of base_diffuse that depends on wo. */
@@ -57,7 +57,7 @@ static inline bool has_rebound(const MetallicRoughness *m)
 /* Is the boundary over the Lambert base more than a bare one? */
 static inline bool has_layers(const MetallicRoughness *m)
 {
-    return m->coating || has_film(m) || has_sheen(m);
+    return m->coating || has_film(m) || has_overlay(m);
 }
 
 /* Share of the light from w that comes to the Lambert base where no coat lies; e: of facets. */
@@ -66,7 +66,8 @@ static inline Spectrum enters(const MetallicView *view, Vec3 w, Energy e)
     return has_layers(view->m) ? base_enters_layers(view, w, e) : let_in(&view->boundary, e);
 }
 
-/* Lambert under boundary and sheen: albedo / pi * in(wo) in(wi) / mean of in (Kelemen 2001). */
+/* Lambert under boundary and overlay: albedo / pi * in(wo) in(wi) / mean of in (Kelemen
+ * 2001). */
 static inline Spectrum base_diffuse(const MetallicView *view, Spectrum albedo, Vec3 wi,
                                     Energy in)
 {
@@ -143,7 +144,7 @@ static inline float coat_cosine(const MetallicRoughness *m, Vec3 w)
 static inline bool is_covered(const MetallicRoughness *m)
 {
     return m->clearcoat > 0 &&
-           (is_brushed(m) || has_film(m) || has_sheen(m) || coated_face(m));
+           (is_brushed(m) || has_film(m) || has_overlay(m) || coated_face(m));
 }
 
 /* Is there a sheet that a coat lies on? On both of its sides alike. */

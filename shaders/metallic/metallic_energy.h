@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* metallic_energy.h -- what all facets of metallic_roughness send back together, and the fibres
- * over them.
+/* metallic_energy.h -- what all facets of metallic_roughness send back together, and the
+ * overlay over them.
  *
  * Directions are in the local frame, above the surface. Energies and averages over the
  * hemisphere are shares of light, [0, 1]: by the tables of an even surface (facets/energy.h),
- * by a few facets of a brushed, filmed or coated one (facets/lobe_facets.h). `sheen`: what
- * sheen.h knows of a white one, for this surface's colour and facets, under its coat; fibres
- * send sr^-1.
+ * by a few facets of a brushed, filmed or coated one (facets/lobe_facets.h).
  *
  * Threads  pure functions.  Fails  never.
  */
@@ -37,23 +35,11 @@ Spectrum energy_filmed_average(const MetallicView *view, float alpha);
  * over the hemisphere is f0 + (1 - f0) / 21. */
 Spectrum energy_metal_mean(const MetallicRoughness *m);
 
-/* The sheen's colour per lane, at most sheen_most: what lies beneath is scaled by that. */
-Spectrum sheen_tint(const MetallicRoughness *m);
+/* Share that the overlay sends along a direction, and that it takes from facets beneath. */
+OverlayShare energy_overlay(const MetallicRoughness *m, Vec3 w);
 
-/* Share that fibres send along a direction, and that they take from facets beneath. */
-SheenShare sheen_towards(const MetallicRoughness *m, Vec3 w);
-
-/* Share of light along these two that a facet beneath keeps. */
-float sheen_leaves(const MetallicView *view, Vec3 wi);
-
-/* Energies that facets send through the sheen, from a direction or in the mean. */
-Energy sheen_lets_through(const MetallicRoughness *m, Energy e, SheenShare share);
-
-/* Share of light at a cosine that gets past the fibres. */
-float sheen_kept(const MetallicRoughness *m, float cosine);
-
-/* The fibres' lobe from wi towards the eye. */
-Spectrum sheen_fibres(const MetallicView *view, Vec3 wi);
+/* Share of light at a cosine that gets past the overlay. */
+float energy_kept(const MetallicRoughness *m, float cosine);
 
 static inline bool is_brushed(const MetallicRoughness *m)
 {
@@ -94,19 +80,9 @@ static inline Vec3 base_sample(const MetallicRoughness *m, Vec3 wo, float u0, fl
     return brushed_sample_reflection(wo, facet_alphas(m), u0, u1);
 }
 
-static inline float sheen_most(const MetallicRoughness *m)
-{
-    return fmaxf(fmaxf(m->sheen_color[0], m->sheen_color[1]), m->sheen_color[2]);
-}
-
 /* No colour is below 0. */
-static inline bool has_sheen(const MetallicRoughness *m)
+static inline bool has_overlay(const MetallicRoughness *m)
 {
-    return m->sheen_color[0] + m->sheen_color[1] + m->sheen_color[2] > 0;
-}
-
-/* The light of both directions that a smooth mirror or a sheet keeps below the sheen. */
-static inline Spectrum sheen_over(const MetallicView *view, Vec3 wi, Spectrum below)
-{
-    return has_sheen(view->m) ? below * spectrum_all(sheen_leaves(view, wi)) : below;
+    const float *color = m->overlay.color;
+    return color[0] + color[1] + color[2] > 0;
 }

@@ -8,6 +8,25 @@ typedef struct SheetLobe {
     float value, cosine;
 } SheetLobe;
 
+/* ---- the overlay ------------------------------------------------------------------------ */
+
+/* The light of both directions that a facet beneath the overlay keeps. */
+static Spectrum below_overlay(const MetallicView *view, Vec3 wi, Spectrum below)
+{
+    const MetallicRoughness *m = view->m;
+    if (!has_overlay(m)) return below;
+    float most = overlay_most(&m->overlay), in = overlay_albedo(&m->overlay, fabsf(wi.z));
+    return below * spectrum_all(1 - most * fmaxf(view->overlay.albedo, in));
+}
+
+/* Its lobe from wi towards the eye. */
+static Spectrum eval_overlay(const MetallicView *view, Vec3 wi)
+{
+    const MetallicRoughness *m = view->m;
+    return overlay_tint(&m->overlay, m->wavelengths) *
+           spectrum_all(overlay_lobe(&m->overlay, view->wo, wi));
+}
+
 /* ---- back ------------------------------------------------------------------------------- */
 
 /* A facet of the base met at `cosine`, as the light of both directions finds it: below NULL: no
@@ -38,26 +57,26 @@ Spectrum eval_facets(const MetallicView *view, Vec3 wi, const ThroughCoat *below
     Spectrum facet = facet_below(view, vec3_dot(view->wo, half), NULL);
     if (m->clearcoat > 0)
         facet = coat_mixed(m, facet, facet_below(view, vec3_dot(view->wo, half), below));
-    return sheen_over(view, wi, facet) * spectrum_all(base_lobe(m, view->wo, wi, half));
+    return below_overlay(view, wi, facet) * spectrum_all(base_lobe(m, view->wo, wi, half));
 }
 
 Spectrum eval_smooth(const MetallicView *view, Vec3 wi)
 {
     Spectrum bare = facet_below(view, wi.z, NULL);
-    if (!(view->m->clearcoat > 0)) return sheen_over(view, wi, bare);
+    if (!(view->m->clearcoat > 0)) return below_overlay(view, wi, bare);
     ThroughCoat below = coat_through(view->m, wi);
-    return sheen_over(view, wi, coat_mixed(view->m, bare, facet_below(view, wi.z, &below)));
+    return below_overlay(view, wi, coat_mixed(view->m, bare, facet_below(view, wi.z, &below)));
 }
 
-/* Lambert, rebound and fibres under a coat. */
+/* Lambert, rebound and overlay under a coat. */
 static Spectrum covered_above(const MetallicView *view, Vec3 wi)
 {
     const MetallicRoughness *m = view->m;
     CoveredRest     in = covered_rest(view, wi);
     Spectrum sum = covered_lambert(view, lambert_back(m), &in) +
                    covered_rebound(view, &in);
-    if (has_sheen(m))
-        sum += sheen_fibres(view, wi) * spectrum_all(view->through.open * coat_open(m, wi));
+    if (has_overlay(m))
+        sum += eval_overlay(view, wi) * spectrum_all(view->through.open * coat_open(m, wi));
     return sum;
 }
 
@@ -69,7 +88,7 @@ static Spectrum spread_by_base(const MetallicView *view, Vec3 wi, Energy in,
     Spectrum lambert = lambert_back(m);
     Spectrum sum = base_diffuse(view, lambert, wi, in);
     if (has_rebound(m)) sum += base_rebound(view, wi, in);
-    if (has_sheen(m)) sum += sheen_fibres(view, wi);
+    if (has_overlay(m)) sum += eval_overlay(view, wi);
     if (!(m->clearcoat > 0)) return sum;
     if (is_covered(m)) return coat_mixed(m, sum, covered_above(view, wi));
     return coat_mixed(m, sum, coat_diffuse(view, lambert, in, below) +
@@ -84,7 +103,7 @@ static Spectrum base_above(const MetallicView *view, Vec3 wi, float *pdf)
     Energy   in = base_energy(m, wi);
     *pdf = view->choices.diffuse * wi.z * INV_PI_F;
     if (m->clearcoat > 0) below = coat_through(m, wi);
-    if (has_sheen(m)) *pdf += view->choices.sheen * (0.5f * INV_PI_F);
+    if (has_overlay(m)) *pdf += view->choices.overlay * (0.5f * INV_PI_F);
     Spectrum sum = spread_by_base(view, wi, in, &below);
     if (!is_smooth(m->alpha)) {
         Vec3 half = vec3_normalize(vec3_add(view->wo, wi));
@@ -122,7 +141,7 @@ static Spectrum below_coat(const MetallicView *view, Vec3 wi, Energy in, Spectru
     ThroughCoat below = coat_through(m, wi);
     Spectrum    sum = rebound_below_coat(view, wi, in, &below);
     if (lobe->value > 0)
-        sum += sheen_over(view, wi, coat_sheet(view, lobe->cosine, &below).through) *
+        sum += below_overlay(view, wi, coat_sheet(view, lobe->cosine, &below).through) *
                spectrum_all(lobe->value);
     return coat_mixed(m, bare, sum);
 }
@@ -144,7 +163,7 @@ static Spectrum base_below(const MetallicView *view, Vec3 wi, float *pdf)
     SheetLobe lobe = {base_lobe(m, view->wo, up, half), vec3_dot(view->wo, half)};
     Spectrum straight = facet_through(m, &view->boundary, lobe.cosine);
     Spectrum spread = base_pane_mean(view).passed * spectrum_all(clear_share(m));
-    Spectrum bare = sheen_over(view, up, straight) * spectrum_all(lobe.value) +
+    Spectrum bare = below_overlay(view, up, straight) * spectrum_all(lobe.value) +
                     spread * spectrum_all(base_rebound_lobe(view, up, in));
     return m->clearcoat > 0 ? below_coat(view, wi, in, bare, &lobe) : bare;
 }
@@ -188,23 +207,23 @@ Spectrum eval_all(const MetallicView *view, Vec3 wi, float *pdf)
 /* Probabilities follow the lanes' mean albedo of each part, so that none is ever starved. */
 static MetallicChoices scaled_to_one(MetallicChoices c)
 {
-    float sum = c.coat + c.mirror + c.diffuse + c.through + c.across + c.sheen;
+    float sum = c.coat + c.mirror + c.diffuse + c.through + c.across + c.overlay;
     float scale = sum > 0 ? 1 / sum : 0;
     return (MetallicChoices){c.coat * scale,    c.mirror * scale, c.diffuse * scale,
-                             c.through * scale, c.across * scale, c.sheen * scale};
+                             c.through * scale, c.across * scale, c.overlay * scale};
 }
 
-static MetallicChoices beside_sheen(const MetallicView *view, MetallicChoices c)
+static MetallicChoices beside_overlay(const MetallicView *view, MetallicChoices c)
 {
     const MetallicRoughness *m = view->m;
-    float left = 1 - sheen_most(m) * view->sheen.albedo;
+    float left = 1 - overlay_most(&m->overlay) * view->overlay.albedo;
     return (MetallicChoices){.coat = c.coat,
                      .mirror = c.mirror * left,
                      .diffuse = c.diffuse * left,
                      .through = c.through * left,
                      .across = c.across * left,
-                     .sheen = (1 - c.coat) * view->sheen.albedo *
-                              spectrum_mean(sheen_tint(m))};
+                     .overlay = (1 - c.coat) * view->overlay.albedo *
+                                spectrum_mean(overlay_tint(&m->overlay, m->wavelengths))};
 }
 
 /* Mean shares of light for choosing, where a part is coated. */
@@ -262,7 +281,7 @@ static MetallicChoices choose_bare(const MetallicView *view)
 }
 
 /* A coat holds light back that passes a sheet: part of it is sent back by its turns. What its
- * facets hide, and fibres send from below, leaves on both sides. */
+ * facets hide, and the overlay sends from below, leaves on both sides. */
 static MetallicChoices choose_turns(const MetallicView *view, MetallicChoices c)
 {
     const MetallicRoughness *m = view->m;
@@ -288,7 +307,7 @@ static MetallicChoices choose_turns(const MetallicView *view, MetallicChoices c)
 static MetallicChoices choose(const MetallicView *view)
 {
     MetallicChoices choices = choose_bare(view);
-    if (has_sheen(view->m)) choices = beside_sheen(view, choices);
+    if (has_overlay(view->m)) choices = beside_overlay(view, choices);
     if (has_sheet_under_coat(view->m)) choices = choose_turns(view, choices);
     return scaled_to_one(choices);
 }
@@ -338,9 +357,9 @@ void metallic_look(MetallicView *view, const MetallicRoughness *m, Vec3 wo)
     view->coat = coat_albedo(m, wo);
     set_layers(view);
     if (is_covered(m)) covered_set(view);
-    if (has_sheen(m)) {
-        view->sheen = sheen_towards(m, wo);
-        view->sheen_mean = sheen_mean(&common_sheen_table, m->sheen_alpha, even_alpha(m));
+    if (has_overlay(m)) {
+        view->overlay = energy_overlay(m, wo);
+        view->overlay_mean = overlay_mean(&m->overlay, even_alpha(m));
     }
     view->choices = choose(view);
     if (has_lambert(m)) view->lambert = base_lambert_towards(view);

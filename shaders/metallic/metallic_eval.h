@@ -19,11 +19,11 @@ Spectrum eval_smooth(const MetallicView *view, Vec3 wi);
 Spectrum eval_all(const MetallicView *view, Vec3 wi, float *pdf);
 
 /* Does a sheet send light to the other side, elsewhere than straight on? A smooth one does with
- * what its coats hold back of the light that fibres spread. */
+ * what its coats hold back of the light that the overlay spreads. */
 static inline bool sends_below(const MetallicRoughness *m)
 {
     return m->transmission > 0 &&
-           (!is_smooth(m->alpha) || (m->clearcoat > 0 && has_sheen(m)));
+           (!is_smooth(m->alpha) || (m->clearcoat > 0 && has_overlay(m)));
 }
 
 /* Filled where it stands: it is large, and a plain surface needs little of it. */

@@ -12,7 +12,7 @@
 #include "shaders/layers/clear_film.h"
 #include "shaders/layers/coating.h"
 #include "shaders/layers/covered_lobe.h"
-#include "shaders/layers/sheen.h"
+#include "shaders/layers/overlay.h"
 #include "spectrum/fresnel.h"
 
 struct MetallicView;
@@ -37,14 +37,13 @@ typedef struct MetallicRoughness {
     const CoatTable   *coat;             /* of both; likewise */
     const SurfaceCoating *coating;       /* what reflects in place of the colours; NULL: none */
     const Wavelengths    *wavelengths;   /* NULL where coating is, without film, across and
-                                             sheen */
+                                            overlay */
     const OpticalConstants *film_metal; /* under a film; NULL: by the colour */
     ThinFilm film;        /* where there is no coating; share 0: none */
     bool  seen_from_back;                /* of a coated sheet */
     float across;          /* [0, 1]: share of diffuse light that leaves on the other side */
     float across_color[3]; /* its albedo, linear Rec.709, [0, 1]; needs wavelengths */
-    float sheen_color[3];  /* linear Rec.709, [0, 1]; 0: no sheen. Needs wavelengths */
-    float sheen_alpha;     /* [SHEEN_LEAST_ALPHA, 1] where there is a sheen */
+    Overlay overlay;       /* under the coat; needs wavelengths */
     const struct MetallicView *seen; /* by bsdf_look; else NULL */
 } MetallicRoughness;
 
@@ -55,7 +54,7 @@ typedef struct MetallicFace {
 
 /* Probabilities of the choices for one wo; they sum to one unless all are 0. */
 typedef struct MetallicChoices {
-    float coat, mirror, diffuse, through, across, sheen;
+    float coat, mirror, diffuse, through, across, overlay;
 } MetallicChoices;
 
 /* The coat's effect on light along one direction. */
@@ -64,7 +63,7 @@ typedef struct ThroughCoat {
     CoatShare share;
 } ThroughCoat;
 
-/* Light that neither fibres nor facets of a white base send out through the coat: the Lambert
+/* Light that neither overlay nor facets of a white base send out through the coat: the Lambert
  * base's or, of a metal, the rebound's. */
 typedef struct CoveredRest {
     Spectrum base;
@@ -91,6 +90,6 @@ typedef struct MetallicView {
     Spectrum        lambert; /* the factor of the Lambert base's light that depends on wo */
     Spectrum        coated;  /* what a coated or filmed face sends back towards wo */
     Spectrum        film[LOBE_FACETS]; /* filmed faces' reflectance at facet_cosine */
-    SheenShare      sheen, sheen_mean; /* towards wo; over the hemisphere */
+    OverlayShare    overlay, overlay_mean; /* towards wo; over the hemisphere */
     CoveredBase     covered;
 } MetallicView;

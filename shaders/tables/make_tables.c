@@ -185,22 +185,22 @@ static Energy excess_of(const SheenTable *table, float ior, float cosine, int ro
     return (Energy){light > 0 ? sum.all / light : 0, shape > 0 ? sum.shape / shape : 0};
 }
 
-static SheenShare mean_of_facets(const SheenTable *table, const EnergyTable *energy, int row,
-                                 int base)
+static OverlayShare mean_of_facets(const SheenTable *table, const EnergyTable *energy, int row,
+                                   int base)
 {
     double albedo = 0, all = 0, shape = 0, light = 0, shaped = 0;
     for (int i = 0; i < MEANS; i++) {
-        double     root = (i + 0.5) / MEANS, weight = 4 * root * root * root / MEANS;
-        float      cosine = (float)(root * root);
-        Energy     e = energy_directional(energy, cosine, base_of(base));
-        SheenShare s = sheen_share(table, cosine, alpha_of(row, SHEEN_BROAD), base_of(base));
+        double root = (i + 0.5) / MEANS, weight = 4 * root * root * root / MEANS;
+        float  cosine = (float)(root * root);
+        Energy e = energy_directional(energy, cosine, base_of(base));
+        OverlayShare s = sheen_share(table, cosine, alpha_of(row, SHEEN_BROAD), base_of(base));
         albedo += weight * (double)s.albedo;
         light += weight * (double)e.all;
         shaped += weight * (double)e.shape;
         all += weight * (double)(e.all * s.all);
         shape += weight * (double)(e.shape * s.shape);
     }
-    return (SheenShare){(float)albedo, (float)(all / light), (float)(shape / shaped)};
+    return (OverlayShare){(float)albedo, (float)(all / light), (float)(shape / shaped)};
 }
 
 static void fill_albedos(SheenTable *table)
@@ -234,7 +234,7 @@ static const SheenTable *sheen_table_build(const EnergyTable *energy, Arena *are
                     excess_of(table, energy->ior, cosine_of(c, SHEEN_WIDE), r, b);
     for (int r = 0; r < SHEEN_BROAD; r++)
         for (int b = 0; b < SHEEN_BASES; b++) {
-            SheenShare mean = mean_of_facets(table, energy, r, b);
+            OverlayShare mean = mean_of_facets(table, energy, r, b);
             table->mean_albedo[r] = mean.albedo;
             table->mean[r][b] = (Energy){mean.all, mean.shape};
         }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* job_run.h -- the command lines by which parts of a job are done; and a review that is shared
- * among machines: its parts answer questions (review/share.h), and the merge is the review
+ * among machines: its parts answer questions (review/run/job.h), and the merge is the review
  * itself, which finds them answered.
  *
  * Memory   the arena's.  Threads  one at a time.

@@ -6,12 +6,25 @@
  * Fails    with the file, the JSON path, what was found and what was required.
  */
 #pragma once
-#include "import/set/import_beside.h"
+#include "import/set/import.h"
 #include "import/text/text_options.h"
+#include "panel/set/specular_table.h"
 #include "record/record.h"
+
+/* A reflectometer's table, or gloss meters' readings, of the reflection: degrees, nm,
+ * reflectances of 1, gloss units. File NULL and no gloss: nothing is added. */
+typedef struct ImportSpecular {
+    const char *file;
+    double      aperture_deg; /* full angle; 0: the mirror alone */
+    Gloss       gloss;
+} ImportSpecular;
 
 /* Called with the number of files done. */
 typedef void ImportStep(void *context, int done);
+
+/* Spectra of the primaries: a column of wavelengths, one each for red, green and blue, and one
+ * for black if it was measured. Fails with the file, the line, what was found and required. */
+bool primaries_read(const char *file, const TextOptions *options, ImportSet *set, Error *err);
 
 typedef struct ImportRequest {
     TextOptions text;

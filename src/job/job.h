@@ -29,7 +29,7 @@
 
 typedef enum JobKind { JOB_FRAME, JOB_REVIEW, JOB_KINDS } JobKind;
 
-/* A part of a frame; how a review is cut: review/share.h. */
+/* A part of a frame; how a review is cut: review/run/job.h. */
 typedef struct JobPart {
     FilmRect crop;
     uint32_t first_sample, end_sample; /* half-open */

@@ -20,7 +20,7 @@ static bool has_smooth_base(const Material *m)
 {
     if (!is_smooth_everywhere(m->roughness) || m->brushing) return false;
     if (m->is_solid && m->transmission > 0)
-        return fabsf(m->ior - 1) > 1e-4f || m->iridescence;
+        return fabsf(m->ior - 1) > 1e-4f || m->film;
     return m->metallic > 0 || m->specular > 0;
 }
 

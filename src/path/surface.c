@@ -8,7 +8,7 @@
 #include "path/surface_grey.h"
 #include "shaders/facets/index_tables.h"
 #include "shaders/facets/microfacet.h"
-#include "shaders/layers/sheen.h"
+#include "shaders/layers/overlay.h"
 
 /* A shading normal is bent until the eye is above its plane by this much. */
 #define LOWEST_COSINE 1e-3f
@@ -74,7 +74,7 @@ static SolidTables solid_tables(const Material *m, Arena *arena)
         low = fminf(low, m->index->value[i]);
         high = fmaxf(high, m->index->value[i]);
     }
-    bool is_coated = m->coating || m->iridescence;
+    bool is_coated = m->coating || m->film;
     return (SolidTables){energy_of(m, index_of(m, low), is_coated, arena),
                          low < high ? energy_of(m, high, false, arena) : NULL};
 }
@@ -284,7 +284,7 @@ static bool is_front(const Surface *surface)
 static bool read_film(const Scene *scene, const Material *m, const TrianglePoint *point,
                       ThinFilm *out)
 {
-    const Iridescence *film = m->iridescence;
+    const MaterialFilm *film = m->film;
     float texel[4] = {1, 1, 1, 1}, thickness_nm;
     if (m->coating) return false;
     read_slot(scene, &film->thickness_texture, point, texture_data, texel);
@@ -295,16 +295,16 @@ static bool read_film(const Scene *scene, const Material *m, const TrianglePoint
     return true;
 }
 
-static void set_sheen(const Site *site, const Surface *surface, MetallicRoughness *model)
+static void set_overlay(const Site *site, const Surface *surface, MetallicRoughness *model)
 {
-    const SheenLayer *sheen = site->material->sheen;
+    const MaterialOverlay *overlay = site->material->overlay;
     const TrianglePoint *point = &surface->point;
     float texel[4] = {1, 1, 1, 1};
-    read_slot(site->scene, &sheen->color_texture, point, texture_colour, texel);
-    for (int i = 0; i < 3; i++) model->sheen_color[i] = sheen->color[i] * texel[i];
+    read_slot(site->scene, &overlay->color_texture, point, texture_colour, texel);
+    for (int i = 0; i < 3; i++) model->overlay.color[i] = overlay->color[i] * texel[i];
     float roughness =
-        scaled(site->scene, sheen->roughness, &sheen->roughness_texture, point, 3);
-    model->sheen_alpha = fmaxf(roughness * roughness, SHEEN_LEAST_ALPHA);
+        scaled(site->scene, overlay->roughness, &overlay->roughness_texture, point, 3);
+    model->overlay.alpha = overlay_alpha(roughness);
     model->wavelengths = site->wavelengths;
 }
 
@@ -330,11 +330,11 @@ static void set_metallic_roughness(const Site *site, Surface *surface)
     if (m->brushing)
         set_brushing(site->scene, site->hit, m->brushing, surface, &model->alpha,
                      &model->alpha_along);
-    if (m->iridescence && read_film(site->scene, m, point, &model->film)) {
+    if (m->film && read_film(site->scene, m, point, &model->film)) {
         model->film_metal = m->conductor;
         model->wavelengths = site->wavelengths;
     }
-    if (m->sheen) set_sheen(site, surface, model);
+    if (m->overlay) set_overlay(site, surface, model);
     set_coat(site, surface, model);
     if (m->diffuse_transmission > 0) set_across(site, surface, model);
     model->coating = coating_of(site, surface->material_id);
@@ -356,7 +356,7 @@ static void set_solid(const Site *site, Surface *surface)
     if (m->brushing)
         set_brushing(site->scene, site->hit, m->brushing, surface, &solid->alpha,
                      &solid->alpha_along);
-    if (m->iridescence && read_film(site->scene, m, &surface->point, &solid->film))
+    if (m->film && read_film(site->scene, m, &surface->point, &solid->film))
         solid->wavelengths = site->wavelengths;
     if (!coating) return;
     solid->ior = index_of(m, m->ior);
@@ -432,7 +432,7 @@ static void set_bsdf(const Site *site, Surface *surface)
     if (m->is_solid && m->transmission > 0) {
         set_solid(site, surface);
     } else if (site->transmission >= 1 && site->metallic <= 0 && is_smooth(site->alpha) &&
-               m->clearcoat <= 0 && !m->brushing && !m->iridescence && !m->sheen) {
+               m->clearcoat <= 0 && !m->brushing && !m->film && !m->overlay) {
         set_window(site, surface);
     } else {
         set_metallic_roughness(site, surface);

@@ -58,10 +58,11 @@ static bool glazing_is_grey(const Glazing *pane)
 
 static bool layers_are_grey(const Scene *scene, const Material *m)
 {
-    const SheenLayer *sheen = m->sheen;
-    return !m->coating && !m->iridescence && !m->index &&
+    const MaterialOverlay *overlay = m->overlay;
+    return !m->coating && !m->film && !m->index &&
            (!m->conductor || (is_level(&m->conductor->n) && is_level(&m->conductor->k))) &&
-           (!sheen || (is_grey(sheen->color) && slot_is_grey(scene, &sheen->color_texture)));
+           (!overlay ||
+            (is_grey(overlay->color) && slot_is_grey(scene, &overlay->color_texture)));
 }
 
 static bool colours_are_grey(const Scene *scene, const Material *m)

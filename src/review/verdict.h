@@ -346,7 +346,7 @@ typedef struct GazeFinding {
 typedef struct ReviewSweep {
     const char *condition, *eye, *symbol;
     long        cases;
-    double      failed_share;            /* of its steps, weighted by time, as suns/failures.h
+    double      failed_share;            /* of its steps, weighted by time, as suns/sweep_suns.h
                                             counts it: the verdict is the worst's, which was
                                             read again */
     double      longest_failure_minutes; /* at a stretch; NaN: the sweep has no times */

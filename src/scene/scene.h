@@ -86,25 +86,26 @@ typedef enum AlphaMode { ALPHA_OPAQUE, ALPHA_MASK, ALPHA_BLEND } AlphaMode;
 /* KHR_materials_anisotropy: rougher along a direction of the tangent frame than across it. */
 typedef struct Brushing {
     float strength;     /* (0, 1] */
-    float cosine, sine; /* of the direction's turn from the tangent */
+    float turn;         /* radians, of the direction from the tangent */
+    float cosine, sine; /* of that */
     TextureSlot texture; /* RG direction, B strength */
 } Brushing;
 
 /* KHR_materials_iridescence: a thin clear film. */
-typedef struct Iridescence {
+typedef struct MaterialFilm {
     float share; /* (0, 1] */
     float ior;   /* 1 or more */
     float least_nm, most_nm;   /* most_nm where there is no texture of the thickness */
     TextureSlot texture;       /* R: share */
     TextureSlot thickness_texture; /* G: from least_nm to most_nm */
-} Iridescence;
+} MaterialFilm;
 
-/* KHR_materials_sheen: fibres of cloth. */
-typedef struct SheenLayer {
+/* KHR_materials_sheen: fibres of cloth, which scatter light over the base. */
+typedef struct MaterialOverlay {
     float color[3];  /* linear Rec.709, [0, 1], not all 0 */
     float roughness; /* [0, 1] */
     TextureSlot color_texture, roughness_texture; /* RGB; A */
-} SheenLayer;
+} MaterialOverlay;
 
 typedef struct Material {
     const char *name; /* "material N" where the file has none */
@@ -143,8 +144,8 @@ typedef struct Material {
     float attenuation_color[3]; /* after attenuation_distance_m (infinite: none) */
     float attenuation_distance_m;
     Brushing *brushing;        /* NULL: none */
-    Iridescence *iridescence;  /* NULL: none */
-    SheenLayer *sheen;         /* NULL: none */
+    MaterialFilm *film;        /* NULL: none */
+    MaterialOverlay *overlay;  /* NULL: none */
     int   display_id;          /* NO_ID unless PARHELION_display */
     const Glazing *glazing;    /* NULL unless PARHELION_glazing */
     int   base_color_curve_id, specular_curve_id, transmission_curve_id, emission_curve_id;

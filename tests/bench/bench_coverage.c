@@ -14,7 +14,7 @@
 #include "render/render.h"
 #include "review/request/request_read.h"
 #include "review/run/cases.h"
-#include "review/light/setup_eyes.h"
+#include "review/light/setup.h"
 #include "review/chain/causes.h"
 
 #define READ_PATHS 1024

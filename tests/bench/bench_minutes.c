@@ -21,7 +21,7 @@
 #include "bench_timing.h"
 #include "review/request/request_read.h"
 #include "review/run/cases.h"
-#include "review/light/setup_eyes.h"
+#include "review/light/setup.h"
 
 #define DAYS 365
 #define DAY 1440   /* minutes: one piece of work */

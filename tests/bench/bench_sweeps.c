@@ -14,7 +14,7 @@
 #include "coverage_trials.h"
 #include "review/request/request_read.h"
 #include "review/run/sweep.h"
-#include "review/light/setup_eyes.h"
+#include "review/light/setup.h"
 #include "review/run/sweep_probes.h"
 
 #define STEP_PATHS 4224  /* a pilot and a wave of every group */

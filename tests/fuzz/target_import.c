@@ -5,7 +5,7 @@
 
 #include "harness.h"
 #include "import/import_request.h"
-#include "import/primaries.h"
+#include "import/import_request.h"
 #include "import/set/import_write.h"
 #include "panel/set/measurement.h"
 

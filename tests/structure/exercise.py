@@ -57,20 +57,13 @@ EXERCISES = {
         ["test_film", "test_film_merge", "kernel"], ["test_film", "test_film_merge"]),
     # Soot on a material: a share of its base colour is gone.
     "soot": Exercise(
-        "A layer of a glTF material", 4, {},
-        [("src/scene/check/schema_extensions.c", "static const Schema SCHEMA_SHEEN =",
-          'static const Schema SCHEMA_SOOT = {"KHR_materials_soot", false, NULL, RULES(\n'
-          '    {"sootFactor", RULE_NUMBER, .max = 1})};\n\n'),
-         ("src/scene/check/schema_extensions.c",
-          '    {"KHR_materials_sheen", "material", &SCHEMA_SHEEN},',
-          '    {"KHR_materials_soot", "material", &SCHEMA_SOOT},\n'),
-         ("src/scene/scene.h", "    SheenLayer *sheen;         /* NULL: none */",
+        "A layer of a glTF material", 3, {},
+        [("src/scene/scene.h", "    MaterialOverlay *overlay;  /* NULL: none */",
           "    float soot;                /* [0, 1] */\n"),
-         ("src/scene/load/material.c",
-          '    read_sheen(file, tree_extension(value, "KHR_materials_sheen"), m);',
-          '    m->soot = tree_float(tree_extension(value, "KHR_materials_soot"), "sootFactor", '
-          "0);\n"),
-         ("src/path/surface.c", "    if (m->sheen) set_sheen(site, surface, model);",
+         ("src/scene/check/material_layers.c", '    {LAYER("KHR_materials_sheen", NULL,',
+          '    {LAYER("KHR_materials_soot", NULL,\n'
+          '           {"sootFactor", RULE_NUMBER, .max = 1, OF(Material, soot, 0)})},\n'),
+         ("src/path/surface.c", "    if (m->overlay) set_overlay(site, surface, model);",
           "    model->base_color *= spectrum_all(1 - m->soot);\n")],
         ["test_scene_errors", "path"], ["test_scene_errors"]),
     # The width of an eye's pupil.

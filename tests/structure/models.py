@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """models.py -- a surface model is known by its own files, the list in shaders/bsdf.h, and who
-makes one of a material: so that another one takes the six files that CONTRIBUTING.md lists."""
+makes one of a material: so that another one takes the six files that CONTRIBUTING.md lists. Two
+layers of a material stand for all of them: few files name them."""
 import re
 import sys
 
@@ -36,6 +37,16 @@ TABLES = [
 ]
 
 
+# The layers of a material that only their own files, and the rows that bring them in, name: a
+# word, and how many C files may.
+LAYER_WORDS = [("sheen", 8), ("iridesc", 8)]
+
+
+def files_with(word, texts):
+    """Which of {path: text} hold the word, in whatever case."""
+    return sorted(path for path, text in texts.items() if word in text.lower())
+
+
 def calls(struct, text):
     """How many functions a struct points to."""
     body = re.search(rf"typedef struct {struct} {{(.*?)\n}} {struct};", text, re.S)
@@ -58,6 +69,14 @@ def main():
         found = calls(struct, read(path))
         report.claim(0 < found <= most, f"{path}: {struct} has {found} calls, required: 1 to "
                                         f"{most}")
+    texts = {path: read(path) for path in names
+             if path.startswith(("src/", "shaders/", "third_party/"))}
+    for word, most in LAYER_WORDS:
+        found = files_with(word, texts)
+        report.claim(0 < len(found) <= most, f"{word} is named in {len(found)} files, required "
+                                             f"1 to {most}: {found}")
+    report.claim(files_with("a", {"x": "BA", "y": "b"}) == ["x"],
+                 "a word in another case is not seen")
     report.claim(calls("T", "typedef struct T {\n int (*a)(int);\n int b;\n} T;") == 1,
                  "calls are not counted")
     report.claim(named("A", "a", "bsdf.a x; BSDF_A; b_model") == ["bsdf.a", "BSDF_A"],

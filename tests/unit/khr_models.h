@@ -49,8 +49,8 @@ static MetallicRoughness *add_sheen(const char *name, float metallic, float alph
                                     float roughness, bool lossless)
 {
     MetallicRoughness *m = add_model(name, metallic, alpha, lossless);
-    m->sheen_color[0] = m->sheen_color[1] = m->sheen_color[2] = 1;
-    m->sheen_alpha = roughness * roughness;
+    m->overlay.color[0] = m->overlay.color[1] = m->overlay.color[2] = 1;
+    m->overlay.alpha = roughness * roughness;
     m->wavelengths = &wavelengths;
     return m;
 }
@@ -88,8 +88,8 @@ static void add_cloths(void)
     m->film = (ThinFilm){.share = 0.5f, .ior = 1.8f, .thickness_nm = 350};
     m = add_sheen("red sheen on a dark cloth", 0.2f, 0.6f, 0.3f, false);
     m->base_color = ramp(0.02f, 0.1f);
-    m->sheen_color[1] = 0.1f;
-    m->sheen_color[2] = 0;
+    m->overlay.color[1] = 0.1f;
+    m->overlay.color[2] = 0;
     m = add_sheen("coated plastic, sheen 0.5", 0, 0.3f, 0.5f, true);
     m->coating = &plastic;
 }

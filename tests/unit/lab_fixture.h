@@ -3,7 +3,7 @@
 #pragma once
 #include "fixture.h"
 #include "import/import_request.h"
-#include "import/primaries.h"
+#include "import/import_request.h"
 #include "panel/set/measurement.h"
 
 typedef struct Lab {

@@ -83,8 +83,8 @@ static MetallicRoughness layered(int layers, float metallic, float alpha,
     m.coat = lacquer;
     m.wavelengths = &wavelengths;
     if (layers & 1) m.alpha_along = 0.5f * (1 + alpha);
-    if (layers & 2) m.sheen_color[0] = m.sheen_color[1] = m.sheen_color[2] = 1;
-    if (layers & 2) m.sheen_alpha = 0.16f;
+    if (layers & 2) m.overlay.color[0] = m.overlay.color[1] = m.overlay.color[2] = 1;
+    if (layers & 2) m.overlay.alpha = 0.16f;
     if (layers & 4 && metallic > 0)
         m.film = (ThinFilm){.share = 1, .ior = 1.8f, .thickness_nm = 350};
     else if (layers & 4)

@@ -116,7 +116,7 @@ static void check_white(const MetallicRoughness *m, double theta_deg, double tol
         fail_msg("metal %g, clear %g, alpha %g and %g, sheen %g, film %g, across %g under a "
                  "coat %g of %g, %g deg: %g",
                  (double)m->metallic, (double)m->transmission, (double)m->alpha,
-                 (double)m->alpha_along, (double)m->sheen_color[0], (double)m->film.share,
+                 (double)m->alpha_along, (double)m->overlay.color[0], (double)m->film.share,
                  (double)m->across, (double)m->clearcoat, (double)m->clearcoat_alpha, theta_deg,
                  sent);
 }
@@ -136,8 +136,8 @@ TEST(a_coat_keeps_a_clear_and_a_frosted_sheet_white)
 static MetallicRoughness layered(int layers, float alpha, float coat_alpha)
 {
     MetallicRoughness m = sheet(alpha, coat_alpha);
-    if (layers & 1) m.sheen_color[0] = m.sheen_color[1] = m.sheen_color[2] = 0.3f;
-    if (layers & 1) m.sheen_alpha = 0.25f;
+    if (layers & 1) m.overlay.color[0] = m.overlay.color[1] = m.overlay.color[2] = 0.3f;
+    if (layers & 1) m.overlay.alpha = 0.25f;
     if (layers & 2) m.film = (ThinFilm){.share = 1, .ior = 1.3f, .thickness_nm = 400};
     if (layers & 4 && !(layers & 1)) m.alpha_along = 0.5f * (1 + alpha);
     if (layers & 8) {

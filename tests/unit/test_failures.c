@@ -2,7 +2,7 @@
 /* For how long a sweep fails, between its steps. */
 #include "fixture.h"
 
-#include "review/suns/failures.h"
+#include "review/suns/sweep_suns.h"
 
 #define DAY 1440.0
 

@@ -16,11 +16,11 @@ static Material glass(float ior, float roughness)
     return material;
 }
 
-static Iridescence *film_of(World *world, float share, float ior, float nm)
+static MaterialFilm *film_of(World *world, float share, float ior, float nm)
 {
-    Iridescence *film = ARENA_NEW(&world->arena, Iridescence, 1);
+    MaterialFilm *film = ARENA_NEW(&world->arena, MaterialFilm, 1);
     TextureSlot  none = builder_no_texture();
-    *film = (Iridescence){.share = share, .ior = ior, .least_nm = nm, .most_nm = nm,
+    *film = (MaterialFilm){.share = share, .ior = ior, .least_nm = nm, .most_nm = nm,
                           .texture = none, .thickness_texture = none};
     return film;
 }
@@ -43,7 +43,7 @@ TEST(a_filmed_ball_is_not_seen_in_a_furnace)
         Curve   *index = ARENA_NEW(&world.arena, Curve, 1);
         for (int k = 0; k < CURVE_COUNT; k++)
             index->value[k] = fmaxf(balls[i / 2][0] + 0.05f - 2e-4f * (float)k, 1);
-        ball.iridescence = film_of(&world, balls[i / 2][1], balls[i / 2][2], balls[i / 2][3]);
+        ball.film = film_of(&world, balls[i / 2][1], balls[i / 2][2], balls[i / 2][3]);
         if (i % 2) ball.index = index;
         builder_part(world.scene, ball);
         builder_sphere(world.scene, vec3(0, 0, 0), 1, 48, 0);
@@ -94,7 +94,7 @@ TEST(a_brushed_box_is_not_seen_in_a_furnace)
         SCOPED_WORLD world = world_start();
         Material box = glass(1.5f, roughness[i]);
         box.brushing = brushing_of(&world, 0.4f);
-        if (i == 1) box.iridescence = film_of(&world, 0.8f, 1.9f, 450);
+        if (i == 1) box.film = film_of(&world, 0.8f, 1.9f, 450);
         add_box(&world, box);
         if (i == 3) world.scene->parts[world.scene->part_count - 1].tangents = NULL;
         builder_sky(world.scene, 1000);
@@ -110,7 +110,7 @@ static World box_world(bool has_film, bool is_brushed)
 {
     World    world = world_start();
     Material box = glass(1.5f, 0.6f);
-    if (has_film) box.iridescence = film_of(&world, 0.8f, 1.9f, 450);
+    if (has_film) box.film = film_of(&world, 0.8f, 1.9f, 450);
     if (is_brushed) box.brushing = brushing_of(&world, 0.4f);
     builder_part(world.scene, builder_lamp(500));
     builder_quad(world.scene, vec3(0.3f, 1.5f, -1), vec3(1, 0, 0), vec3(0, 0, 1));

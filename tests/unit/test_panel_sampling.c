@@ -273,7 +273,7 @@ TEST(displays_draw_mirror_and_haze_as_they_say)
             BsdfSample s;
             float      u[3];
             for (int j = 0; j < 3; j++) u[j] = unit_float(hash_u32(random++));
-            if (!display_model.sample(&display, wo, u, &s)) continue;
+            if (!display_model.scatter.sample(&display, wo, u, &s)) continue;
             drawn++;
             mirrored += s.is_delta;
             if (s.is_delta) mirror = s.pdf;

@@ -8,6 +8,7 @@
 #include "base/sampler.h"
 #include "review/judge.h"
 #include "review/light/read_on.h"
+#include "review/light/setup.h"
 
 #define PATHS 4096   /* of the first reading */
 #define SPREAD 1.0   /* of a reading of PATHS: its standard error */

@@ -4,7 +4,7 @@
 #include "base/units.h"
 #include "panel/query/panel_reflection.h"
 #include "review/light/distant_probe.h"
-#include "review/light/light_bands.h"
+#include "review/light/sky_table.h"
 #include "review/light/response_suns.h"
 #include "reading_fixture.h"
 

@@ -2,7 +2,7 @@
 /* What spreadsheets get from a review: its cases, its gazes and its false suns, whatever the
  * names are. */
 #include "print/printable.h"
-#include "review/export/review_csv.h"
+#include "review/export/review_junit.h"
 #include "review_page_fixture.h"
 
 enum { CSV_COLUMNS = 61 };

@@ -4,7 +4,7 @@
 
 #include "image/plain/plain_png.h"
 #include "page/page.h"
-#include "review/output/review_bar.h"
+#include "review/output/review_map.h"
 #include "text/base64.h"
 #include "review_page_fixture.h"
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A review's figures as people read them. */
 #include "review/output/review_facts.h"
-#include "review/output/review_rests.h"
 #include "review/output/review_words.h"
 #include "review_page_fixture.h"
 

@@ -50,30 +50,29 @@ TEST_WITH(without_strength_nothing_is_brushed, maker_reset, NULL)
 
 TEST_WITH(a_film_has_the_defaults_of_its_extension, maker_reset, NULL)
 {
-    const Iridescence *film =
-        load_material(IRIDESCENCE, "'iridescenceFactor':0.5")->iridescence;
+    const MaterialFilm *film = load_material(IRIDESCENCE, "'iridescenceFactor':0.5")->film;
     assert_near(film->share, 0.5, 0);
     assert_close(film->ior, 1.3, 1e-6);
     assert_near(film->least_nm, 100, 0);
     assert_near(film->most_nm, 400, 0);
     assert_int_equal(film->texture.texture_id, NO_ID);
     assert_int_equal(film->thickness_texture.texture_id, NO_ID);
-    assert_null(load_material(IRIDESCENCE, "'iridescenceIor':2")->iridescence);
+    assert_null(load_material(IRIDESCENCE, "'iridescenceIor':2")->film);
 }
 
 TEST_WITH(every_member_of_a_film_arrives, maker_reset, NULL)
 {
-    const Iridescence *film =
+    const MaterialFilm *film =
         load_material(IRIDESCENCE, "'iridescenceFactor':1,'iridescenceIor':1.75,"
                                    "'iridescenceThicknessMinimum':50,"
                                    "'iridescenceThicknessMaximum':900,"
-                                   "'iridescenceTexture':" TURNED)->iridescence;
+                                   "'iridescenceTexture':" TURNED)->film;
     assert_near(film->ior, 1.75, 0);
     assert_near(film->least_nm, 50, 0);
     assert_near(film->most_nm, 900, 0);
     assert_transformed(&film->texture);
     film = load_material(IRIDESCENCE, "'iridescenceFactor':1,"
-                                      "'iridescenceThicknessTexture':" TURNED)->iridescence;
+                                      "'iridescenceThicknessTexture':" TURNED)->film;
     assert_transformed(&film->thickness_texture);
 }
 
@@ -81,27 +80,28 @@ TEST_WITH(every_member_of_a_film_arrives, maker_reset, NULL)
 
 TEST_WITH(sheen_has_the_defaults_of_its_extension, maker_reset, NULL)
 {
-    const SheenLayer *sheen = load_material(SHEEN, "'sheenColorFactor':[0,0.5,0]")->sheen;
+    const MaterialOverlay *sheen =
+        load_material(SHEEN, "'sheenColorFactor':[0,0.5,0]")->overlay;
     assert_near(sheen->color[1], 0.5, 0);
     assert_near(sheen->roughness, 0, 0);
     assert_int_equal(sheen->color_texture.texture_id, NO_ID);
     assert_int_equal(sheen->roughness_texture.texture_id, NO_ID);
-    assert_null(load_material(SHEEN, "'sheenRoughnessFactor':0.5")->sheen);
-    assert_null(load_material(SHEEN, "'sheenColorFactor':[0,0,0]")->sheen);
+    assert_null(load_material(SHEEN, "'sheenRoughnessFactor':0.5")->overlay);
+    assert_null(load_material(SHEEN, "'sheenColorFactor':[0,0,0]")->overlay);
 }
 
 TEST_WITH(every_member_of_sheen_arrives, maker_reset, NULL)
 {
-    const SheenLayer *sheen =
+    const MaterialOverlay *sheen =
         load_material(SHEEN, "'sheenColorFactor':[0.25,0.5,1],'sheenRoughnessFactor':0.75,"
-                             "'sheenColorTexture':" TURNED)->sheen;
+                             "'sheenColorTexture':" TURNED)->overlay;
     assert_near(sheen->color[0], 0.25, 0);
     assert_near(sheen->color[2], 1, 0);
     assert_near(sheen->roughness, 0.75, 0);
     assert_transformed(&sheen->color_texture);
     assert_int_equal(sheen->roughness_texture.texture_id, NO_ID);
     sheen = load_material(SHEEN, "'sheenColorFactor':[1,1,1],"
-                                 "'sheenRoughnessTexture':" TURNED)->sheen;
+                                 "'sheenRoughnessTexture':" TURNED)->overlay;
     assert_transformed(&sheen->roughness_texture);
 }
 

@@ -2,7 +2,7 @@
 /* Every question of a review is one part's, whatever their number. */
 #include "check.h"
 
-#include "review/share.h"
+#include "review/run/job.h"
 
 static int owners_of(int parts, int place, int moments, int at, int count)
 {

@@ -116,8 +116,8 @@ static MetallicRoughness cloth(float metallic, float alpha, double roughness)
     m.wavelengths = &wavelengths;
     m.clearcoat_energy = &common_energy_table;
     m.coat = &common_coat_table;
-    m.sheen_color[0] = m.sheen_color[1] = m.sheen_color[2] = 1;
-    m.sheen_alpha = (float)(roughness * roughness);
+    m.overlay.color[0] = m.overlay.color[1] = m.overlay.color[2] = 1;
+    m.overlay.alpha = (float)(roughness * roughness);
     return m;
 }
 
@@ -126,7 +126,7 @@ static void check_white(const MetallicRoughness *m, double theta_deg)
     double sent = furnace_of(m, theta_deg, 0, furnace_side(m) == 48 ? 64 : 144);
     if (!(fabs(sent - 1) <= 2e-3))
         fail_msg("metal %g, alpha %g, sheen alpha %g, coat %g of %g, %g deg: %g",
-                 (double)m->metallic, (double)m->alpha, (double)m->sheen_alpha,
+                 (double)m->metallic, (double)m->alpha, (double)m->overlay.alpha,
                  (double)m->clearcoat, (double)m->clearcoat_alpha, theta_deg, sent);
 }
 
@@ -162,10 +162,10 @@ TEST(under_a_lacquer_it_stays_white)
 TEST(a_coloured_sheen_darkens_what_is_beneath)
 {
     MetallicRoughness m = cloth(0, 1, 0.6);
-    m.sheen_color[0] = 0.5f;
-    m.sheen_color[1] = m.sheen_color[2] = 0;
-    double   own = (double)sheen_albedo(&common_sheen_table, 0.5f, m.sheen_alpha);
-    Spectrum tint = spectrum_from_rgb(&wavelengths, m.sheen_color);
+    m.overlay.color[0] = 0.5f;
+    m.overlay.color[1] = m.overlay.color[2] = 0;
+    double   own = (double)sheen_albedo(&common_sheen_table, 0.5f, m.overlay.alpha);
+    Spectrum tint = spectrum_from_rgb(&wavelengths, m.overlay.color);
     double   sent = furnace_of(&m, 60, 0, 64);
     assert_near(sent, 1 + own * ((double)tint[7] - 0.5), 2e-3);
 }

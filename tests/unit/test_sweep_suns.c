@@ -3,7 +3,7 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "review/light/sun_readings.h"
+#include "review/light/distant_probe.h"
 #include "review/suns/sweep_suns.h"
 
 static SweepSuns suns_of(ReviewCondition condition, Arena *arena)

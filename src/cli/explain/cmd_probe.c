@@ -16,7 +16,7 @@
 #include "light/light_groups.h"
 #include "render/render.h"
 #include "review/chain/chains.h"
-#include "review/chain/pixel_light.h"
+#include "review/chain/causes.h"
 #include "review/output/ray_file.h"
 #include "scene/load/scene_load.h"
 #include "text/json_text.h"

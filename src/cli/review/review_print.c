@@ -9,7 +9,6 @@
 #include "review/output/review_facts.h"
 #include "review/output/review_gaze.h"
 #include "review/output/review_json.h"
-#include "review/output/review_rests.h"
 #include "review/output/review_variants.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"

@@ -12,7 +12,14 @@
 #include "base/error.h"
 #include "hemisphere/tree.h"
 #include "panel/set/measurement.h"
-#include "panel/wavelets/wavelet_spectrum.h"
+
+#define WAVELET_SPECTRUM_SIZES 5
+
+typedef struct WaveletSpectrum {
+    int    count; /* numbers of the spectrum; 0: none is known */
+    double share[WAVELET_SPECTRUM_SIZES];  /* of them that are kept */
+    double rms[3][WAVELET_SPECTRUM_SIZES]; /* relative; Haar, CDF 5/3, CDF 9/7 */
+} WaveletSpectrum;
 
 #define WAVELET_LEVEL_MAX 9
 #define WAVELET_TIMED_LEVEL 8 /* queries are timed up to this level */

@@ -11,7 +11,7 @@
  *   hood               the light whose paths would cross it (scene/load/hood.h) is gone, and
  *                      its own is left out; none that would stand before the symbol is offered
  *   tilt               the light is read again, by fresh paths, with the display leaning where
- *                      it stands (chain/leaning.h)
+ *                      it stands
  *
  * Units    cd m^-2; metres, world; degrees in words.
  * Memory   texts and lists live in the arena.
@@ -19,8 +19,8 @@
  * Fails    never.
  */
 #pragma once
-#include "review/profile.h"
 #include "review/chain/causes.h"
+#include "review/profile.h"
 #include "review/symbol/symbol_sight.h"
 
 typedef struct RemedyAsk {

@@ -2,12 +2,10 @@
 #include "review/engine/engine.h"
 
 #include "base/count.h"
-#include "review/keep/goes_on.h"
+#include "review/keep/frame_kept.h"
 #include "review/review_decide.h"
 #include "review/run/run.h"
-#include "review/run/worst_frames.h"
-#include "review/vary/mend.h"
-#include "review/vary/sensitivity.h"
+#include "review/run/frames.h"
 #include "review/vary/variants.h"
 #include "text/text.h"
 

@@ -8,7 +8,7 @@
  * Memory   the review lives in the arena.
  * Threads  starts its own, by run->means.threads; the same review for any count.
  * Fails    as its parts do, or as a listener does. INT, TERM or HUP stop it
- *          (review/keep/goes_on.h), once signals are watched.
+ *          (review/keep/frame_kept.h), once signals are watched.
  */
 #pragma once
 #include "review/run/job.h"

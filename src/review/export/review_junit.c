@@ -2,6 +2,7 @@
 #include "review/export/review_junit.h"
 
 #include "page/page.h"
+#include "review/output/review_json.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
 
@@ -73,4 +74,22 @@ bool review_junit_write(const Review *review, const char *path, Error *err)
     bool ok = page_write_values("review_junit.xml", values, NULL, path, err);
     arena_release(&own);
     return ok;
+}
+
+/* ---- x ----------------------------------------------------------------------------------- */
+
+/* Columns are the templates': assets/pages/cases.csv and the others. */
+bool review_csv_write(const Review *review, const char *path, Error *err)
+{
+    return page_write_values("cases.csv", review_json(review), NULL, path, err);
+}
+
+bool review_csv_write_false_suns(const Review *review, const char *path, Error *err)
+{
+    return page_write_values("false_suns.csv", review_json(review), NULL, path, err);
+}
+
+bool review_csv_write_gazes(const Review *review, const char *path, Error *err)
+{
+    return page_write_values("gazes.csv", review_json(review), NULL, path, err);
 }

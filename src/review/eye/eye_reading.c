@@ -10,8 +10,8 @@
 #include "estimate/estimate.h"
 #include "review/eye/glare_field.h"
 #include "review/eye/glare_reading.h"
-#include "review/eye/lamps_unmet.h"
-#include "review/light/question.h"
+#include "review/eye/lamp_images.h"
+#include "review/light/reading.h"
 #include "vision/eye_spread.h"
 
 #define PATHS 4096

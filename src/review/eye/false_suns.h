@@ -57,7 +57,7 @@ typedef struct FalseSuns {
     int             count;
 } FalseSuns;
 
-/* `bands`: the sun's (light_bands.h). The rays must outlive the result. */
+/* `bands`: the sun's (sky_table.h). The rays must outlive the result. */
 FalseSuns false_suns_of(const FalseSunRays *rays, const float bands[LIGHT_BANDS], Arena *arena);
 
 /* Called for a ray that leaves to the sun; `share` of it leaves to the disc, below 1 at the

@@ -11,7 +11,6 @@
  * Threads      starts its own; the same figures for any count.
  */
 #pragma once
-#include "review/eye/glare_rest.h"
 #include "review/eye/glare_table.h"
 #include "review/light/setup.h"
 

@@ -18,7 +18,6 @@
  * Memory   scratch only. Threads: starts its own; the same figures for any count.
  */
 #pragma once
-#include "review/eye/glare_rest.h"
 #include "review/eye/glare_table.h"
 #include "review/eye/lamp_images.h"
 #include "review/light/setup.h"

@@ -15,6 +15,7 @@
 #pragma once
 #include "image/frame.h"
 #include "review/output/review_live.h"
+#include "review/output/review_page.h"
 #include "review/pace/work.h"
 #include "review/run/job.h"
 #include "vision/human_eye.h"
@@ -54,3 +55,22 @@ typedef struct LiveAsk {
 } LiveAsk;
 
 bool live_make(const LiveAsk *ask, Arena *arena, ReviewLive *out, Error *err);
+
+/* What a sweep found of every sun, as a table and as pictures for the page.
+ *
+ * Memory   from the arena. Threads: pure.
+ * Fails    when the table cannot be written. */
+
+/* CSV: a row a sun, azimuths of the compass and of the vehicle. */
+bool sweep_table_write(const SweepTable *table, const ReviewCondition *condition,
+                       const char *path, Error *err);
+
+/* Contrast over the sun's place in the vehicle's frame: cells of `step_deg`, each with the
+ * worst of its suns; of a sweep over the sun its own grid. A cell that the sun of a year passes
+ * between two steps has the answer of the one that is nearer in time. */
+ReviewMap sweep_map(const SweepTable *table, const ReviewSweep *sweep, double step_deg,
+                    Arena *arena);
+
+/* For a year sweep. */
+ReviewCalendar sweep_calendar(const SweepTable *table, const ReviewSweep *sweep,
+                              const ReviewCondition *condition, Arena *arena);

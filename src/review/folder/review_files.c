@@ -3,14 +3,18 @@
 
 #include <ctype.h>
 #include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
+#include "base/lines.h"
 #include "review/output/review_json.h"
 #include "review/output/review_link.h"
 #include "review/output/review_words.h"
@@ -37,6 +41,13 @@ static bool starts_with(const char *text, const char *start)
     return !strncmp(text, start, strlen(start));
 }
 
+/* That a file of somebody else's stands there. */
+static bool review_files_refuse(const char *path, Error *err)
+{
+    return error_at(err, ERROR_OUTPUT, path, "", "was not made by a review, and is not written "
+                    "over — move it, or give another folder");
+}
+
 static bool is_among(const char *const *list, int count, const char *name)
 {
     for (int i = 0; i < count; i++)
@@ -52,7 +63,8 @@ static bool is_numbered(const char *name, const char *folder)
            !strchr(in_folder, '/');
 }
 
-bool review_files_may_have(const char *name)
+/* Whether a review may write a file of this name at all. */
+static bool review_files_may_have(const char *name)
 {
     bool is_summary = starts_with(name, "summary-") && !strchr(name, '/') &&
                       !strcmp(path_ending(name), ".html");
@@ -73,7 +85,8 @@ static bool is_of_frame(const char *name, const char *frame)
     return frame && !strncmp(name, frame, length) && is_rest_of_frame(name + length);
 }
 
-bool review_files_is_named(const Review *review, const char *name)
+/* Whether a frame or a table of this name belongs to what the review shows. */
+static bool review_files_is_named(const Review *review, const char *name)
 {
     for (int i = 0; i < review->case_count; i++)
         if (is_of_frame(name, review->cases[i].frame)) return true;
@@ -87,7 +100,9 @@ bool review_files_is_named(const Review *review, const char *name)
 
 /* ---- what is there ----------------------------------------------------------------------- */
 
-void review_files_list(Lines *files, const char *folder, const char *prefix)
+/* All files in a folder and in the folders right below it, hidden ones too. prefix: "", or a
+ * folder within it, "sweeps/". */
+static void review_files_list(Lines *files, const char *folder, const char *prefix)
 {
     DIR *open = opendir(arena_format(files->arena, "%s/%s", folder, prefix));
     if (!open) return;
@@ -106,12 +121,13 @@ void review_files_list(Lines *files, const char *folder, const char *prefix)
 
 /* ---- the list ---------------------------------------------------------------------------- */
 
-bool review_files_has(const Lines *files, const char *name)
+static bool review_files_has(const Lines *files, const char *name)
 {
     return is_among(files->list, files->count, name);
 }
 
-void review_files_add(Lines *files, const char *name)
+/* Adds a name, once. */
+static void review_files_add(Lines *files, const char *name)
 {
     if (!review_files_has(files, name)) lines_put(files, name);
 }
@@ -148,7 +164,9 @@ static const char *list_text(const char *path, Arena *arena)
     return starts_with(text, LIST_TITLE) ? text + strlen(LIST_TITLE) : NULL;
 }
 
-Lines review_files_read(const char *dir, Arena *arena)
+/* Names within the folder, "index.html", "sweeps/1-noon.csv"; none where nothing was made.
+ * Other names than a review's are left out: a list may come with a folder from anywhere. */
+static Lines review_files_read(const char *dir, Arena *arena)
 {
     Lines       files = {.arena = arena};
     const char *path = arena_format(arena, "%s/" LIST, dir);
@@ -165,7 +183,7 @@ Lines review_files_read(const char *dir, Arena *arena)
     return files;
 }
 
-bool review_files_write(const char *dir, const Lines *files, Arena scratch, Error *err)
+static bool review_files_write(const char *dir, const Lines *files, Arena scratch, Error *err)
 {
     const char *path = arena_format(&scratch, "%s/" LIST, dir);
     Text        text = {.arena = &scratch};
@@ -263,8 +281,157 @@ bool review_files_spare(const char *dir, const ReviewRequest *request, const Lin
     return true;
 }
 
-bool review_files_refuse(const char *path, Error *err)
+/* ---- folders ----------------------------------------------------------------------------- */
+
+static const char *const parts[] = {"", "/sweeps", "/frames"};
+
+static bool make_parts(const char *folder, Arena scratch, Error *err)
 {
-    return error_at(err, ERROR_OUTPUT, path, "", "was not made by a review, and is not written "
-                    "over — move it, or give another folder");
+    for (int i = 0; i < COUNT_OF(parts); i++)
+        if (!folder_make(arena_format(&scratch, "%s%s", folder, parts[i]), err)) return false;
+    return true;
+}
+
+/* As far as they are empty. */
+static void remove_parts(const char *folder, Arena scratch)
+{
+    for (int i = COUNT_OF(parts) - 1; i >= 0; i--)
+        rmdir(arena_format(&scratch, "%s%s", folder, parts[i]));
+}
+
+void review_draft_close(ReviewDraft *draft)
+{
+    journal_close(draft->journal);
+    remove_parts(draft->folder, *draft->arena);
+    rmdir(draft->unfinished);
+    remove_parts(draft->target, *draft->arena);
+}
+
+/* Known before the work: a file that cannot take its place would end the review half moved. */
+static bool check_files(const char *target, Arena scratch, Error *err)
+{
+    for (int i = 0; i < REVIEW_FILES_FIXED; i++)
+        if (!file_check_writable(arena_format(&scratch, "%s/%s", target, review_files_fixed[i]),
+                                 err))
+            return false;
+    return true;
+}
+
+/* The journal comes first: it knows of another review that is at work here. */
+bool review_draft_open(const char *target, Arena *arena, Problems *problems, ReviewDraft *out,
+                       Error *err)
+{
+    ReviewDraft draft = {.arena = arena, .target = target,
+                         .unfinished = arena_format(arena, "%s/unfinished", target)};
+    const char *journal = arena_format(arena, "%s/journal", draft.unfinished);
+    draft.folder = arena_format(arena, "%s/new", draft.unfinished);
+    if (!folder_make(target, err) || !folder_make(draft.unfinished, err) ||
+        !journal_open(journal, arena, problems, &draft.journal, err)) {
+        rmdir(draft.unfinished);
+        rmdir(target);
+        return false;
+    }
+    if (make_parts(target, *arena, err) && make_parts(draft.folder, *arena, err) &&
+        check_files(target, *arena, err)) {
+        *out = draft;
+        return true;
+    }
+    review_draft_close(&draft);
+    return false;
+}
+
+/* ---- files of a draft -------------------------------------------------------------------- */
+
+static bool has_ending(const char *name, const char *ending)
+{
+    return !strcmp(path_ending(name), ending);
+}
+
+/* Did a writer that was killed leave it behind? */
+static bool is_leftover(const char *name)
+{
+    return has_ending(name, ".part") || has_ending(name, ".parhelion-part");
+}
+
+/* ---- taking their places ----------------------------------------------------------------- */
+
+static bool move(const ReviewDraft *draft, const char *name, Arena scratch, Error *err)
+{
+    const char *from = arena_format(&scratch, "%s/%s", draft->folder, name);
+    const char *to = arena_format(&scratch, "%s/%s", draft->target, name);
+    const char *slash = strrchr(name, '/');
+    if (slash && !folder_make(arena_format(&scratch, "%s/%.*s", draft->target,
+                                           (int)(slash - name), name), err))
+        return false;
+    return rename(from, to) == 0 ||
+           error_at(err, ERROR_OUTPUT, to, "", "cannot be written: %s", strerror(errno));
+}
+
+/* What moves now: all but frames that the review does not name, review.json last. */
+static Lines to_publish(const ReviewDraft *draft, const Review *review, Arena *arena)
+{
+    Lines drafted = {.arena = arena}, files = {.arena = arena};
+    review_files_list(&drafted, draft->folder, "");
+    for (int i = 0; i < drafted.count; i++) {
+        const char *name = drafted.list[i];
+        bool is_other_frame =
+            starts_with(name, "frames/") && !review_files_is_named(review, name);
+        if (review_files_may_have(name) && strcmp(name, "review.json") != 0 && !is_other_frame)
+            lines_put(&files, name);
+    }
+    lines_put(&files, "review.json");
+    return files;
+}
+
+/* Removes what reviews made here and this one does not have. The page loads a frame's layers
+ * only if they are published with it. Returns what stays. */
+static Lines remove_earlier(const ReviewDraft *draft, const Review *review, const Lines *made,
+                            const Lines *published, Arena *arena)
+{
+    Lines stays = {.arena = arena};
+    for (int i = 0; i < made->count; i++) {
+        const char *name = made->list[i];
+        bool        is_kept = review_files_is_named(review, name) && !has_ending(name, ".js");
+        if (is_kept || review_files_has(published, name)) lines_put(&stays, name);
+        else unlink(arena_format(arena, "%s/%s", draft->target, name));
+    }
+    return stays;
+}
+
+/* The list is never behind: it holds a file before that has its place, and until it is gone. */
+bool review_draft_publish(const ReviewDraft *draft, const Review *review, Arena scratch,
+                          Error *err)
+{
+    Lines files = to_publish(draft, review, &scratch);
+    Lines made = review_files_read(draft->target, &scratch);
+    for (int i = 0; i < files.count; i++) {
+        const char *to = arena_format(&scratch, "%s/%s", draft->target, files.list[i]);
+        if (!review_files_has(&made, files.list[i]) && file_exists(to))
+            return review_files_refuse(to, err);
+    }
+    for (int i = 0; i < files.count; i++) review_files_add(&made, files.list[i]);
+    if (!review_files_write(draft->target, &made, scratch, err)) return false;
+    for (int i = 0; i < files.count - 1; i++)
+        if (!move(draft, files.list[i], scratch, err)) return false;
+    Lines stays = remove_earlier(draft, review, &made, &files, &scratch);
+    return move(draft, "review.json", scratch, err) &&
+           review_files_write(draft->target, &stays, scratch, err);
+}
+
+void review_draft_finish(ReviewDraft *draft)
+{
+    Arena      scratch = *draft->arena;
+    Lines files = {.arena = &scratch};
+    review_files_list(&files, draft->unfinished, "new/sweeps/");
+    review_files_list(&files, draft->unfinished, "new/frames/");
+    review_files_list(&files, draft->unfinished, "");
+    for (int i = 0; i < files.count; i++) {
+        const char *name = files.list[i];
+        bool is_drafted = starts_with(name, "new/") && review_files_may_have(name + 4);
+        if (is_drafted || has_ending(name, ".checkpoint") || has_ending(name, ".lesson") ||
+            is_leftover(name))
+            unlink(arena_format(&scratch, "%s/%s", draft->unfinished, name));
+    }
+    unlink(arena_format(&scratch, "%s/journal", draft->unfinished));
+    review_draft_close(draft);
 }

@@ -9,33 +9,13 @@
  */
 #pragma once
 #include "base/lines.h"
+#include "keep/journal.h"
 #include "review/request/request.h"
 #include "review/verdict.h"
 
 /* Those that any review may have, the list itself among them. */
 #define REVIEW_FILES_FIXED 11
 extern const char *const review_files_fixed[REVIEW_FILES_FIXED];
-
-/* Names within the folder, "index.html", "sweeps/1-noon.csv"; none where nothing was made.
- * Other names than a review's are left out: a list may come with a folder from anywhere. */
-Lines review_files_read(const char *dir, Arena *arena);
-
-bool review_files_write(const char *dir, const Lines *files, Arena scratch, Error *err);
-
-bool review_files_has(const Lines *files, const char *name);
-
-/* Adds a name, once. */
-void review_files_add(Lines *files, const char *name);
-
-/* Whether a review may write a file of this name at all. */
-bool review_files_may_have(const char *name);
-
-/* Whether a frame or a table of this name belongs to what the review shows. */
-bool review_files_is_named(const Review *review, const char *name);
-
-/* All files in a folder and in the folders right below it, hidden ones too. prefix: "", or a
- * folder within it, "sweeps/". */
-void review_files_list(Lines *files, const char *folder, const char *prefix);
 
 /* Before the work: false where a file that no review made has a name that this one may need. */
 bool review_files_check(const char *dir, const ReviewRequest *request, Arena scratch,
@@ -46,5 +26,42 @@ bool review_files_check(const char *dir, const ReviewRequest *request, Arena scr
 bool review_files_spare(const char *dir, const ReviewRequest *request, const Lines *inputs,
                         Arena scratch, Error *err);
 
-/* That a file of somebody else's stands there. */
-bool review_files_refuse(const char *path, Error *err);
+/* A review's files while it is not finished: DIR/unfinished holds them, with
+ * what goes on after a kill, until they take their places all together.
+ *
+ *     DIR/unfinished/journal         readings that were taken (keep/journal.h)
+ *     DIR/unfinished/HASH.lesson     a moment's trained guide
+ *     DIR/unfinished/HASH.checkpoint of the frame in hand
+ *     DIR/unfinished/new/            files as they will stand in DIR
+ *
+ * So what stands in DIR is always of one review: the earlier one until the new one is whole, or
+ * has worked for a minute and shows what it knows so far, marked as such.
+ * The files then move one by one, within milliseconds, review.json last; a kill in between is
+ * replaced by the same command.
+ *
+ * Memory   from the arena.
+ * Threads  one at a time.
+ * Fails    with the file or folder that cannot be written. */
+
+typedef struct ReviewDraft {
+    Arena      *arena;
+    const char *target;     /* DIR */
+    const char *unfinished; /* DIR/unfinished */
+    const char *folder;     /* DIR/unfinished/new */
+    Journal    *journal;
+} ReviewDraft;
+
+/* Makes the folders that are not there. Work that was begun before goes on. */
+bool review_draft_open(const char *target, Arena *arena, Problems *problems, ReviewDraft *out,
+                       Error *err);
+
+/* All files but frames that `review` does not name take their places, and what the review that
+ * stood there named and this one does not is removed. */
+bool review_draft_publish(const ReviewDraft *draft, const Review *review, Arena scratch,
+                          Error *err);
+
+/* Nothing is left to go on with. */
+void review_draft_finish(ReviewDraft *draft);
+
+/* After a failure: what was found stays; folders and a journal with nothing in them go. */
+void review_draft_close(ReviewDraft *draft);

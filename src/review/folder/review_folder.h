@@ -5,15 +5,15 @@
  * cases.csv, junit.xml; sweeps/NAME.csv; frames/NAME.exr and .png, and
  * NAME.layers.js, which the page loads when its reader looks at the picture;
  * responses/NAME.response; run.json with what may differ from run to run; diff.json beside an
- * earlier review; unfinished/ (review_draft.h) until all is there.
+ * earlier review; unfinished/ (review_files.h) until all is there.
  *
  * Memory   from the arena.
  * Threads  one at a time.
  * Fails    with the file or folder that cannot be written.
  */
 #pragma once
-#include "review/folder/review_draft.h"
-#include "review/folder/sweep_output.h"
+#include "review/folder/review_files.h"
+#include "review/folder/live.h"
 #include "review/pace/work.h"
 
 typedef struct ReviewFolder {

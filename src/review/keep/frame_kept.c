@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/file_write.h"
 #include "print/print.h"
+#include "render/signals.h"
 
 #define FILE_BYTES_MOST ((size_t)1 << 32)
 #define CHECKPOINT_S 20 /* between two */
@@ -108,4 +109,11 @@ bool frame_kept_begin(FrameKept *kept, RenderOptions *options, Error *err)
     options->checkpoint_interval_s = CHECKPOINT_S;
     options->user = kept;
     return file_check_writable(kept->checkpoint, err);
+}
+
+/* ---- x ----------------------------------------------------------------------------------- */
+
+bool review_goes_on(const Journal *journal, Error *err)
+{
+    return signals_stop_requested() ? signals_stopped(err) : journal_ok(journal, err);
 }

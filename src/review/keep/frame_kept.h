@@ -32,3 +32,11 @@ bool frame_kept_begin(FrameKept *kept, RenderOptions *options, Error *err);
 
 /* All files are written. */
 bool frame_kept_end(const FrameKept *kept, Error *err);
+
+/* Whether a review goes on.
+ *
+ * Threads  the one that reviews. */
+
+/* False: INT, TERM or HUP requested to stop (signals_stopped: there is no error), or the
+ * journal (NULL: none) could not keep what was found. */
+bool review_goes_on(const Journal *journal, Error *err);

@@ -15,7 +15,7 @@
  * Fails    as daylight_build.
  */
 #pragma once
-#include "review/light/light_bands.h"
+#include "review/light/sky_table.h"
 #include "review/light/response.h"
 
 #define HOUR_SKY_STEPS 40

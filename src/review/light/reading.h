@@ -19,6 +19,28 @@
 #include "kernel/kernel.h"
 #include "review/light/light_parts.h"
 
+/* What a probe has to find, as the key of its answer (keep/journal.h).
+ *
+ * Everything that decides the answer is in it: the program, the scene's files, its light as it
+ * is now, where the probe is and looks, and what it has to find.
+ *
+ * Threads  pure functions. */
+
+/* All that decides the answer besides the aim and the light. */
+typedef struct Question {
+    JournalKey    base; /* program, scene and the files that the request names */
+    const char   *kind;
+    const double *numbers;
+    int           number_count;
+    const Vec3   *towards; /* directions */
+    int           towards_count;
+} Question;
+
+JournalKey question_key(const Question *question, const ProbeAim *aim, Arena scratch);
+
+/* Where the probe is and looks, as a hash. */
+uint64_t question_aim(const ProbeAim *aim);
+
 /* A decision that depends on a reading, such as a verdict. */
 typedef struct ReadingQuestion {
     /* Is the answer the same wherever in the interval the true reading lies? The scratch is
@@ -53,7 +75,7 @@ typedef struct ReadingTools {
     const Kernel *kernel;
     int           threads;
     Journal      *journal; /* readings that were taken before; NULL: none is kept */
-    JournalKey    base;    /* in the journal's keys (question.h) */
+    JournalKey    base;    /* in the journal's keys (question_key) */
 } ReadingTools;
 
 #define READING_BATCHES ESTIMATE_BATCHES /* batches are alike and independent: each has a

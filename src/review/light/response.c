@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "base/sampler.h"
 #include "base/units.h"
-#include "review/light/light_bands.h"
+#include "review/light/sky_table.h"
 
 #define WAVE 16    /* chunks that are traced before they are added, in order */
 #define PILOT 8    /* chunks that sample every triangle */

@@ -9,7 +9,7 @@
  *
  * Approximate  glints via a further mirror are spread over that width.
  * Spectrum     16 bands, those of the lanes of a path. Light is given by the luminance of each
- *              of its bands (light_bands.h), so that bands add up to it; a response is the
+ *              of its bands (sky_table.h), so that bands add up to it; a response is the
  *              share of that, a mean over the band.
  * Errors       paths come in up to RESPONSE_GROUPS independent groups, each of whole waves that
  *              sample every triangle equally often; each one's part of white light is kept:
@@ -62,7 +62,7 @@ void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *
                     Response *out);
 
 /* Reading of the further vertices for a sun in direction `towards` (unit, world) whose
- * irradiance has these band illuminances (light_bands.h), lx: cd m^-2, or lx. without: what it
+ * irradiance has these band illuminances (sky_table.h), lx: cd m^-2, or lx. without: what it
  * would be without each group, with the samples that it is made of added to bright; or NULL. */
 double response_sun(const Response *response, Vec3 towards, const float bands[RESPONSE_BANDS],
                     double without[RESPONSE_GROUPS], BrightSamples *bright);

@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "base/sampler.h"
 #include "base/units.h"
-#include "review/light/light_bands.h"
+#include "review/light/sky_table.h"
 
 /* Paths of one piece of work: pieces are added in order. By mirror a path reaches few suns. */
 #define SUN_CHUNK 4

@@ -10,7 +10,7 @@
 #pragma once
 #include "base/problems.h"
 #include "review/light/inherited.h"
-#include "review/light/light_bands.h"
+#include "review/light/sky_table.h"
 #include "review/light/reading.h"
 #include "review/request/request.h"
 
@@ -138,3 +138,32 @@ double setup_level(const Setup *setup, int display_id);
  * name: as the review calls it; sensor_lux: counts for a curve only. */
 double setup_level_of(const Setup *setup, const ReviewLevel *level, int display_id,
                       const char *name, double sensor_lux);
+
+/* Where the eyes of a request are in a setup's scene.
+ *
+ * Units    m, in the coordinates of the scene.
+ * Errors   an eye's camera is missing: with the request's file.
+ * Threads  pure functions. */
+
+/* The points of an eye, m, as many as it has; in the arena. NULL: its camera is missing. */
+Vec3 *setup_eye_points(const Setup *setup, const ReviewEye *eye, int *count, Arena *arena,
+                       Error *err);
+
+/* The point of an eye that is one; of a box its centre. */
+bool setup_eye_middle(const Setup *setup, const ReviewEye *eye, Arena scratch, Vec3 *out,
+                      Error *err);
+
+/* Trains a guide for a setup's paths on a condition's light, before any of
+ * them counts.
+ *
+ * Memory   the guide comes from the arena, or from the room that variants inherit it from
+ *          (inherited.h).
+ * Threads  starts its own; the same guide for any count. */
+
+/* Of a variant: takes the guide that the review itself trained under this condition. False:
+ * there is none. */
+bool trained_guide_inherit(Setup *setup);
+
+/* A guide for an eye, m, that looks towards what is judged: from the setup's folder of guides,
+ * or a new one, which is kept there. One that is damaged is trained again. */
+void trained_guide_take(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena);

@@ -25,3 +25,13 @@ typedef struct ReviewFacts {
  * known. */
 ReviewFacts review_facts_of(const Review *review, const ReviewCase *c,
                             const char *const *directions, Arena *arena);
+
+/* What a review rests on, in one line that all outputs share.
+ *
+ * Memory   the arena's. Texts are UTF-8 and not escaped. Threads: pure. Fails: never. */
+
+/* "panel of cluster: synthetic, good, known within 0.6 % of what it emits and 0.5 % of what it
+ * reflects; 11 guessed materials (up to 62 % of the light on a symbol); ...": errors of panels
+ * are standard errors, which the intervals hold; shares are the greatest of this review's
+ * cases, which may be a part of another's. "": nothing is known, as of an older review. */
+const char *review_rests_words(const Review *review, Arena *arena);

@@ -6,7 +6,7 @@
 
 #include "base/count.h"
 #include "record/record_write.h"
-#include "review/output/review_rests.h"
+#include "review/output/review_facts.h"
 #include "review/review_decide.h"
 #include "text/json_text.h"
 

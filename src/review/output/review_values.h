@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* review_values.h -- what a page of a review is made of; and what its templates show: the
  * review's own record (the document of review.json), with words, classes, links and drawings
- * added where a template names them. Each part of the page adds its own (review_card.h,
- * review_answer.h, review_table.h, review_variants.h, review_gaze.h).
+ * added where a template names them. Each part of the page adds its own (review_variants.h,
+ * review_gaze.h).
  *
  * Memory   the document's (jansson) and the arena's. Threads: one at a time. Fails: never.
  */
@@ -71,3 +71,23 @@ void values_set_verdict(json_t *to, Verdict verdict);
 
 /* A name that is missing is shown as one that nobody knows: "?". */
 void values_set_names(json_t *to, const char *const *keys);
+
+/* What is said of one case of a review, whoever shows it: its card, the grid,
+ * a matrix, the list; and the pictures of a page.
+ *
+ * Memory   the document's (jansson) and the arena's. Threads: one at a time.
+ * Fails    for a picture that cannot be read. */
+
+/* Of every case and every sweep's worst. */
+bool values_add_cases(const PageValues *v, Error *err);
+
+/* What picture.html shows: bytes, or a file's name. */
+bool values_add_picture(json_t *to, const ReviewPicture *p, Arena scratch, Error *err);
+
+/* The page's first screen: pass or fail, every symbol as every eye sees it
+ * at its worst, and the worst case of all: its picture, when, why and the remedy.
+ *
+ * Memory   the document's (jansson) and the arena's. Threads: one at a time.
+ * Fails    for a picture that cannot be read. */
+
+bool values_add_answer(const PageValues *v, Error *err);

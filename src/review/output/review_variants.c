@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "page/page.h"
-#include "review/output/review_card.h"
+#include "review/output/review_values.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
 #include "text/effect_text.h"

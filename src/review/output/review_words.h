@@ -5,7 +5,7 @@
  */
 #pragma once
 #include "base/arena.h"
-#include "review/review_names.h"
+#include "review/review_decide.h"
 
 /* NULL is "". */
 bool words_same(const char *a, const char *b);

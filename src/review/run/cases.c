@@ -5,21 +5,33 @@
 
 #include "base/sampler.h"
 #include "base/units.h"
-#include "review/judge.h"
-#include "review/eye/eye_reading.h"
-#include "review/light/trained_guide.h"
-#include "review/light/read_on.h"
-#include "review/light/response_suns.h"
-#include "review/light/setup_eyes.h"
-#include "review/pace/work.h"
-#include "review/run/glare_found.h"
 #include "review/chain/remedies.h"
-#include "review/keep/goes_on.h"
+#include "review/eye/eye_reading.h"
+#include "review/judge.h"
+#include "review/keep/frame_kept.h"
+#include "review/light/read_on.h"
+#include "review/light/setup.h"
+#include "review/light/response_suns.h"
+#include "review/pace/work.h"
 #include "review/review_decide.h"
-#include "review/run/worst_part.h"
+#include "review/run/symbols.h"
 #include "scene/load/material_data.h"
 #include "text/text.h"
 #include "vision/grey_steps.h"
+
+CaseGlare glare_found(const GlareReading *reading, const GlareSettings *settings)
+{
+    const GlareFigures *f = &reading->figures;
+    return (CaseGlare){.dgp = f->dgp, .ugr = f->ugr, .dgi = f->dgi, .dgp_range = reading->dgp,
+                       .ugr_range = reading->ugr, .dgi_range = reading->dgi,
+                       .threshold_cd_m2 = reading->threshold_cd_m2,
+                       .background_cd_m2 = f->background_cd_m2,
+                       .source_lx = reading->source_lx, .smallest_sr = reading->smallest_sr,
+                       .largest_sr = reading->largest_sr, .source_count = reading->source_count,
+                       .low_light = settings->low_light,
+                       .small_sources = settings->small_sources,
+                       .none = discomfort_none_words(f->none)};
+}
 
 #define FACE_PRECISION 0.02
 #define FACE_PATHS 16384
@@ -286,7 +298,7 @@ static void set_mean(const Profile *profile, ReviewCase *c)
         luminance_contrast(l->foreground, l->background, c->whole.reflected + veil);
 }
 
-/* Of the worst part, or of all of the symbol where that is the worse (worst_part.h). Sets the
+/* Of the worst part, or of all of the symbol where that is the worse (symbols.h). Sets the
  * case's part and what is direct in its light. */
 static Reading read_part(const CaseLook *look, WorstPart *part, ReviewCase *c,
                          VerdictAsk *ask, Arena *arena)

@@ -8,10 +8,12 @@
  * Threads  starts its own; the same figures for any count.
  */
 #pragma once
+#include "review/eye/eye_reading.h"
 #include "review/pace/work.h"
 #include "review/profile.h"
-#include "review/share.h"
 #include "review/run/symbols.h"
+#include "review/run/job.h"
+#include "review/verdict.h"
 
 typedef struct CaseTools {
     const Setup       *setup;
@@ -49,3 +51,9 @@ bool setup_case(const CaseTools *tools, const SetupSymbol *symbol, const ReviewE
  * is the illuminance of its face. */
 bool setup_verdict(const CaseTools *tools, const SetupSymbol *symbol, const ReviewEye *eye,
                    Arena *arena, ReviewCase *out, Error *err);
+
+/* What was read of glare, as a review keeps it.
+ *
+ * Threads  pure functions. */
+
+CaseGlare glare_found(const GlareReading *reading, const GlareSettings *settings);

@@ -15,6 +15,7 @@
 #pragma once
 #include "review/light/setup.h"
 #include "review/pace/work.h"
+#include "review/run/job.h"
 #include "review/verdict.h"
 
 #define FRAMES_SAMPLES 256
@@ -40,12 +41,13 @@ typedef struct FrameAsk {
     Work            *work;   /* of which the frame is a part */
 } FrameAsk;
 
-/* From where the frame is seen. */
-bool frame_camera(const FrameAsk *ask, SceneCamera *out, Arena scratch, Error *err);
+/* Pictures of a review that is made: of its worst cases, and of the very
+ * worst with each variant's change.
+ *
+ * Memory   names live in the arena; setups use scratch of their own.
+ * Threads  starts its own; the same pictures for any count.
+ * Fails    as its parts do. */
 
-/* *out: how the frame in that file is exposed (image/exposure.h), for others to be compared
- * with it. Fails when the file cannot be read. */
-bool frame_exposure(const char *exr, Arena *arena, const char **out, Error *err);
-
-/* *out: the picture's name within the folder. */
-bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err);
+/* As many as the request requires, into the run's folder; the cases then name them. Where there
+ * is any, variants name two of the worst case, without and with their change. */
+bool review_frames(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Error *err);

@@ -7,9 +7,8 @@
 #include "review/chain/chains.h"
 #include "review/eye/eye_reading.h"
 #include "review/eye/gaze_reading.h"
-#include "review/light/setup_eyes.h"
+#include "review/light/setup.h"
 #include "review/run/cases.h"
-#include "review/run/glare_found.h"
 
 #define ROUNDS 16
 #define PRECISION 0.01

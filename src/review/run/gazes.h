@@ -10,7 +10,7 @@
  */
 #pragma once
 #include "review/eye/false_suns.h"
-#include "review/share.h"
+#include "review/run/job.h"
 #include "review/verdict.h"
 
 /* Fills review_look_count(request) findings, eyes fastest, but for those that are others'.

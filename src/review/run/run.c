@@ -5,7 +5,7 @@
 
 #include "keep/journal.h"
 #include "render/identity.h"
-#include "review/keep/goes_on.h"
+#include "review/keep/frame_kept.h"
 #include "review/pace/work.h"
 #include "review/request/request_check.h"
 #include "review/review_decide.h"

@@ -5,7 +5,7 @@
 
 #include "base/parallel.h"
 #include "review/judge.h"
-#include "review/suns/failures.h"
+#include "review/suns/sweep_suns.h"
 
 /* ---- reading them ------------------------------------------------------------------------ */
 

@@ -28,5 +28,5 @@ int sun_figures_next(const SunFigures *figures, const SweepSuns *suns, FarSteps 
 const LimitVerdict *const *sun_figures_limits(const Sight *sight, const Profile *profile,
                                               Arena *arena);
 
-/* StepState's (suns/failures.h). */
+/* StepState's (suns/sweep_suns.h). */
 void sun_figures_states(const SunFigures *figures, int count, unsigned char *states);

@@ -9,13 +9,13 @@
 #include "review/judge.h"
 #include "review/pace/work.h"
 #include "review/chain/causes.h"
-#include "review/keep/goes_on.h"
+#include "review/keep/frame_kept.h"
 #include "review/run/false_sun_times.h"
 #include "review/run/rests.h"
 #include "review/run/sun_figures.h"
 #include "review/run/sweep_probes.h"
 #include "review/run/sweep_weather.h"
-#include "review/suns/failures.h"
+#include "review/suns/sweep_suns.h"
 
 #define WORST_READ 3          /* steps that are read again, at most */
 #define WORST_APART_DEG 5.0   /* the suns of two of them, at least: a response's angular

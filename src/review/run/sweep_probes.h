@@ -7,9 +7,38 @@
  */
 #pragma once
 #include "review/eye/false_suns.h"
-#include "review/light/sun_readings.h"
+#include "review/light/distant_probe.h"
+#include "review/light/response_file.h"
+#include "review/pace/work.h"
 #include "review/run/cases.h"
-#include "review/run/sweep_responses.h"
+#include "review/run/job.h"
+
+/* The responses of a sweep's probes, and what they read of the scene's own
+ * light: of files of an earlier review, or traced and then kept in files.
+ *
+ * A file that is damaged, or of something else under that name, is a warning; the response is
+ * traced again and the file replaced.
+ *
+ * Memory   from the arena that is passed in.
+ * Threads  starts its own; the same numbers for any count.
+ * Fails    when a file cannot be written, or the user stops it. */
+
+/* A probe whose aim is set, with room for its answers. */
+typedef struct ResponseAsk {
+    const char  *name;      /* for people: "driver, speed" */
+    DistantProbe *probe;
+    OwnLight    *own;
+    int          paths;     /* at most */
+    double       precision; /* 0: all paths */
+    ResponseFile file;
+    const char  *shown;     /* the file's name as review.json has it */
+    bool         is_kept;   /* it was read, not traced */
+    bool         is_left;   /* to another part: nothing is known of it */
+} ResponseAsk;
+
+/* How long it will take; 0: it is not to be traced. */
+WorkKind responses_kind(const ResponseAsk *ask);
+double   responses_work(const ResponseAsk *ask);
 
 typedef struct SweepMeter {
     LitPoint head;
@@ -17,7 +46,7 @@ typedef struct SweepMeter {
     OwnLight own;
     const double *lux; /* [sun of the condition in hand] all of its light but its own */
     SunReadings  *kept; /* of other suns of that condition; NULL: none are kept */
-    bool     is_left; /* to other parts of the review (share.h): nothing is sampled with it */
+    bool     is_left; /* to other parts of the review (job.h): nothing is sampled with it */
 } SweepMeter;
 
 typedef struct Sight {

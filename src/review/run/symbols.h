@@ -47,10 +47,6 @@ void symbol_aim(const SymbolSurface *surface, const bool *is_visible, Arena *are
  * of a very long symbol they are larger. No target: nothing of it is seen. */
 LightParts symbol_parts(const SetupSymbol *symbol, const ProbeAim *aim, int most, Arena *arena);
 
-/* Left, top, right and bottom of one of them, uv. */
-void symbol_part_box(const SetupSymbol *symbol, const LightParts *parts, int part,
-                     double uv[4]);
-
 /* Fails with the request's file and the symbol's place in it. */
 bool setup_symbols(const Setup *setup, Arena *arena, SetupSymbol **out, int *count, Error *err);
 
@@ -59,3 +55,36 @@ bool setup_symbols(const Setup *setup, Arena *arena, SetupSymbol **out, int *cou
  * darken all, which goes to c->glasses_transmittance. */
 void symbol_put_on_glasses(const Setup *setup, const SetupSymbol *symbol, ProbeAim *aim,
                            ReviewCase *c, Arena *arena);
+
+/* The part of a symbol that an eye sees worst: the window, as wide as a stroke
+ * and one character high (symbols.h), from which most light is reflected.
+ *
+ * It is found by the direct sun, which is known for every place, and by paths to all of the
+ * symbol, whose mean is the symbol's. That is a selection: who judges the part reads it by
+ * paths of other seeds, as of the aim that is set here. Where light is even within what the
+ * paths show, chance may select a part that reflects less than the mean: worst_part_is_better
+ * says so of a reading, and all of the symbol is judged then.
+ *
+ * Units    cd m^-2; uv of the content.
+ * Memory   from the arena.
+ * Threads  starts its own; the same figures for any count. */
+
+typedef struct PartAsk {
+    const SetupSymbol *symbol;
+    const ProbeAim    *aim;  /* without targets; all of the symbol is read by a seed of its
+                                own */
+    bool     is_coarse;      /* by the direct sun alone: no mean */
+} PartAsk;
+
+typedef struct WorstPart {
+    ProbeAim  aim;    /* at what is seen of it; no targets: nothing of the symbol is */
+    CaseWhole whole;  /* without its contrast */
+} WorstPart;
+
+WorstPart worst_part_find(const Setup *setup, const PartAsk *ask, Arena *arena);
+
+/* Does a part of that reading reflect less than the mean, beyond both intervals? */
+bool worst_part_is_better(const CaseWhole *whole, MeanInterval reading);
+
+/* From now on all of the symbol that is seen is the part. */
+void worst_part_take_all(const SetupSymbol *symbol, WorstPart *part, Arena *arena);

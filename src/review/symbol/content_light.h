@@ -8,6 +8,8 @@
  * Memory   from the arena; the content must outlive the result.  Threads  pure functions.
  */
 #pragma once
+#include <stdint.h>
+
 #include "base/arena.h"
 #include "base/error.h"
 #include "image/image.h"
@@ -28,3 +30,22 @@ bool content_light(const Panel *panel, const Image *content, const double uv[4],
 
 /* Codes of a pixel of the content, 0..255. */
 void content_codes(const Image *content, int x, int y, float rgb[3]);
+
+/* The connected parts of a set of pixels: eight neighbours belong together.
+ *
+ * Memory   from the arena.  Threads  pure function. */
+
+/* First and last pixel of each axis. */
+typedef struct ConnectedPart {
+    int  left, top, right, bottom;
+    long pixels;
+} ConnectedPart;
+
+typedef struct ConnectedParts {
+    ConnectedPart *part; /* in the order of their first pixels, row by row */
+    int            count;
+    int32_t       *part_of; /* of each pixel; -1: not in the set */
+} ConnectedParts;
+
+/* set: width * height, row by row, not 0 where a pixel is in it. At most 2^31 pixels. */
+ConnectedParts connected_parts(const uint8_t *set, int width, int height, Arena *arena);

@@ -9,7 +9,7 @@
 #include "base/vec.h"
 #include "image/content_contrast.h"
 #include "image/texture.h"
-#include "review/symbol/connected.h"
+#include "review/symbol/content_light.h"
 
 /* ---- size of what is drawn --------------------------------------------------------------- */
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "review/symbol/connected.h"
+#include "review/symbol/content_light.h"
 
 /* ---- parts ------------------------------------------------------------------------------- */
 

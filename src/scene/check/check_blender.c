@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scene/check/material_layers.h"
 #include "scene/gltf/document.h"
 
 /* Blender's lamps: W * 683 lm/W / (4 pi) cd, a sun's W/m2 * 683 lx (lighting mode Standard); an
@@ -84,13 +85,19 @@ static void check_area_lamps(const DocumentCheck *check, const GltfValue *root)
 /* Since 4.0 both are written; before 3.0 most other materials were lost as well. */
 static void check_lost(const DocumentCheck *check, const GltfValue *root, int major, int minor)
 {
-    bool has_sheen = document_uses(check->file, "KHR_materials_sheen");
     bool has_ior = document_uses(check->file, "KHR_materials_ior");
-    if (!tree_count(root, "materials") || (has_sheen && has_ior)) return;
+    char lost[80];
+    int  length = 0;
+    for (int i = 0; i < material_layer_count; i++) {
+        const MaterialLayer *layer = &material_layers[i];
+        if (!layer->lost || document_uses(check->file, layer->rule.name)) continue;
+        length += snprintf(lost + length, sizeof lost - (size_t)length, "%s%s",
+                           length ? " and " : "", layer->lost);
+    }
+    if (!tree_count(root, "materials") || !length) return;
     check_warns(check, tree_member(tree_member(root, "asset"), "generator"),
-                "the exporter of Blender %d.%d leaves out%s%s%s of a Principled BSDF%s: "
-                "parhelion help first-dashboard", major, minor, has_sheen ? "" : " the sheen",
-                has_sheen || has_ior ? "" : " and", has_ior ? "" : " the IOR",
+                "the exporter of Blender %d.%d leaves out %s of a Principled BSDF%s: "
+                "parhelion help first-dashboard", major, minor, lost,
                 has_ior ? "" : " (the latter but for clear materials)");
 }
 

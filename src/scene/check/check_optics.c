@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "base/count.h"
+#include "scene/check/material_layers.h"
 #include "spectrum/dispersion.h"
 
 /* ---- layers ----------------------------------------------------------------------------- */
@@ -57,9 +57,7 @@ static bool material_is_clear_solid(const GltfValue *material)
 
 static void not_shown(const DocumentCheck *check, const GltfValue *value, const char *what)
 {
-    if (value)
-        check_warns(check, value, "has no effect: KHR_materials_volume makes the material a "
-                                  "closed solid, %s", what);
+    if (value) check_warns(check, value, ON_CLOSED_SOLID "%s", what);
 }
 
 static bool is_coloured(const GltfValue *color, double grey)
@@ -70,21 +68,16 @@ static bool is_coloured(const GltfValue *color, double grey)
     return differs;
 }
 
-/* Layers of a surface that a solid's boundary does not have. */
+/* Layers of a surface that a solid's boundary does not have; the outer ones first. */
 static void check_layers(const DocumentCheck *check, const GltfValue *material)
 {
-    const GltfValue *sheen = tree_extension(material, "KHR_materials_sheen");
-    const GltfValue *coat = tree_extension(material, "KHR_materials_clearcoat");
     const GltfValue *specular = tree_extension(material, "KHR_materials_specular");
-    const GltfValue *across = tree_extension(material, "KHR_materials_diffuse_transmission");
     const GltfValue *color = tree_member(specular, "specularColorFactor");
-    if (is_coloured(tree_member(sheen, "sheenColorFactor"), 0))
-        not_shown(check, sheen, "on which sheen is not shown");
-    if (tree_number(across, "diffuseTransmissionFactor", 0) > 0)
-        check_warns(check, across, "is not seen: KHR_materials_transmission makes the solid "
-                                   "clear");
-    if (tree_number(coat, "clearcoatFactor", 0) > 0)
-        not_shown(check, coat, "on which no coat is shown");
+    for (int i = material_layer_count - 1; i >= 0; i--) {
+        const GltfValue *layer = tree_extension(material, material_layers[i].rule.name);
+        if (material_layers[i].on_solid && material_layer_shows(&material_layers[i], layer))
+            check_warns(check, layer, "%s", material_layers[i].on_solid);
+    }
     if (fabs(tree_number(specular, "specularFactor", 1) - 1) > 0 || is_coloured(color, 1))
         not_shown(check, specular, "which reflects as its index says");
     not_shown(check, tree_member(specular, "specularTexture"),
@@ -138,40 +131,14 @@ static void check_body(const DocumentCheck *check, const GltfValue *material,
                     "stands beside KHR_materials_clearcoat, one of them is required");
 }
 
-/* A layer that is there is not seen beside what is another surface altogether. */
-static void check_seen(const DocumentCheck *check, const GltfValue *material,
-                       const GltfValue *layer)
+static void check_hidden(const DocumentCheck *check, const GltfValue *material,
+                         const MaterialLayer *layer)
 {
-    static const char *const stronger[] = {"PARHELION_glazing", "PARHELION_display",
-                                           "KHR_materials_unlit"};
-    for (int i = 0; i < COUNT_OF(stronger); i++)
-        if (tree_extension(material, stronger[i]))
-            check_warns(check, layer, "has no effect beside %s", stronger[i]);
-}
-
-static void check_film(const DocumentCheck *check, const GltfValue *material)
-{
-    const GltfValue *film = tree_extension(material, "KHR_materials_iridescence");
-    if (!(tree_number(film, "iridescenceFactor", 0) > 0)) return;
-    if (tree_extension(material, "PARHELION_coating"))
-        check_warns(check, film, "has no effect beside PARHELION_coating");
-    check_seen(check, material, film);
-}
-
-static void check_brushing(const DocumentCheck *check, const GltfValue *material)
-{
-    const GltfValue *brushed = tree_extension(material, "KHR_materials_anisotropy");
-    if (tree_number(brushed, "anisotropyStrength", 0) > 0)
-        check_seen(check, material, brushed);
-}
-
-static void check_sheen(const DocumentCheck *check, const GltfValue *material)
-{
-    const GltfValue *sheen = tree_extension(material, "KHR_materials_sheen");
-    const GltfValue *color = tree_member(sheen, "sheenColorFactor");
-    bool is_seen = false;
-    for (int i = 0; color && i < color->count; i++) is_seen |= color->items[i].number > 0;
-    if (is_seen) check_seen(check, material, sheen);
+    const GltfValue *own = tree_extension(material, layer->rule.name);
+    if (!layer->hidden_by || !material_layer_shows(layer, own)) return;
+    for (int i = 0; layer->hidden_by[i]; i++)
+        if (tree_extension(material, layer->hidden_by[i]))
+            check_warns(check, own, "has no effect beside %s", layer->hidden_by[i]);
 }
 
 static void check_clear_coat(const DocumentCheck *check, const GltfValue *material)
@@ -196,9 +163,8 @@ void check_coated_material(const DocumentCheck *check, const GltfValue *material
     bool is_known = conductor || (measured && measured->text[0]);
     if (conductor && tree_number(pbr, "metallicFactor", 1) <= 0)
         check_warns(check, conductor, "has no effect: metallicFactor is 0");
-    check_film(check, material);
-    check_brushing(check, material);
-    check_sheen(check, material);
+    for (int i = 0; i < material_layer_count; i++)
+        check_hidden(check, material, &material_layers[i]);
     check_clear_coat(check, material);
     if (!coating) return;
     if (tree_extension(material, "KHR_materials_unlit"))

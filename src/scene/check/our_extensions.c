@@ -8,7 +8,7 @@
 #include "scene/check/check_document.h"
 #include "scene/check/check_material.h"
 #include "scene/check/check_optics.h"
-#include "scene/check/schema_core.h"
+#include "scene/check/material_layers.h"
 #include "spectrum/curve.h"
 #include "spectrum/glazing.h"
 #include "spectrum/thin_film.h"

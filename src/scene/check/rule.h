@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* rule.h -- what a glTF document must look like, as tables.
  *
- * The tables (schema_core.c, schema_extensions.c; ours are rows: our_extensions.c) state for
- * every object which members it may have, of which kind and range, and which list an index
- * refers to. What tables cannot express (cycles, bounds, agreement between objects) is in the
- * check_*.c files.
+ * The tables (schema_core.c, schema_extensions.c, material_layers.c; ours are rows:
+ * our_extensions.c) state for every object which members it may have, of which kind and range,
+ * and which list an index refers to. What tables cannot express (cycles, bounds, agreement
+ * between objects) is in the check_*.c files.
  */
 #pragma once
 #include "record/record.h"
@@ -39,6 +39,14 @@ enum {
     RULE_ANY_SIZE = 128 /* beyond floats, too: other numbers are held to them */
 };
 
+/* Where the loader keeps a value of a material's layer: bytes into the struct that the layer
+ * fills (MaterialLayer), there a float, several (RULE_NUMBERS) or a TextureSlot. */
+typedef struct RuleField {
+    bool   is_kept;
+    size_t at;
+    float  usual; /* of a number that is missing, or of each of several */
+} RuleField;
+
 typedef struct Rule {
     const char *name;
     RuleKind kind;
@@ -49,6 +57,7 @@ typedef struct Rule {
     const char *const *words; /* of a choice, in place of `of`; a NULL ends them */
     const struct Schema *schema;
     const char *needs; /* the member beside it without which it means nothing; NULL: none */
+    RuleField field;
 } Rule;
 
 typedef struct Schema {

@@ -9,6 +9,7 @@
 #include "scene/check/check_graph.h"
 #include "scene/check/check_material.h"
 #include "scene/check/check_mesh.h"
+#include "scene/check/material_layers.h"
 
 /* ---- bytes ----------------------------------------------------------------------------- */
 
@@ -115,15 +116,6 @@ static const Schema SCHEMA_SAMPLER = {"sampler", false, NULL, RULES(
 static const Schema SCHEMA_TEXTURE = {"texture", false, check_texture, RULES(
     {"sampler", RULE_INDEX, .of = "samplers"},
     {"source", RULE_INDEX, .of = "images"})};
-
-const Schema SCHEMA_TEXTURE_INFO = {"textureInfo", false, NULL, RULES(
-    {"index", RULE_INDEX, .flags = RULE_REQUIRED, .of = "textures"},
-    {"texCoord", RULE_INTEGER, .max = 65535})};
-
-const Schema SCHEMA_NORMAL_TEXTURE_INFO = {"textureInfo", false, NULL, RULES(
-    {"index", RULE_INDEX, .flags = RULE_REQUIRED, .of = "textures"},
-    {"texCoord", RULE_INTEGER, .max = 65535},
-    {"scale", .kind = RULE_NUMBER})};
 
 static const Schema SCHEMA_OCCLUSION_TEXTURE_INFO = {"textureInfo", false, NULL, RULES(
     {"index", RULE_INDEX, .flags = RULE_REQUIRED, .of = "textures"},

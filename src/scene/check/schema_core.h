@@ -4,5 +4,3 @@
 #include "scene/check/rule.h"
 
 extern const Schema SCHEMA_ROOT; /* of the whole document */
-extern const Schema SCHEMA_TEXTURE_INFO;
-extern const Schema SCHEMA_NORMAL_TEXTURE_INFO;

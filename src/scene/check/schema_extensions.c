@@ -9,7 +9,8 @@
 #include "scene/check/check_graph.h"
 #include "scene/check/check_material.h"
 #include "scene/check/check_optics.h"
-#include "scene/check/foreign_extensions.h"
+#include "scene/gltf/foreign_extensions.h"
+#include "scene/check/material_layers.h"
 #include "scene/check/our_extensions.h"
 #include "scene/check/schema_core.h"
 #include "scene/gltf/document.h"
@@ -55,71 +56,8 @@ static const Schema SCHEMA_EMISSIVE_STRENGTH = {
 
 static const Schema SCHEMA_UNLIT = {"KHR_materials_unlit", false, NULL, NO_RULES};
 
-static const Schema SCHEMA_SPECULAR = {"KHR_materials_specular", false, NULL, RULES(
-    {"specularFactor", RULE_NUMBER, .max = 1},
-    {"specularTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {"specularColorFactor", RULE_NUMBERS, .flags = RULE_FROM_MIN, .least = 3, .most = 3},
-    {"specularColorTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO})};
-
-static const Schema SCHEMA_TRANSMISSION = {"KHR_materials_transmission", false, NULL, RULES(
-    {"transmissionFactor", RULE_NUMBER, .max = 1},
-    {"transmissionTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO})};
-
-static const Schema SCHEMA_CLEARCOAT = {"KHR_materials_clearcoat", false, NULL, RULES(
-    {"clearcoatFactor", RULE_NUMBER, .max = 1},
-    {"clearcoatTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {"clearcoatRoughnessFactor", RULE_NUMBER, .max = 1},
-    {"clearcoatRoughnessTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {"clearcoatNormalTexture", RULE_OBJECT, .schema = &SCHEMA_NORMAL_TEXTURE_INFO})};
-
-static const Schema SCHEMA_VOLUME = {"KHR_materials_volume", false, NULL, RULES(
-    {"thicknessFactor", RULE_NUMBER, .flags = RULE_FROM_MIN},
-    {"thicknessTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {"attenuationDistance", RULE_NUMBER, .flags = RULE_FROM_MIN | RULE_ABOVE_MIN},
-    {"attenuationColor", RULE_NUMBERS, .max = 1, .least = 3, .most = 3})};
-
-/* Reflects all but 4e-5 of the light: a larger one would look like an infinite one. */
-#define IOR_MAX 1e5
-
-static void check_ior(const DocumentCheck *check, const GltfValue *extension)
-{
-    double ior = tree_number(extension, "ior", 1.5);
-    if ((ior > 0 && ior < 1) || ior > IOR_MAX)
-        check_fails(check, tree_member(extension, "ior"),
-                    "is %.9g, 0 (which means infinite) or a number from 1 to %.9g is required",
-                    ior, IOR_MAX);
-}
-static const Schema SCHEMA_IOR = {"KHR_materials_ior", false, check_ior, RULES(
-    {"ior", RULE_NUMBER, .flags = RULE_FROM_MIN})};
-
-static const Schema SCHEMA_ANISOTROPY = {"KHR_materials_anisotropy", false, NULL, RULES(
-    {"anisotropyStrength", RULE_NUMBER, .max = 1},
-    {"anisotropyRotation", .kind = RULE_NUMBER},
-    {"anisotropyTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO})};
-
-static const Schema SCHEMA_IRIDESCENCE = {"KHR_materials_iridescence", false, NULL, RULES(
-    {"iridescenceFactor", RULE_NUMBER, .max = 1},
-    {"iridescenceTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {"iridescenceIor", RULE_NUMBER, .min = 1, .max = IOR_MAX},
-    {"iridescenceThicknessMinimum", RULE_NUMBER, .max = 1e6},
-    {"iridescenceThicknessMaximum", RULE_NUMBER, .max = 1e6},
-    {"iridescenceThicknessTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO})};
-
-static const Schema SCHEMA_SHEEN = {"KHR_materials_sheen", false, NULL, RULES(
-    {"sheenColorFactor", RULE_NUMBERS, .max = 1, .least = 3, .most = 3},
-    {"sheenColorTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {"sheenRoughnessFactor", RULE_NUMBER, .max = 1},
-    {"sheenRoughnessTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO})};
-
 static const Schema SCHEMA_DISPERSION = {"KHR_materials_dispersion", false, NULL, RULES(
     {"dispersion", RULE_NUMBER, .flags = RULE_FROM_MIN})};
-
-static const Schema SCHEMA_DIFFUSE_TRANSMISSION = {
-    "KHR_materials_diffuse_transmission", false, NULL, RULES(
-    {"diffuseTransmissionFactor", RULE_NUMBER, .max = 1},
-    {"diffuseTransmissionTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {"diffuseTransmissionColorFactor", RULE_NUMBERS, .max = 1, .least = 3, .most = 3},
-    {"diffuseTransmissionColorTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO})};
 
 static const Schema SCHEMA_GLOSSINESS = {
     "KHR_materials_pbrSpecularGlossiness", false, NULL, RULES(
@@ -269,17 +207,8 @@ static const ExtensionRule EXTENSIONS[] = {
     {"EXT_lights_ies", "document", &SCHEMA_PROFILES},
     {"EXT_lights_ies", "node", &SCHEMA_NODE_PROFILE},
     {"KHR_materials_emissive_strength", "material", &SCHEMA_EMISSIVE_STRENGTH},
-    {"KHR_materials_ior", "material", &SCHEMA_IOR},
-    {"KHR_materials_specular", "material", &SCHEMA_SPECULAR},
-    {"KHR_materials_transmission", "material", &SCHEMA_TRANSMISSION},
-    {"KHR_materials_clearcoat", "material", &SCHEMA_CLEARCOAT},
-    {"KHR_materials_volume", "material", &SCHEMA_VOLUME},
     {"KHR_materials_dispersion", "material", &SCHEMA_DISPERSION},
-    {"KHR_materials_diffuse_transmission", "material", &SCHEMA_DIFFUSE_TRANSMISSION},
     {"KHR_materials_unlit", "material", &SCHEMA_UNLIT},
-    {"KHR_materials_iridescence", "material", &SCHEMA_IRIDESCENCE},
-    {"KHR_materials_anisotropy", "material", &SCHEMA_ANISOTROPY},
-    {"KHR_materials_sheen", "material", &SCHEMA_SHEEN},
     {"KHR_texture_transform", "textureInfo", &SCHEMA_TEXTURE_TRANSFORM},
     {"KHR_node_visibility", "node", &SCHEMA_VISIBILITY},
     {"EXT_texture_webp", "texture", &SCHEMA_WEBP},
@@ -312,17 +241,21 @@ static const ExtensionRule EXTENSIONS[] = {
 const ExtensionRule *extension_rule(const char *name, const char *host, bool *is_known)
 {
     const ExtensionRule *found = NULL;
-    for (int i = 0; i < COUNT_OF(EXTENSIONS); i++) {
-        if (strcmp(EXTENSIONS[i].name, name) != 0) continue;
+    for (int i = 0; i < COUNT_OF(EXTENSIONS) + material_layer_count; i++) {
+        const ExtensionRule *rule = i < COUNT_OF(EXTENSIONS)
+                                        ? &EXTENSIONS[i]
+                                        : &material_layers[i - COUNT_OF(EXTENSIONS)].rule;
+        if (strcmp(rule->name, name) != 0) continue;
         *is_known = true;
-        if (!EXTENSIONS[i].host || strcmp(EXTENSIONS[i].host, host) == 0)
-            found = &EXTENSIONS[i];
+        if (!rule->host || strcmp(rule->host, host) == 0) found = rule;
     }
     return found;
 }
 
 bool extension_is_supported(const char *name)
 {
+    for (int i = 0; i < material_layer_count; i++)
+        if (strcmp(material_layers[i].rule.name, name) == 0) return true;
     for (int i = 0; i < COUNT_OF(EXTENSIONS); i++) {
         if (strcmp(EXTENSIONS[i].name, name) == 0) return true;
         if (strcmp(EXTENSIONS[i].name, "KHR_mesh_quantization") == 0) return false;

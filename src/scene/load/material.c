@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "scene/load/material.h"
 
+#include <stddef.h>
 #include <string.h>
 
 #include "base/mathd.h"
+#include "scene/check/material_layers.h"
 #include "scene/gltf/document.h"
 #include "scene/load/coating.h"
 #include "scene/optics/curve_file.h"
@@ -18,41 +20,63 @@ static bool any_positive(const float rgb[3])
     return rgb[0] > 0 || rgb[1] > 0 || rgb[2] > 0;
 }
 
+/* ---- layers ---------------------------------------------------------------------------- */
+
+/* The keys that an extension has not, or all where it is NULL, have their defaults. */
+static void read_keys(GltfFile *file, const GltfValue *extension, const Rule *key, void *out)
+{
+    for (; key->name; key++) {
+        void *at = (char *)out + key->field.at;
+        if (!key->field.is_kept) continue;
+        if (key->kind == RULE_OBJECT) {
+            *(TextureSlot *)at = texture_slot(file, tree_member(extension, key->name));
+        } else if (key->kind == RULE_NUMBERS) {
+            for (int i = 0; i < key->most; i++) ((float *)at)[i] = key->field.usual;
+            tree_floats(extension, key->name, key->most, at);
+        } else {
+            *(float *)at = tree_float(extension, key->name, key->field.usual);
+        }
+    }
+}
+
+/* value NULL: glTF's default material; then no file is needed. */
+static void read_layers(GltfFile *file, const GltfValue *value, Material *m)
+{
+    for (int i = 0; i < material_layer_count; i++) {
+        const MaterialLayer *layer = &material_layers[i];
+        const GltfValue     *own = tree_extension(value, layer->rule.name);
+        if (layer->size && !material_layer_shows(layer, own)) continue;
+        if (layer->size) {
+            void *made = arena_alloc(file->load->arena, layer->size, _Alignof(max_align_t), 1);
+            memcpy((char *)m + layer->at, &made, sizeof made);
+        }
+        read_keys(file, own, layer->rule.schema->rules, material_layer_struct(layer, m));
+    }
+}
+
 /* ---- core ------------------------------------------------------------------------------ */
 
 static Material default_material(const char *name)
 {
     TextureSlot none = texture_slot_none();
-    return (Material){.name = name,
-                      .base_color = {1, 1, 1, 1},
-                      .metallic = 1,
-                      .roughness = 1,
-                      .base_color_texture = none,
-                      .metallic_roughness_texture = none,
-                      .normal_texture = none,
-                      .emissive_texture = none,
-                      .specular_texture = none,
-                      .specular_color_texture = none,
-                      .transmission_texture = none,
-                      .diffuse_transmission_texture = none,
-                      .diffuse_transmission_color_texture = none,
-                      .diffuse_transmission_color = {1, 1, 1},
-                      .clearcoat_texture = none,
-                      .clearcoat_roughness_texture = none,
-                      .clearcoat_normal_texture = none,
-                      .normal_scale = {1, 1},
-                      .clearcoat_normal_scale = {1, 1},
-                      .alpha_cutoff = 0.5f,
-                      .ior = 1.5f,
-                      .specular = 1,
-                      .specular_color = {1, 1, 1},
-                      .attenuation_color = {1, 1, 1},
-                      .attenuation_distance_m = INFINITY,
-                      .display_id = NO_ID,
-                      .base_color_curve_id = NO_ID,
-                      .specular_curve_id = NO_ID,
-                      .transmission_curve_id = NO_ID,
-                      .emission_curve_id = NO_ID};
+    Material    m = {.name = name,
+                     .base_color = {1, 1, 1, 1},
+                     .metallic = 1,
+                     .roughness = 1,
+                     .base_color_texture = none,
+                     .metallic_roughness_texture = none,
+                     .normal_texture = none,
+                     .emissive_texture = none,
+                     .normal_scale = {1, 1},
+                     .clearcoat_normal_scale = {1, 1},
+                     .alpha_cutoff = 0.5f,
+                     .display_id = NO_ID,
+                     .base_color_curve_id = NO_ID,
+                     .specular_curve_id = NO_ID,
+                     .transmission_curve_id = NO_ID,
+                     .emission_curve_id = NO_ID};
+    read_layers(NULL, NULL, &m);
+    return m;
 }
 
 static AlphaMode alpha_mode(const char *text)
@@ -97,96 +121,20 @@ static void read_core(GltfFile *file, const GltfValue *value, Material *m)
 
 /* ---- extensions ------------------------------------------------------------------------ */
 
-static void read_clearcoat(GltfFile *file, const GltfValue *coat, Material *m)
-{
-    const GltfValue *normal = tree_member(coat, "clearcoatNormalTexture");
-    m->clearcoat = tree_float(coat, "clearcoatFactor", 0);
-    m->clearcoat_texture = texture_slot(file, tree_member(coat, "clearcoatTexture"));
-    m->clearcoat_roughness = tree_float(coat, "clearcoatRoughnessFactor", 0);
-    m->clearcoat_roughness_texture =
-        texture_slot(file, tree_member(coat, "clearcoatRoughnessTexture"));
-    m->clearcoat_normal_texture = texture_slot(file, normal);
-    m->clearcoat_normal_scale = normal_scale(file, normal);
-}
-
-static void read_diffuse_transmission(GltfFile *file, const GltfValue *across, Material *m)
-{
-    m->diffuse_transmission = tree_float(across, "diffuseTransmissionFactor", 0);
-    m->diffuse_transmission_texture =
-        texture_slot(file, tree_member(across, "diffuseTransmissionTexture"));
-    tree_floats(across, "diffuseTransmissionColorFactor", 3, m->diffuse_transmission_color);
-    m->diffuse_transmission_color_texture =
-        texture_slot(file, tree_member(across, "diffuseTransmissionColorTexture"));
-}
-
-static void read_anisotropy(GltfFile *file, const GltfValue *anisotropy, Material *m)
-{
-    float strength = tree_float(anisotropy, "anisotropyStrength", 0);
-    float turn = tree_float(anisotropy, "anisotropyRotation", 0);
-    if (!(strength > 0)) return;
-    m->brushing = ARENA_NEW(file->load->arena, Brushing, 1);
-    *m->brushing = (Brushing){
-        .strength = strength, .cosine = cos_of(turn), .sine = sin_of(turn),
-        .texture = texture_slot(file, tree_member(anisotropy, "anisotropyTexture"))};
-}
-
-static void read_iridescence(GltfFile *file, const GltfValue *film, Material *m)
-{
-    float share = tree_float(film, "iridescenceFactor", 0);
-    if (!(share > 0)) return;
-    m->iridescence = ARENA_NEW(file->load->arena, Iridescence, 1);
-    *m->iridescence = (Iridescence){
-        .share = share,
-        .ior = tree_float(film, "iridescenceIor", 1.3f),
-        .least_nm = tree_float(film, "iridescenceThicknessMinimum", 100),
-        .most_nm = tree_float(film, "iridescenceThicknessMaximum", 400),
-        .texture = texture_slot(file, tree_member(film, "iridescenceTexture")),
-        .thickness_texture =
-            texture_slot(file, tree_member(film, "iridescenceThicknessTexture"))};
-}
-
-static void read_sheen(GltfFile *file, const GltfValue *sheen, Material *m)
-{
-    SheenLayer layer = {.roughness = tree_float(sheen, "sheenRoughnessFactor", 0)};
-    tree_floats(sheen, "sheenColorFactor", 3, layer.color);
-    if (!any_positive(layer.color)) return;
-    layer.color_texture = texture_slot(file, tree_member(sheen, "sheenColorTexture"));
-    layer.roughness_texture = texture_slot(file, tree_member(sheen, "sheenRoughnessTexture"));
-    m->sheen = ARENA_NEW(file->load->arena, SheenLayer, 1);
-    *m->sheen = layer;
-}
-
-static void read_volume(const GltfValue *volume, Material *m)
-{
-    m->is_solid = tree_float(volume, "thicknessFactor", 0) > 0;
-    m->attenuation_distance_m = tree_float(volume, "attenuationDistance", INFINITY);
-    tree_floats(volume, "attenuationColor", 3, m->attenuation_color);
-}
-
 static void read_extensions(GltfFile *file, const GltfValue *value, Material *m)
 {
-    const GltfValue *specular = tree_extension(value, "KHR_materials_specular");
-    const GltfValue *transmission = tree_extension(value, "KHR_materials_transmission");
+    const GltfValue *coat = tree_extension(value, "KHR_materials_clearcoat");
+    const GltfValue *volume = tree_extension(value, "KHR_materials_volume");
     float strength = tree_float(tree_extension(value, "KHR_materials_emissive_strength"),
                                 "emissiveStrength", 1);
     for (int i = 0; i < 3; i++) m->emissive_cd_m2[i] *= strength;
     m->unlit = tree_extension(value, "KHR_materials_unlit") != NULL;
-    m->ior = tree_float(tree_extension(value, "KHR_materials_ior"), "ior", 1.5f);
-    m->specular = tree_float(specular, "specularFactor", 1);
-    tree_floats(specular, "specularColorFactor", 3, m->specular_color);
-    m->specular_texture = texture_slot(file, tree_member(specular, "specularTexture"));
-    m->specular_color_texture =
-        texture_slot(file, tree_member(specular, "specularColorTexture"));
-    m->transmission = tree_float(transmission, "transmissionFactor", 0);
-    m->transmission_texture =
-        texture_slot(file, tree_member(transmission, "transmissionTexture"));
-    read_diffuse_transmission(
-        file, tree_extension(value, "KHR_materials_diffuse_transmission"), m);
-    read_clearcoat(file, tree_extension(value, "KHR_materials_clearcoat"), m);
-    read_volume(tree_extension(value, "KHR_materials_volume"), m);
-    read_iridescence(file, tree_extension(value, "KHR_materials_iridescence"), m);
-    read_anisotropy(file, tree_extension(value, "KHR_materials_anisotropy"), m);
-    read_sheen(file, tree_extension(value, "KHR_materials_sheen"), m);
+    m->is_solid = tree_float(volume, "thicknessFactor", 0) > 0;
+    read_layers(file, value, m);
+    m->clearcoat_normal_scale = normal_scale(file, tree_member(coat, "clearcoatNormalTexture"));
+    if (!m->brushing) return;
+    m->brushing->cosine = cos_of(m->brushing->turn);
+    m->brushing->sine = sin_of(m->brushing->turn);
 }
 
 static int read_curve(GltfFile *file, const GltfValue *uri, CurveRange range)

@@ -20,7 +20,7 @@ static bool has_colour(const Material *m)
 
 static bool has_layer(const Material *m)
 {
-    return m->coating || m->sheen || m->iridescence || m->clearcoat > 0 ||
+    return m->coating || m->overlay || m->film || m->clearcoat > 0 ||
            m->specular_curve_id != NO_ID || m->specular_color_texture.texture_id != NO_ID ||
            !is_one(m->specular_color);
 }

@@ -4,8 +4,8 @@
  * A material that is left at glTF's defaults is perfectly white; nothing is, so it was not
  * described. One is taken as without data when its base colour is 1, 1, 1 without a texture
  * or a measured curve, and nothing else states what it does with light: it is no display,
- * glazing or coating, no conductor of measured constants; lets no light through; has no sheen,
- * iridescence, clearcoat or specular colour of its own; is no lamp and not unlit. That some
+ * glazing or coating, no conductor of measured constants; lets no light through; has no
+ * overlay, film, clearcoat or specular colour of its own; is no lamp and not unlit. That some
  * roughness or metalness was given alone does not count: exporters write both. Nor does a trace
  * of emission, below 0.25 cd m^-2.
  *

@@ -3,7 +3,9 @@
 
 #include <string.h>
 
+#include "base/count.h"
 #include "base/mathd.h"
+#include "scene/check/material_layers.h"
 #include "scene/gltf/document.h"
 #include "scene/load/image.h"
 
@@ -51,23 +53,30 @@ TextureSlot texture_slot(GltfFile *file, const GltfValue *info)
 
 /* ---- which uv sets does a material need? ----------------------------------------------- */
 
-#define MATERIAL_SLOTS 17
+#define MATERIAL_SLOTS_MAX 64 /* far more than there are */
 
-/* All slots of a material but a display's content; NULL: it has none such. */
-static void slots_of(Material *m, TextureSlot *slots[MATERIAL_SLOTS])
+/* Slots of the keys of a layer, from number `count` on; how many there are then. */
+static int slots_of_layer(const Rule *key, void *layer, TextureSlot **slots, int count)
 {
-    TextureSlot *all[] = {&m->base_color_texture, &m->metallic_roughness_texture,
-                          &m->normal_texture, &m->emissive_texture, &m->specular_texture,
-                          &m->specular_color_texture, &m->transmission_texture,
-                          &m->clearcoat_texture, &m->clearcoat_roughness_texture,
-                          &m->clearcoat_normal_texture, &m->diffuse_transmission_texture,
-                          &m->diffuse_transmission_color_texture,
-                          m->brushing ? &m->brushing->texture : NULL,
-                          m->iridescence ? &m->iridescence->texture : NULL,
-                          m->iridescence ? &m->iridescence->thickness_texture : NULL,
-                          m->sheen ? &m->sheen->color_texture : NULL,
-                          m->sheen ? &m->sheen->roughness_texture : NULL};
-    memcpy(slots, all, sizeof all);
+    for (; key->name; key++)
+        if (key->field.is_kept && key->kind == RULE_OBJECT && count < MATERIAL_SLOTS_MAX)
+            slots[count++] = (void *)((char *)layer + key->field.at);
+    return count;
+}
+
+/* All slots that a material has but a display's content; how many. */
+static int slots_of(Material *m, TextureSlot *slots[MATERIAL_SLOTS_MAX])
+{
+    TextureSlot *core[] = {&m->base_color_texture, &m->metallic_roughness_texture,
+                           &m->normal_texture, &m->emissive_texture};
+    int count = COUNT_OF(core);
+    memcpy(slots, core, sizeof core);
+    for (int i = 0; i < material_layer_count; i++) {
+        void *layer = material_layer_struct(&material_layers[i], m);
+        if (layer)
+            count = slots_of_layer(material_layers[i].rule.schema->rules, layer, slots, count);
+    }
+    return count;
 }
 
 /* Puts a set among the two; false when both are taken by others. */
@@ -97,12 +106,12 @@ static void order_sets(int sets[SCENE_UV_SETS])
 void texture_slots_place(GltfFile *file, const GltfValue *value, Material *material,
                          TextureSlot *content, int sets[SCENE_UV_SETS])
 {
-    TextureSlot *slots[MATERIAL_SLOTS + 1];
-    slots_of(material, slots);
-    slots[MATERIAL_SLOTS] = content;
+    TextureSlot *slots[MATERIAL_SLOTS_MAX + 1];
+    int          count = slots_of(material, slots);
+    if (content) slots[count++] = content;
     sets[0] = sets[1] = NO_ID;
-    for (int i = 0; i <= MATERIAL_SLOTS; i++) {
-        if (!slots[i] || slots[i]->texture_id == NO_ID) continue;
+    for (int i = 0; i < count; i++) {
+        if (slots[i]->texture_id == NO_ID) continue;
         if (!claim_set(sets, slots[i]->uv_set)) {
             file_error(file, value,
                        "the textures of \"%s\" use TEXCOORD_%d, _%d and _%d; at most "
@@ -112,20 +121,18 @@ void texture_slots_place(GltfFile *file, const GltfValue *value, Material *mater
         }
     }
     order_sets(sets);
-    for (int i = 0; i <= MATERIAL_SLOTS; i++)
-        if (slots[i]) slots[i]->uv_set = slots[i]->uv_set == sets[1];
+    for (int i = 0; i < count; i++) slots[i]->uv_set = slots[i]->uv_set == sets[1];
 }
 
 void texture_slots_used(const Loader *load, const Material *material,
                         bool uses_set[SCENE_UV_SETS])
 {
     Material copy = *material;
-    TextureSlot *slots[MATERIAL_SLOTS];
-    slots_of(&copy, slots);
+    TextureSlot *slots[MATERIAL_SLOTS_MAX];
+    int          count = slots_of(&copy, slots);
     uses_set[0] = true;
     uses_set[1] = false;
-    for (int i = 0; i < MATERIAL_SLOTS; i++)
-        uses_set[1] |= slots[i] && slots[i]->uv_set == 1;
+    for (int i = 0; i < count; i++) uses_set[1] |= slots[i]->uv_set == 1;
     if (material->display_id == NO_ID) return;
     const Display *display = list_item(&load->displays, material->display_id);
     uses_set[1] |= display->content.uv_set == 1;

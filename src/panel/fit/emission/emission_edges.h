@@ -9,8 +9,16 @@
 #include "panel/fit/common/direction_grid.h"
 #include "panel/fit/common/fit_options.h"
 #include "panel/fit/emission/emission_model.h"
-#include "panel/fit/emission/emission_peaks.h"
 #include "panel/query/panel_grid.h"
+#include "panel/shape/panel_profiles.h"
+
+typedef struct EmissionPeak {
+    double estimate;   /* what the panel may miss there, relative; 0: no sample stands out */
+    double missed;     /* the sample, by its neighbours */
+    double theta, phi;
+    double step;       /* to the next sample, radians of theta or of azimuth */
+    bool   is_azimuth; /* the neighbours are those on the ring */
+} EmissionPeak;
 
 typedef struct EmissionEdges {
     DirectionGrid  grid;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "scene/check/foreign_extensions.h"
+#include "scene/gltf/foreign_extensions.h"
 
 #include <stdio.h>
 #include <string.h>
