@@ -58,7 +58,7 @@ static const Node nodes[NODES] = {
 };
 
 /* Halvings between the picture and the smallest of its copies: sides are filled up to whole
- * multiples of COARSEST with zeros, as in training. */
+ * multiples of COARSEST. */
 enum { LEVELS = 4, COARSEST = 1 << LEVELS };
 
 bool network_read(const void *bytes, size_t size, const char *name, Arena *arena, Network *out,
@@ -200,15 +200,16 @@ static void allocate(Run *run, Arena *arena)
 
 /* ---- making them ------------------------------------------------------------------------- */
 
+/* Sides are filled up by the picture's last row and column. */
 static void fill_row(const Run *run, int y)
 {
     const NetworkPicture *picture = run->picture;
+    const int             last = picture->height - 1;
     float                *row = pixels_at(&run->rows[INPUT], y);
-    if (y < picture->height) {
-        picture->fill(picture->user, y, row);
-        return;
-    }
-    memset(row, 0, (size_t)run->rows[INPUT].width * NETWORK_STRIDE * sizeof *row);
+    picture->fill(picture->user, y < last ? y : last, row);
+    for (int x = picture->width; x < run->rows[INPUT].width; x++)
+        memcpy(row + (size_t)x * NETWORK_STRIDE, row + (size_t)(x - 1) * NETWORK_STRIDE,
+               NETWORK_STRIDE * sizeof *row);
 }
 
 static void convolve_row(const Run *run, int y, int group)

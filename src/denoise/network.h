@@ -28,8 +28,9 @@ enum { NETWORK_STRIDE = 16 }; /* numbers from one pixel of a row to the next, in
 typedef struct NetworkPicture {
     int   width, height;
     void *user;
-    /* Fills the first NETWORK_INPUTS numbers of each pixel of a row; called once for each row,
-     * by several threads. Numbers that are not finite spread over the picture. */
+    /* Fills the first NETWORK_INPUTS numbers of each pixel of a row; called by several
+     * threads, for the last row perhaps more than once. Numbers that are not finite spread over
+     * the picture. */
     void (*fill)(void *user, int y, float *row);
     /* Takes the first NETWORK_OUTPUTS numbers of each pixel: at least 0. */
     void (*take)(void *user, int y, const float *row);

@@ -199,8 +199,8 @@ static bool read_head(Bytes *bytes, Error *err)
     uint64_t table = take(bytes, 8);
     if (!check_end(bytes, "its head", err)) return false;
     if (magic != MAGIC)
-        return error_at(err, ERROR_INPUT, bytes->name, "", "begins with %#06x; required: %#06x, "
-                        "weights of Open Image Denoise (.tza)", magic, MAGIC);
+        return error_at(err, ERROR_INPUT, bytes->name, "", "begins with %#06x; required: "
+                        "%#06x, weights of Open Image Denoise (.tza)", magic, MAGIC);
     if (major != VERSION)
         return error_at(err, ERROR_INPUT, bytes->name, "", "version %u.%u; required: %d", major,
                         minor, VERSION);
