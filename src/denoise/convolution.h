@@ -3,7 +3,8 @@
  *
  *   out[o](x) = max(0, bias[o] + sum over ky, kx, i of weight[o][ky][kx][i] in[i](x + kx, ky))
  *
- * Built once for each instruction set, as the kernel is; every build adds in the order above,
+ * Built once for each instruction set, as the kernel is (the build gives the others names of
+ * their own: -Dconvolve=convolve_avx2); every one adds in the order above,
  * without fused operations, so that all of them compute the same bits.
  *
  * Layout   a pixel is its channels, one after the other, a multiple of CONVOLUTION_GROUP of
@@ -29,8 +30,8 @@ typedef struct ConvolutionRow {
 } ConvolutionRow;
 
 /* One group of outputs. */
-typedef void Convolve(const ConvolutionRow *row);
-Convolve convolve_base, convolve_avx2, convolve_avx512;
+void convolve(const ConvolutionRow *row);
 
-/* The fastest that this processor and program have. */
+/* The fastest build of it that this processor and program have. */
+typedef void Convolve(const ConvolutionRow *row);
 Convolve *convolution_choose(void);

@@ -214,7 +214,8 @@ static bool read_weights(Arena *arena, Network *out, Error *err)
     FileBytes bytes;
     return program_find(&part, path, err) &&
            file_read(path, WEIGHTS_BYTES_MAX, arena, &bytes, err) &&
-           network_read(bytes.data, bytes.size, path_name(path), arena, out, err);
+           network_read(&(WeightFile){bytes.data, bytes.size, path_name(path)}, arena, out,
+                        err);
 }
 
 /* ---- all of it --------------------------------------------------------------------------- */

@@ -61,8 +61,7 @@ static const Node nodes[NODES] = {
  * multiples of COARSEST. */
 enum { LEVELS = 4, COARSEST = 1 << LEVELS };
 
-bool network_read(const void *bytes, size_t size, const char *name, Arena *arena, Network *out,
-                  Error *err)
+bool network_read(const WeightFile *file, Arena *arena, Network *out, Error *err)
 {
     WeightShape shapes[NETWORK_CONVOLUTIONS];
     int         count = 0;
@@ -70,7 +69,7 @@ bool network_read(const void *bytes, size_t size, const char *name, Arena *arena
         if (nodes[n].kind == NODE_CONVOLVE)
             shapes[count++] =
                 (WeightShape){nodes[n].name, nodes[nodes[n].from].channels, nodes[n].channels};
-    return weights_read(bytes, size, name, shapes, count, arena, out->layers, err);
+    return weights_read(file, shapes, count, arena, out->layers, err);
 }
 
 /* ---- the rows of a node ------------------------------------------------------------------ */
@@ -84,7 +83,7 @@ typedef struct Rows {
     float *values;
 } Rows;
 
-typedef struct Run {
+typedef struct NetworkRun {
     const Network        *network;
     const NetworkPicture *picture;
     Convolve             *convolve;
@@ -93,7 +92,7 @@ typedef struct Run {
     const float          *nothing; /* a row of zeros, as long as the longest */
     int                   node;    /* that is being computed, */
     const Weights        *weights; /* its weights */
-} Run;
+} NetworkRun;
 
 /* A row from its pixel of zeros on. */
 static float *row_at(const Rows *rows, int y)
@@ -177,7 +176,7 @@ static int filled_up(int size, int unit)
     return (size + unit - 1) / unit * unit;
 }
 
-static void allocate(Run *run, Arena *arena)
+static void allocate(NetworkRun *run, Arena *arena)
 {
     size_t longest = 0;
     for (int n = 0; n < NODES; n++) {
@@ -201,7 +200,7 @@ static void allocate(Run *run, Arena *arena)
 /* ---- making them ------------------------------------------------------------------------- */
 
 /* Sides are filled up by the picture's last row and column. */
-static void fill_row(const Run *run, int y)
+static void fill_row(const NetworkRun *run, int y)
 {
     const NetworkPicture *picture = run->picture;
     const int             last = picture->height - 1;
@@ -212,7 +211,7 @@ static void fill_row(const Run *run, int y)
                NETWORK_STRIDE * sizeof *row);
 }
 
-static void convolve_row(const Run *run, int y, int group)
+static void convolve_row(const NetworkRun *run, int y, int group)
 {
     const Rows  *in = &run->rows[nodes[run->node].from], *out = &run->rows[run->node];
     const size_t first = (size_t)group * CONVOLUTION_GROUP;
@@ -228,7 +227,7 @@ static void convolve_row(const Run *run, int y, int group)
         .outputs = out->channels});
 }
 
-static void pool_row(const Run *run, int y)
+static void pool_row(const NetworkRun *run, int y)
 {
     const Rows  *in = &run->rows[nodes[run->node].from], *out = &run->rows[run->node];
     const float *upper = pixels_at(in, 2 * y), *lower = pixels_at(in, 2 * y + 1);
@@ -242,7 +241,7 @@ static void pool_row(const Run *run, int y)
         }
 }
 
-static void join_row(const Run *run, int y)
+static void join_row(const NetworkRun *run, int y)
 {
     const Rows  *coarse = &run->rows[nodes[run->node].from], *out = &run->rows[run->node];
     const Rows  *beside = &run->rows[nodes[run->node].beside];
@@ -257,7 +256,7 @@ static void join_row(const Run *run, int y)
 }
 
 /* Items are the rows of a step; of a convolution, a row for each group of outputs. */
-static int groups_of(const Run *run)
+static int groups_of(const NetworkRun *run)
 {
     return nodes[run->node].kind == NODE_CONVOLVE
                ? run->rows[run->node].channels / CONVOLUTION_GROUP
@@ -266,7 +265,7 @@ static int groups_of(const Run *run)
 
 static void make_item(void *context, int item, int worker)
 {
-    const Run *run = context;
+    const NetworkRun *run = context;
     const int  groups = groups_of(run), y = run->rows[run->node].begin + item / groups;
     (void)worker;
     switch (nodes[run->node].kind) {
@@ -279,7 +278,7 @@ static void make_item(void *context, int item, int worker)
 
 static void take_item(void *context, int item, int worker)
 {
-    const Run *run = context;
+    const NetworkRun *run = context;
     const int  y = run->rows[DEC0].begin + item;
     (void)worker;
     if (y < run->picture->height)
@@ -289,7 +288,7 @@ static void take_item(void *context, int item, int worker)
 void network_run(const Network *network, const NetworkPicture *picture, int threads,
                  Arena scratch)
 {
-    Run run = {.network = network, .picture = picture, .convolve = convolution_choose()};
+    NetworkRun run = {.network = network, .picture = picture, .convolve = convolution_choose()};
     allocate(&run, &scratch);
     while (plan_step(run.rows)) {
         run.weights = network->layers;

@@ -19,9 +19,7 @@ typedef struct Network {
     Weights layers[NETWORK_CONVOLUTIONS];
 } Network;
 
-/* name: of the file, for messages. */
-bool network_read(const void *bytes, size_t size, const char *name, Arena *arena, Network *out,
-                  Error *err);
+bool network_read(const WeightFile *file, Arena *arena, Network *out, Error *err);
 
 enum { NETWORK_STRIDE = 16 }; /* numbers from one pixel of a row to the next, in and out */
 

@@ -132,8 +132,9 @@ static int filled_up(int channels)
 }
 
 static bool read_numbers(const Bytes *bytes, const Tensor *tensor, const WeightShape *shape,
-                         int taps, Arena *arena, const float **out, Error *err)
+                         Arena *arena, const float **out, Error *err)
 {
+    const int taps = tensor->dimensions == DIMENSIONS_MAX ? 9 : 1;
     size_t inputs = taps == 9 ? (size_t)shape->inputs : 1;
     size_t room = taps == 9 ? (size_t)filled_up(shape->inputs) : 1, group = CONVOLUTION_GROUP;
     float *numbers = arena_alloc(arena, sizeof *numbers, 64,
@@ -178,7 +179,7 @@ static bool read_tensor(Bytes *bytes, const WeightShape *shapes, int count, Aren
     if (*numbers)
         return error_at(err, ERROR_INPUT, bytes->name, tensor.name, "stands there twice");
     return check_tensor(bytes, &tensor, is_bias ? "x" : "oihw", &shapes[s], err) &&
-           read_numbers(bytes, &tensor, &shapes[s], is_bias ? 1 : 9, arena, numbers, err);
+           read_numbers(bytes, &tensor, &shapes[s], arena, numbers, err);
 }
 
 static bool check_all(const Weights *all, const WeightShape *shapes, int count,
@@ -212,16 +213,16 @@ static bool read_head(Bytes *bytes, Error *err)
     return true;
 }
 
-bool weights_read(const void *data, size_t size, const char *name, const WeightShape *shapes,
-                  int count, Arena *arena, Weights *out, Error *err)
+bool weights_read(const WeightFile *file, const WeightShape *shapes, int count, Arena *arena,
+                  Weights *out, Error *err)
 {
-    Bytes    bytes = {.data = data, .size = size, .name = name};
+    Bytes    bytes = {.data = file->bytes, .size = file->size, .name = file->name};
     Weights *made = ARENA_NEW(arena, Weights, (size_t)count);
     if (!read_head(&bytes, err)) return false;
     for (uint64_t left = take(&bytes, 4); left > 0; left--)
         if (!read_tensor(&bytes, shapes, count, arena, made, err)) return false;
     if (!check_end(&bytes, "the table of tensors", err) ||
-        !check_all(made, shapes, count, name, err))
+        !check_all(made, shapes, count, file->name, err))
         return false;
     memcpy(out, made, (size_t)count * sizeof *out);
     return true;

@@ -26,6 +26,12 @@ typedef struct Weights {
     const float *biases;
 } Weights;
 
-/* out: as many as shapes. The file holds these and no other tensors. name is for messages. */
-bool weights_read(const void *bytes, size_t size, const char *name, const WeightShape *shapes,
-                  int count, Arena *arena, Weights *out, Error *err);
+typedef struct WeightFile {
+    const void *bytes;
+    size_t      size;
+    const char *name; /* for messages */
+} WeightFile;
+
+/* out: as many as shapes. The file holds these and no other tensors. */
+bool weights_read(const WeightFile *file, const WeightShape *shapes, int count, Arena *arena,
+                  Weights *out, Error *err);

@@ -188,7 +188,8 @@ static Network shipped_network(Arena *arena)
 {
     Network   network;
     FileBytes bytes = shipped_weights(arena);
-    assert_done(network_read(bytes.data, bytes.size, "w", arena, &network, &err));
+    WeightFile file = {bytes.data, bytes.size, "w"};
+    assert_done(network_read(&file, arena, &network, &err));
     return network;
 }
 
@@ -236,7 +237,7 @@ ARENA_TEST(instruction_sets_do_not_change_a_bit)
         out[k] = arena_alloc(&arena, sizeof **out, 64, (LONG + 1) * OUTPUTS);
         ConvolutionRow row = {rows, rows + ROW, rows + 2 * ROW, weights,
                               weights + 9 * INPUTS * 16, out[k] + 16, LONG, INPUTS, OUTPUTS};
-        if (k == 0) convolve_base(&row);
+        if (k == 0) convolve(&row);
         else convolution_choose()(&row);
     }
     assert_memory_equal(out[0], out[1], (LONG + 1) * OUTPUTS * sizeof **out);
@@ -249,7 +250,7 @@ ARENA_TEST(instruction_sets_do_not_change_a_bit)
 static bool network_of(const unsigned char *bytes, size_t size, Arena arena)
 {
     Network network;
-    return network_read(bytes, size, "w.tza", &arena, &network, &failure);
+    return network_read(&(WeightFile){bytes, size, "w.tza"}, &arena, &network, &failure);
 }
 
 /* Where the table begins: bytes 4 to 11. */
