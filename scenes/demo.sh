@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # demo.sh -- from a fresh checkout to a picture: installs what is missing, builds, renders the
-# dashboard at noon and develops it. SIZE, SPP and NOISE in the environment change the render.
+# dashboard at noon, a denoised first look and then the frame, and develops it. SIZE, SPP and
+# NOISE in the environment change the render.
 set -eu
 cd "$(dirname "$0")/.."
 size=${SIZE:-1280x720} spp=${SPP:-1024} noise=${NOISE:-0.05}
@@ -18,6 +19,11 @@ mkdir -p $out
     say "demo.sh: the build failed; the whole log is $out/build.log"
     exit 1
 }
+
+say "rendering a first look of 4 samples a pixel, denoised"
+.build/release/parhelion render scenes/car_dashboard.gltf scenes/noon.gltf \
+    --size "$size" --preview -o $out/preview.exr --png $out/preview.png --quiet
+say "A first look, for looking and not for figures: $PWD/$out/preview.png"
 
 say "rendering $size until the relative error is $noise, at most $spp samples a pixel"
 .build/release/parhelion render scenes/car_dashboard.gltf scenes/noon.gltf \

@@ -219,6 +219,25 @@ TEST(render_makes_a_denoised_picture_at_once)
     assert_non_null(strstr(o.err, "a look is asked for, but no picture"));
 }
 
+TEST(a_preview_is_four_samples_denoised)
+{
+    Outcome o;
+    RUN_AS(0, &o, "render", "scene.gltf", "-o", "a.exr", "--size", "8x6", "--png", "a.png",
+           "--preview");
+    assert_non_null(strstr(o.out, ", denoised ("));
+    assert_non_null(strstr(o.out, "8x6, 4 samples a pixel"));
+    RUN_AS(0, &o, "render", "scene.gltf", "-o", "a.exr", "--size", "8x6", "--png", "a.png",
+           "--preview", "--spp", "2");
+    assert_non_null(strstr(o.out, "8x6, 2 samples a pixel"));
+    RUN_AS(2, &o, "render", "scene.gltf", "-o", "a.exr", "--png", "a.png", "--preview",
+           "--noise", "0.1");
+    assert_non_null(strstr(o.err, "--preview and --noise exclude each other"));
+    RUN_AS(2, &o, "render", "scene.gltf", "-o", "a.exr", "--png", "a.png", "--preview",
+           "--samples", "0:4");
+    RUN_AS(2, &o, "render", "scene.gltf", "-o", "a.exr", "--preview");
+    assert_non_null(strstr(o.err, "add --png FILE"));
+}
+
 TEST(an_output_that_cannot_be_written_is_status_4_at_once)
 {
     Outcome o;

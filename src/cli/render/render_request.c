@@ -24,7 +24,7 @@ typedef struct RenderWords {
     double      crop[4], replay[3];
     SceneWords  scene;
     PolarisedWords polarised;
-    bool        has_spp, has_size, has_crop, has_replay, has_interval, has_split;
+    bool        has_spp, has_size, has_crop, has_replay, has_interval, has_split, previews;
 } RenderWords;
 
 /* ---- layers ------------------------------------------------------------------------------ */
@@ -253,6 +253,21 @@ static bool read_favoured(const char *text, RenderRequest *request, Error *err)
            frame_area_parse(text, "", &request->favoured, err);
 }
 
+enum { PREVIEW_SAMPLES = 4 };
+
+/* A picture for looking at: few samples, denoised. */
+static bool set_preview(const RenderWords *typed, RenderRequest *request, Error *err)
+{
+    const char *other = typed->noise ? "--noise" : typed->samples ? "--samples" : NULL;
+    if (other)
+        return error_set(err, ERROR_USAGE, "--preview and %s exclude each other: a preview is "
+                         "a denoised picture of %d samples, or of --spp N", other,
+                         PREVIEW_SAMPLES);
+    request->look.is_denoised = true;
+    if (!typed->has_spp) request->render.end_sample = PREVIEW_SAMPLES;
+    return true;
+}
+
 static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *request,
                          Error *err)
 {
@@ -261,6 +276,7 @@ static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *
     options->height = typed->size[1];
     options->crop = (FilmRect){0, 0, options->width, options->height};
     options->end_sample = (uint32_t)typed->spp;
+    if (typed->previews && !set_preview(typed, request, err)) return false;
     options->max_bounces = (int)typed->max_bounces;
     options->seed = (uint32_t)typed->seed;
     if (!guiding_options_check(options, err)) return false;
@@ -368,6 +384,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
          .given = &typed->has_size},
         {"--spp", OPTION_INTEGER, "N", "samples a pixel, at most (default 256)", &typed->spp,
          .low = 1, .high = FILM_SAMPLES_MAX, .given = &typed->has_spp},
+        {"--preview", OPTION_FLAG, NULL, "for looking: --denoise, 4 samples", &typed->previews},
         {"--noise", OPTION_TEXT, "[AREA:]R",
          "as many samples as leave this relative error in the frame, or in an AREA: display, "
          "display:NAME or X0,Y0,X1,Y1; other samples, of some pixels, decide how many",
