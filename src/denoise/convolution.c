@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "denoise/convolution.h"
 
+#include <stdbool.h>
+
 /* As many sums as the registers hold besides the weights: the compiler keeps them there. */
 #if defined(__AVX512F__)
 enum { LANES = 16, PIXELS = 12 };
@@ -46,24 +48,26 @@ void convolve(const ConvolutionRow *row)
     for (int x = 0; x < row->width; x += PIXELS) convolve_pixels(row, x);
 }
 
-/* ---- which one, by the build for every processor ---------------------------------------- */
+/* ---- the builds, named by the one for every processor ------------------------------------- */
 
 #ifndef convolve
 #ifdef PARHELION_KERNELS
 Convolve convolve_avx2, convolve_avx512;
 #endif
 
-Convolve *convolution_choose(void)
+int convolution_builds(Convolve *out[CONVOLUTION_BUILDS])
 {
+    int count = 0;
 #ifdef PARHELION_KERNELS
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+    const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                          __builtin_cpu_supports("bmi2");
+    if (has_avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
         __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
         __builtin_cpu_supports("avx512cd"))
-        return convolve_avx512;
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-        __builtin_cpu_supports("bmi2"))
-        return convolve_avx2;
+        out[count++] = convolve_avx512;
+    if (has_avx2) out[count++] = convolve_avx2;
 #endif
-    return convolve;
+    out[count++] = convolve;
+    return count;
 }
 #endif

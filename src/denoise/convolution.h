@@ -32,6 +32,9 @@ typedef struct ConvolutionRow {
 /* One group of outputs. */
 void convolve(const ConvolutionRow *row);
 
-/* The fastest build of it that this processor and program have. */
 typedef void Convolve(const ConvolutionRow *row);
-Convolve *convolution_choose(void);
+
+/* The builds of it that this processor and program have, the fastest one first; returns how
+ * many. */
+enum { CONVOLUTION_BUILDS = 3 };
+int convolution_builds(Convolve *out[CONVOLUTION_BUILDS]);

@@ -203,19 +203,18 @@ static float exposure_of(const Filtering *work)
 
 /* ---- the weights ------------------------------------------------------------------------- */
 
+#define WEIGHTS "assets/denoise/rt_hdr_alb_nrm.tza"
 enum { WEIGHTS_BYTES_MAX = 64 << 20 };
 
 static bool read_weights(Arena *arena, Network *out, Error *err)
 {
-    static const ProgramPart part = {"the denoiser's weights",
-                                     "../../assets/denoise/rt_hdr_alb_nrm.tza",
-                                     INSTALLED_SHARE "/denoise/rt_hdr_alb_nrm.tza"};
+    static const ProgramPart part = {"the denoiser's file of weights",
+                                     "../../" WEIGHTS, INSTALLED_SHARE "/" WEIGHTS};
     char      path[PATH_MAX];
     FileBytes bytes;
-    return program_find(&part, path, err) &&
-           file_read(path, WEIGHTS_BYTES_MAX, arena, &bytes, err) &&
-           network_read(&(WeightFile){bytes.data, bytes.size, path_name(path)}, arena, out,
-                        err);
+    if (!program_find(&part, path, err)) return error_in_file(err, path_name(WEIGHTS));
+    return file_read(path, WEIGHTS_BYTES_MAX, arena, &bytes, err) &&
+           network_read(&(WeightFile){bytes.data, bytes.size, path}, arena, out, err);
 }
 
 /* ---- all of it --------------------------------------------------------------------------- */

@@ -5,7 +5,8 @@
  * describes the method and what it cannot do.
  *
  * Units    cd m^-2.
- * Memory   the new frame comes from the arena; scratch of 60 KB for each pixel of the width.
+ * Memory   the new frame comes from the arena; scratch of some 150 KB for each pixel of the
+ *          width.
  * Threads  as many as requested; the same bits for any number.
  * Fails    when the frame lacks a layer that is required (DENOISE_LAYERS), and when the weights
  *          are not there or damaged.

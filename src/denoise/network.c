@@ -84,13 +84,11 @@ typedef struct Rows {
 } Rows;
 
 typedef struct NetworkRun {
-    const Network        *network;
     const NetworkPicture *picture;
     Convolve             *convolve;
-    int                   threads;
     Rows                  rows[NODES];
     const float          *nothing; /* a row of zeros, as long as the longest */
-    int                   node;    /* that is being computed, */
+    int                   node;    /* that is being computed */
     const Weights        *weights; /* its weights */
 } NetworkRun;
 
@@ -288,7 +286,10 @@ static void take_item(void *context, int item, int worker)
 void network_run(const Network *network, const NetworkPicture *picture, int threads,
                  Arena scratch)
 {
-    NetworkRun run = {.network = network, .picture = picture, .convolve = convolution_choose()};
+    Convolve  *builds[CONVOLUTION_BUILDS];
+    NetworkRun run = {.picture = picture};
+    convolution_builds(builds);
+    run.convolve = builds[0];
     allocate(&run, &scratch);
     while (plan_step(run.rows)) {
         run.weights = network->layers;

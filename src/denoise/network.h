@@ -4,7 +4,7 @@
  * A U-Net of 3x3 convolutions (README.md has its table): 9 numbers a pixel in, 3 out. It runs
  * through the picture from top to bottom, and every step of it keeps only the rows that a later
  * one still needs. So there are no tiles and no seams, and the memory grows with the width
- * alone: some 60 KB for each pixel of it.
+ * alone: 132 KB for each of 1,280 pixels, 149 KB for each of 4,096.
  *
  * Threads  as many as requested; the same bits for any number.
  * Memory   of the rows: scratch.

@@ -207,8 +207,8 @@ static bool read_head(Bytes *bytes, Error *err)
                         minor, VERSION);
     if (table < bytes->at || table > bytes->size)
         return error_at(err, ERROR_INPUT, bytes->name, "",
-                        "its table is at byte %llu; required: %zu to %zu",
-                        (unsigned long long)table, bytes->at, bytes->size);
+                        "its table is at byte %llu, the file ends at byte %zu",
+                        (unsigned long long)table, bytes->size);
     bytes->at = (size_t)table;
     return true;
 }

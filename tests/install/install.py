@@ -53,9 +53,10 @@ def check_render(report, prefix, folder):
     frame, picture = os.path.join(folder, "a.exr"), os.path.join(folder, "a.png")
     done = run(*without_sources([
         program, "render", f"{scenes}/car_dashboard.gltf", f"{scenes}/noon.gltf", "--size",
-        "32x18", "--spp", "1", "-o", frame, "--png", picture, "--quiet"]))
+        "32x18", "--preview", "-o", frame, "--png", picture, "--quiet"]))
     report.claim(done.returncode == 0 and not done.stderr, f"render: {done.stderr}")
     report.claim(os.path.exists(frame) and os.path.exists(picture), "no frame or picture")
+    report.claim("denoised" in done.stdout, f"a preview that is not denoised: {done.stdout}")
     for scene in sorted(glob.glob(f"{scenes}/*.gltf")):
         done = run(program, "check", scene)
         report.claim("no such file" not in done.stdout + done.stderr, f"{scene}: {done.stdout}")

@@ -222,25 +222,27 @@ ARENA_TEST(threads_do_not_change_a_bit)
         assert_memory_equal(run(&network, &in, 80, 128, threads, &arena), one, 80 * 128 * 12);
 }
 
-/* The fastest build of the convolution against the one for every processor. */
+/* Every build of the convolution that this processor has, against the one for all of them. */
 ARENA_TEST(instruction_sets_do_not_change_a_bit)
 {
     enum { INPUTS = 48, OUTPUTS = 32, LONG = 45 };
     enum { ROW = (LONG + 2 + CONVOLUTION_SLACK) * INPUTS };
-    float   *rows = arena_alloc(&arena, sizeof *rows, 64, 3 * ROW);
-    float   *weights = arena_alloc(&arena, sizeof *weights, 64, 9 * INPUTS * 16 + 16);
-    float   *out[2];
-    uint32_t random = 8;
+    float    *rows = arena_alloc(&arena, sizeof *rows, 64, 3 * ROW);
+    float    *weights = arena_alloc(&arena, sizeof *weights, 64, 9 * INPUTS * 16 + 16);
+    float    *out[CONVOLUTION_BUILDS];
+    Convolve *builds[CONVOLUTION_BUILDS];
+    int       count = convolution_builds(builds);
+    uint32_t  random = 8;
+    assert_ptr_equal(builds[count - 1], convolve);
     for (int i = 0; i < 3 * ROW; i++) rows[i] = (float)uniform(&random);
     for (int i = 0; i < 9 * INPUTS * 16 + 16; i++) weights[i] = (float)uniform(&random) - 0.5f;
-    for (int k = 0; k < 2; k++) {
+    for (int k = count - 1; k >= 0; k--) {
         out[k] = arena_alloc(&arena, sizeof **out, 64, (LONG + 1) * OUTPUTS);
         ConvolutionRow row = {rows, rows + ROW, rows + 2 * ROW, weights,
                               weights + 9 * INPUTS * 16, out[k] + 16, LONG, INPUTS, OUTPUTS};
-        if (k == 0) convolve(&row);
-        else convolution_choose()(&row);
+        builds[k](&row);
+        assert_memory_equal(out[k], out[count - 1], (LONG + 1) * OUTPUTS * sizeof **out);
     }
-    assert_memory_equal(out[0], out[1], (LONG + 1) * OUTPUTS * sizeof **out);
     for (int i = 0; i < 16; i++) /* the other group and what lies behind the row */
         assert_true(out[0][i] == 0 && out[0][LONG * OUTPUTS + i] == 0);
 }
