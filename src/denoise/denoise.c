@@ -15,6 +15,7 @@ typedef struct Layers {
     const float *light[3], *normal[3], *albedo[3], *emitted[3];
     const float *coverage[3]; /* one */
     const float *fine[3];     /* NULL without that layer */
+    const float *lamps[3];    /* NULL without `emitted` */
 } Layers;
 
 typedef struct LayerRow {
@@ -32,6 +33,7 @@ static const LayerRow layer_rows[] = {
     {"display.coverage", {"display.coverage"}, offsetof(Layers, coverage), false},
     {"display.fine", {"display.fine.R", "display.fine.G", "display.fine.B"},
      offsetof(Layers, fine), true},
+    {"emitted", {"emitted.R", "emitted.G", "emitted.B"}, offsetof(Layers, lamps), true},
 };
 
 enum { LAYER_ROWS = sizeof layer_rows / sizeof *layer_rows };
@@ -73,12 +75,26 @@ static float luminance_of(const float rgb[3])
     return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
 }
 
-/* What the pixel's own samples saw of what displays emit: not filtered. */
-static void own_light(const Layers *layers, size_t i, float out[3])
+/* What the pixel's own samples saw of what displays emit. */
+static void display_light(const Layers *layers, size_t i, float out[3])
 {
     const float coverage = layers->coverage[0][i];
     const bool  shows = coverage > 0 && are_finite(layers->emitted, i);
     for (int c = 0; c < 3; c++) out[c] = shows ? layers->emitted[c][i] * coverage : 0;
+}
+
+/* And of what lamps do. */
+static void add_lamps(const Layers *layers, size_t i, float out[3])
+{
+    if (!layers->lamps[0] || !are_finite(layers->lamps, i)) return;
+    for (int c = 0; c < 3; c++) out[c] += layers->lamps[c][i];
+}
+
+/* What sources send to the eye themselves: not filtered. */
+static void own_light(const Layers *layers, size_t i, float out[3])
+{
+    display_light(layers, i, out);
+    add_lamps(layers, i, out);
 }
 
 /* The rest, which is filtered; nothing where a pixel is not finite. */
@@ -90,14 +106,15 @@ static void other_light(const Layers *layers, size_t i, float out[3])
         out[c] = are_finite(layers->light, i) ? fmaxf(layers->light[c][i] - own[c], 0) : 0;
 }
 
-/* What is put back: the mean emission by more camera rays than the pixel's samples, where the
- * frame has it. */
+/* What is put back: of displays the mean emission by more camera rays than the pixel's
+ * samples, where the frame has it. */
 static void shown_light(const Layers *layers, size_t i, float out[3])
 {
-    own_light(layers, i, out);
-    if (!layers->fine[0] || !(layers->coverage[0][i] > 0) || !are_finite(layers->fine, i))
-        return;
-    for (int c = 0; c < 3; c++) out[c] = layers->fine[c][i];
+    const bool has_fine = layers->fine[0] && layers->coverage[0][i] > 0;
+    display_light(layers, i, out);
+    for (int c = 0; c < 3 && has_fine && are_finite(layers->fine, i); c++)
+        out[c] = layers->fine[c][i];
+    add_lamps(layers, i, out);
 }
 
 /* ---- the picture that the network sees --------------------------------------------------- */

@@ -14,9 +14,10 @@
 #pragma once
 #include "image/frame.h"
 
-/* The layers that it goes by, as --layers names them. The last one may be missing: what
- * displays show is then as noisy as the frame's samples have it. */
-#define DENOISE_LAYERS "normal,albedo,display.emitted,display.fine"
+/* The layers that it goes by, as --layers names them. The last two may be missing: what
+ * displays show is then as noisy as the frame's samples have it, and lamps that are seen are
+ * filtered, by which small ones lose light. */
+#define DENOISE_LAYERS "normal,albedo,display.emitted,display.fine,emitted"
 
 typedef struct DenoiseReport {
     double energy_ratio; /* luminance of the filtered frame by that of the frame, summed up;

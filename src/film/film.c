@@ -288,6 +288,8 @@ void film_add_sample(Film *film, int x, int y, const FilmSample *sample)
     }
     if (film->first[SUMS_STOKES] >= 0 && in_range(sample->stokes, 3))
         add_layer(film, sums, SUMS_STOKES, sample->stokes);
+    if (film->first[SUMS_SOURCES] >= 0 && in_range(sample->sources, 3))
+        add_layer(film, sums, SUMS_SOURCES, sample->sources);
     if (sample->light_count && film->lights.count) add_lights(film, sums, sample);
     if (sample->hit) add_features(film, sums, sample);
 }

@@ -303,6 +303,15 @@ static void read_stokes(const Film *film, const PixelSums *sums, float v[3])
     if (!sums->samples) v[0] = v[1] = v[2] = 0;
 }
 
+/* A mean over all samples, also those that saw no light source. */
+static void read_emitted(const Film *film, const PixelSums *sums, float v[3])
+{
+    float xyz[3];
+    mean_of(sums->layers + film->first[SUMS_SOURCES], 3, sums->samples, xyz);
+    rgb_from_xyz(xyz, v);
+    if (!sums->samples) v[0] = v[1] = v[2] = 0;
+}
+
 /* Noise raises it: S1, S2 and S3 are squared. */
 static void read_degree(const Film *film, const PixelSums *sums, float v[3])
 {

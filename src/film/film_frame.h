@@ -30,6 +30,8 @@
  *       pixel's samples that saw it and its id; elsewhere NaN, NaN, 0 and -1, and NaN, NaN, 0
  *       and -2 where there are several others. All other layers of such a pixel are of its
  *       displays together;
+ *   emitted   mean over all samples of what surfaces other than displays send to the eye
+ *       themselves: lamps, lit signs;
  *   stokes.S0 .. S3   mean over all samples of the luminance and of its other Stokes
  *       parameters, in the camera's axes (path/polarised.h): S1 > 0 horizontal; stokes.degree
  *       is the polarised share of these means, NaN where it is dark;

@@ -20,7 +20,7 @@
  *            shared.{1,2,3,X,Y,Z,R,r,G,g,B,b}  powers of displays' ids, in ones; id times XYZ
  *                                            and squares, of which those below the split in
  *                                            steps of 2^-45
- *            stokes.{1,2,3}                  of the samples
+ *            stokes.{1,2,3}, sources.{X,Y,Z} of the samples
  *            light.N.{X,Y,Z}                 group N of lights
  *          and words that are one channel each: samples, hits, displayHits, odd.samples, the
  *          lowest sample index that hit a part, or saw a display, and which (4294967295: none):

@@ -39,6 +39,8 @@ typedef struct FilmSample {
     float theta, phi;      /* radians, display frame, phi in [0, 2 pi) */
     float fine[3];         /* XYZ, cd m^-2: what displays send to the whole pixel, from more
                               camera rays than this one; 0 where those see none */
+    float sources[3];      /* XYZ, cd m^-2: what the first surface sends itself, if it is no
+                              display; else 0 */
     const FilmLight *lights; /* what makes up xyz, but for rounding: no group twice */
     int   light_count;       /* of lights; a group without an entry gave nothing */
 } FilmSample;

@@ -41,7 +41,8 @@
     LAYER(DISPLAY_HALVES, 22, DISPLAY, "display.halves", "RGB", display_halves, COUNT)         \
     LAYER(LIGHT, 21, FRAME, "light", "", mean, COUNT)                                          \
     LAYER(STOKES, 23, FRAME, "stokes", "", mean, COUNT)                                        \
-    LAYER(ROUNDED, 26, FRAME, "rounded", "", mean, COUNT)
+    LAYER(ROUNDED, 26, FRAME, "rounded", "", mean, COUNT)                                      \
+    LAYER(EMITTED, 28, FRAME, "emitted", "RGB", emitted, COUNT)
 
 /* SUMS(NAME, name, letters, users, member): sums with one number a letter.
  *   name, letters  in a part of a frame
@@ -78,7 +79,8 @@
        from these and the sums of both */                                                      \
     SUMS(SHARED, "shared", "123XYZRrGgBb", LAYER_DISPLAY_SECOND, OWN)                          \
     /* of all samples */                                                                       \
-    SUMS(STOKES, "stokes", "123", LAYER_STOKES, OWN)
+    SUMS(STOKES, "stokes", "123", LAYER_STOKES, OWN)                                           \
+    SUMS(SOURCES, "sources", "XYZ", LAYER_EMITTED, OWN)
 
 #define LAYER_BIT(NAME, bit, of, option, letters, reader, sums) LAYER_##NAME = 1 << (bit),
 #define LAYER_OR(NAME, bit, of, option, letters, reader, sums) | LAYER_##NAME

@@ -99,10 +99,29 @@ static bool find_exposure(const LayerView *view, const char *exposure, Arena scr
     return true;
 }
 
-static void adapt(LayerView *view, double grey, Arena *arena)
+/* 0 to 1: how far a picture is adapted. */
+static float adapt_share(const LayerView *view, const DevelopOptions *options, double grey,
+                         Arena scratch)
+{
+    ExposureRequest exposure;
+    Error           unused;
+    if (options->adapt != DEVELOP_ADAPT_AUTO)
+        return options->adapt == DEVELOP_ADAPT_LOCAL ? 1 : 0;
+    if (options->exposure && (!exposure_parse(options->exposure, &exposure, &unused) ||
+                              exposure.kind != EXPOSURE_AUTO))
+        return 0;
+    size_t       count = (size_t)view->width * (size_t)view->height;
+    const float *luminance = layer_view_luminance(view, &scratch);
+    double       stops = exposure_bright_stops(luminance, count, grey, scratch);
+    return (float)fmin(fmax(stops - ADAPT_FROM_STOPS, 0), 1);
+}
+
+static void adapt(LayerView *view, double grey, float share, Arena *arena)
 {
     const float *luminance = layer_view_luminance(view, arena);
-    const float *gains = adapt_gains(luminance, view->width, view->height, (float)grey, arena);
+    float       *gains = adapt_gains(luminance, view->width, view->height, (float)grey, arena);
+    for (size_t i = 0; share < 1 && i < (size_t)view->width * (size_t)view->height; i++)
+        gains[i] = pow_f(gains[i], share);
     for (int c = 0; c < 3; c++) {
         size_t count = (size_t)view->width * (size_t)view->height;
         float *plane = ARENA_NEW(arena, float, count);
@@ -117,9 +136,10 @@ static bool develop_light(LayerView *view, const DevelopOptions *options, Arena 
     if (!find_exposure(view, options->exposure, *arena, &report->grey_cd_m2, err)) return false;
     report->ev = exposure_ev_of_grey(report->grey_cd_m2);
     report->is_developed = true;
-    report->is_adapted = options->adapt == DEVELOP_ADAPT_LOCAL;
+    float share = adapt_share(view, options, report->grey_cd_m2, *arena);
+    report->is_adapted = share > 0;
     report->is_denoised = options->is_denoised;
-    if (report->is_adapted) adapt(view, report->grey_cd_m2, arena);
+    if (report->is_adapted) adapt(view, report->grey_cd_m2, share, arena);
     float scale = (float)(MIDDLE_GREY / report->grey_cd_m2);
     *out = exposed(view, scale, &report->nonfinite_pixels, arena);
     return apply_view(out, options, report, err);
@@ -143,7 +163,7 @@ static bool set_range(const DevelopOptions *options, LayerView *view, Error *err
 /* Local adaptation changes luminances: false colours and other layers exclude it. */
 static bool check_adapt(const DevelopOptions *options, const LayerView *view, Error *err)
 {
-    if (options->adapt == DEVELOP_ADAPT_NONE) return true;
+    if (options->adapt != DEVELOP_ADAPT_LOCAL) return true;
     if (options->false_colour)
         return error_set(err, ERROR_USAGE, "--adapt local and --false-colour exclude each "
                          "other: colours that stand for figures show the frame as it is");

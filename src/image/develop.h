@@ -11,7 +11,11 @@
 #include "image/frame.h"
 #include "image/picture.h"
 
-enum { DEVELOP_ADAPT_NONE, DEVELOP_ADAPT_LOCAL };
+/* AUTO: with the exposure that is found by itself, the more the further the bright part of the
+ * picture lies above middle grey: not at all up to ADAPT_FROM_STOPS, in full from one stop more
+ * on (exposure_bright_stops). */
+enum { DEVELOP_ADAPT_AUTO, DEVELOP_ADAPT_NONE, DEVELOP_ADAPT_LOCAL };
+#define ADAPT_FROM_STOPS 2.5
 
 /* {0} is the default. */
 typedef struct DevelopOptions {
@@ -23,7 +27,7 @@ typedef struct DevelopOptions {
     const char *layer;    /* NULL: R, G, B of the frame itself */
     bool        false_colour; /* luminance on a logarithmic scale */
     double      range[2];     /* of false colours; both 0: what fits the frame */
-    int         adapt;    /* DEVELOP_ADAPT_NONE or _LOCAL: adapt.h */
+    int         adapt;    /* DEVELOP_ADAPT_AUTO, _NONE or _LOCAL: adapt.h */
     bool        is_denoised; /* the frame is a filtered one: noted with the picture */
     const char *eye;         /* as whose eye sees the frame, in words: noted as well */
     int         bits;     /* 0 or 8, or 16 */
@@ -35,7 +39,7 @@ typedef struct DevelopReport {
     bool   is_developed;  /* by a view transform; false for data shown as it is */
     double grey_cd_m2;    /* what became middle grey; 0 when not developed */
     double ev;            /* the same as an exposure value */
-    bool   is_adapted, is_denoised; /* as requested: a look, of which no figure may be taken */
+    bool   is_adapted, is_denoised; /* a look, of which no figure may be taken */
     char   eye[128];      /* as requested; else "" */
     char   config[1024], display[128], view[128]; /* "" when not developed */
     long   nonfinite_pixels; /* of light: NaN is shown black, infinity white */

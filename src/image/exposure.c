@@ -10,7 +10,10 @@
 #define KEY_LOW 0.05
 #define KEY_HIGH 0.60
 #define KEY_SHOWN_AT 0.12
+#define NIGHT_RATIO 1.5
+#define NIGHT_CD_M2 2.0
 #define GUARD_PERCENTILE 0.99
+#define BRIGHT_PERCENTILE 0.90
 #define GUARD_RATIO 16.0
 #define GUARD_NIGHT_CD_M2 300.0
 
@@ -88,12 +91,19 @@ static double mean_log2(const Histogram *h, double low, double high)
     return sum / weight;
 }
 
+static double percentile(const Histogram *h, double at)
+{
+    return exp2(mean_log2(h, at - 0.005, at + 0.005));
+}
+
 /* The luminance that becomes middle grey by `auto`, made for a cabin with the day outside:
  *
  *   key   the geometric mean of the darker pixels: those between the 5th and the 60th
  *         percentile of all that are above zero. The view through the windows is brighter
  *         than the cabin by orders of magnitude and does not count.
- *   shown at 0.12 rather than 0.18 (trim is dark, and should look it): grey = key * 0.18/0.12.
+ *   shown at 0.12 rather than 0.18 (trim is dark, and should look it): grey = key * 0.18/0.12;
+ *   night a street under lamps should not look like one by day: grey is at least p90 / 1.5, of
+ *         a p90 up to 2 cd/m2. Chosen by eye, on the car at night;
  *   guard at night the key is close to nothing and the displays would burn out: grey is at
  *         least p99 / G with G = 16 max(1, sqrt(p99 / 300 cd/m2)); the 99th percentile stays
  *         within four stops above middle grey at night, six to seven by day.
@@ -104,9 +114,18 @@ static double auto_grey(const float *luminance_cd_m2, size_t count, Arena scratc
     const Histogram *h = histogram_of(luminance_cd_m2, count, &scratch);
     if (h->total == 0) return 1;
     double key = exp2(mean_log2(h, KEY_LOW, KEY_HIGH));
-    double bright = exp2(mean_log2(h, GUARD_PERCENTILE - 0.005, GUARD_PERCENTILE + 0.005));
+    double bright = percentile(h, GUARD_PERCENTILE);
     double ratio = GUARD_RATIO * fmax(1, sqrt(bright / GUARD_NIGHT_CD_M2));
-    return fmax(key * (MIDDLE_GREY / KEY_SHOWN_AT), bright / ratio);
+    double night = fmin(percentile(h, BRIGHT_PERCENTILE), NIGHT_CD_M2) / NIGHT_RATIO;
+    return fmax(key * (MIDDLE_GREY / KEY_SHOWN_AT), fmax(bright / ratio, night));
+}
+
+double exposure_bright_stops(const float *luminance_cd_m2, size_t count, double grey_cd_m2,
+                             Arena scratch)
+{
+    const Histogram *h = histogram_of(luminance_cd_m2, count, &scratch);
+    if (h->total == 0) return 0;
+    return log2(percentile(h, BRIGHT_PERCENTILE) / grey_cd_m2);
 }
 
 double exposure_grey(ExposureRequest request, const float *luminance_cd_m2, size_t count,

@@ -34,3 +34,8 @@ bool exposure_parse(const char *text, ExposureRequest *out, Error *err);
 /* The luminance that a request makes middle grey, cd m^-2. */
 double exposure_grey(ExposureRequest request, const float *luminance_cd_m2, size_t count,
                      Arena scratch);
+
+/* How many stops the 90th percentile of what is above 0 lies above middle grey; 0 of a dark
+ * picture. */
+double exposure_bright_stops(const float *luminance_cd_m2, size_t count, double grey_cd_m2,
+                             Arena scratch);

@@ -38,6 +38,7 @@ static void add_features(const TileJob *job, const PathResult *result,
     sample->uv[1] = features.uv[1];
     sample->part_id = features.part_id;
     sample->display_id = features.display_id;
+    copy3(sample->sources, features.sources);
     copy3(sample->emitted, features.emitted);
     copy3(sample->white, features.white);
     copy3(sample->black, features.black);

@@ -2,6 +2,7 @@
 #include "path/path_features.h"
 
 #include "base/units.h"
+#include "light/emission.h"
 #include "light/subpixels.h"
 #include "path/footprint.h"
 #include "spectrum/photometry.h"
@@ -108,6 +109,15 @@ bool path_display_emission(const PathContext *context, const PathResult *result,
     return true;
 }
 
+/* Of a surface that is no display: the same product that the path adds. */
+static void source_seen(const PathContext *context, const PathResult *result,
+                        const Surface *surface, const Wavelengths *wavelengths, float xyz[3])
+{
+    Spectrum sent = triangle_emission(context->scene, result->first.triangle, &surface->point,
+                                      vec3_neg(result->direction), wavelengths);
+    spectrum_add_xyz(wavelengths, result->through * sent, xyz);
+}
+
 void path_features(const PathContext *context, const PathResult *result,
                    const Wavelengths *wavelengths, PathFeatures *out)
 {
@@ -120,7 +130,11 @@ void path_features(const PathContext *context, const PathResult *result,
                           .display_id = NO_ID};
     albedo_rgb(bsdf_albedo(&surface.bsdf, surface.local_wo), wavelengths,
                out->albedo);
-    if (!surface_is_display(context->scene, &surface) || !surface.emits) return;
+    if (!surface.emits) return;
+    if (!surface_is_display(context->scene, &surface)) {
+        source_seen(context, result, &surface, wavelengths, out->sources);
+        return;
+    }
     SeenDisplay view = view_of(context, result, &surface, wavelengths);
     out->display_id = context->scene->materials[surface.material_id].display_id;
     display_features(context, &view, &surface, out);

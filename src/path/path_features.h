@@ -10,6 +10,8 @@ typedef struct PathFeatures {
     float albedo[3];   /* linear Rec.709 */
     float uv[2];
     int   part_id;
+    float sources[3];  /* XYZ, cd m^-2, that it sends itself and the panes before it let pass,
+                          if it is no display; else 0 */
     int   display_id;  /* NO_ID off displays; else: */
     float emitted[3], white[3], black[3]; /* XYZ, cd m^-2, of what the panes before it let pass:
                                              sent; for full white; for black */

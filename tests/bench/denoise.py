@@ -76,7 +76,8 @@ class Bench:
         return answer["metrics"]["flip"] * self.outside
 
     def row(self, view, words):
-        wanted, answer = self.develop(view, self.frame(view, words, self.reference, 1), "many")
+        wanted, answer = self.develop(view, self.frame(view, words, self.reference, 1), "many",
+                                      "--adapt", "none")
         exposure = f"--exposure={answer['exposure_ev']:.6f}"
         figures, energies = [], []
         for samples in FEW:

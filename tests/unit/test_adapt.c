@@ -4,6 +4,7 @@
 
 #include "image/adapt.h"
 #include "image/develop.h"
+#include "image/exposure.h"
 
 enum { WIDTH = 120, HEIGHT = 80, COUNT = WIDTH * HEIGHT };
 
@@ -102,6 +103,33 @@ ARENA_TEST(hues_stay_and_the_report_says_so)
     options.false_colour = true;
     assert_fails_as(develop_picture(&frame, &options, &arena, &picture, &report, &err),
                     ERROR_USAGE, "--adapt local and --false-colour exclude each other");
+}
+
+/* A frame of which the upper half is `stops` above the middle grey that is found. */
+static DevelopReport developed(double stops, const char *exposure, Arena *arena)
+{
+    FrameImage     frame = uniform_frame(40, 40, 100, arena);
+    DevelopOptions options = {.exposure = exposure, .own_config = true};
+    DevelopReport  report;
+    Picture        picture;
+    for (int c = 0; c < 3; c++) {
+        float *plane = (float *)(uintptr_t)frame_channel(&frame, (char[]){"RGB"[c], 0});
+        for (int i = 0; i < 600; i++) plane[i] = (float)(150 * exp2(stops));
+    }
+    assert_done(develop_picture(&frame, &options, arena, &picture, &report, &err));
+    assert_close(report.grey_cd_m2, 150, 1e-3);
+    return report;
+}
+
+/* A street that is not much brighter than the cabin stays as it is; so does every picture of
+ * a given exposure. */
+ARENA_TEST(a_picture_adapts_by_itself_where_its_range_is_wide)
+{
+    assert_false(developed(ADAPT_FROM_STOPS - 0.1, NULL, &arena).is_adapted);
+    assert_true(developed(ADAPT_FROM_STOPS + 0.1, NULL, &arena).is_adapted);
+    assert_true(developed(5, "auto", &arena).is_adapted);
+    assert_false(developed(5, arena_format(&arena, "%.12g", exposure_ev_of_grey(150)), &arena)
+                     .is_adapted);
 }
 
 TEST_PROGRAM(make_arena, drop_arena)

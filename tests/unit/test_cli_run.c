@@ -170,7 +170,7 @@ TEST(a_frame_too_large_is_refused_before_it_fills_the_memory)
     if ((double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) > 160e9) return;
     RUN_AS(3, &o, "render", "scene.gltf", "-o", "a.exr", "--size", "16384x16384", "--layers",
            "all");
-    assert_non_null(strstr(o.err, "parhelion: the film of 16384x16384 pixels needs 327.5 GB "
+    assert_non_null(strstr(o.err, "parhelion: the film of 16384x16384 pixels needs 343.6 GB "
                                   "with its frame, there are "));
 }
 

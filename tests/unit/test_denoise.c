@@ -495,6 +495,26 @@ ARENA_TEST(the_displays_own_light_is_never_filtered)
     }
 }
 
+/* A lamp of one pixel on a dark wall: what it sends itself goes around the filter. Without that
+ * layer it is spread. */
+ARENA_TEST(a_lamp_that_is_seen_keeps_its_light)
+{
+    enum { LAMP = HEIGHT / 2 * WIDTH + WIDTH / 2 };
+    DenoiseReport report;
+    FrameImage    dark = whole_wall(&arena);
+    set(&dark, "", "RGB", 1, &arena);
+    FrameImage plain = denoised(&dark, &report, &arena);
+    for (const char *c = "R\0G\0B"; *c; c += 2) plane(&dark, c, &arena)[LAMP] += 3000;
+    assert_true(green(&(FrameImage[]){denoised(&dark, &report, &arena)}[0])[LAMP] < 2500);
+    set(&dark, "emitted", "RGB", 0, &arena);
+    for (const char *c = "R\0G\0B"; *c; c += 2)
+        plane(&dark, arena_format(&arena, "emitted.%s", c), &arena)[LAMP] = 3000;
+    FrameImage lit = denoised(&dark, &report, &arena);
+    assert_close(green(&lit)[LAMP], 3001, 1e-3);
+    assert_close(green(&lit)[LAMP + 1], green(&plain)[LAMP + 1], 1e-3);
+    assert_close(report.energy_ratio, 1, 0.02);
+}
+
 /* A reflection's edge in a display, without noise: 10 % to 90 % of the step within 2 pixels. */
 ARENA_TEST(a_reflections_edge_is_softened_by_this_much)
 {

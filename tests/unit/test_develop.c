@@ -188,8 +188,23 @@ TEST(exposure_follows_its_closed_forms)
     assert_close(grey_of("auto", luminance, N), 400 * 0.18 / 0.12, 1e-4);
     for (int i = 0; i < N; i++) luminance[i] = i < 9700 ? 0.02f : 200; /* displays at night */
     assert_close(grey_of("auto", luminance, N), 200 / 16.0, 1e-4);
+    for (int i = 0; i < N; i++) luminance[i] = i < 6500 ? 0.05f : 1.2f; /* a lit street */
+    assert_close(grey_of("auto", luminance, N), 1.2 / 1.5, 1e-4);
+    for (int i = 0; i < N; i++) luminance[i] = i < 6500 ? 0.05f : 12; /* brighter than night */
+    assert_close(grey_of("auto", luminance, N), 2 / 1.5, 1e-4);
     for (int i = 0; i < N; i++) luminance[i] = i < 6500 ? 1 : 30000;
     assert_close(grey_of("auto", luminance, N), 30000 / (16 * 10.0), 1e-4);
+}
+
+/* The 90th percentile lies among the brighter tenths. */
+ARENA_TEST(the_bright_part_is_counted_in_stops)
+{
+    float luminance[100];
+    for (int i = 0; i < 100; i++) luminance[i] = i < 80 ? 3 : 64;
+    assert_near(exposure_bright_stops(luminance, 100, 8, arena), 3, 1e-5);
+    for (int i = 0; i < 100; i++) luminance[i] = i < 95 ? 3 : 64;
+    assert_near(exposure_bright_stops(luminance, 100, 3, arena), 0, 1e-5);
+    assert_true(exposure_bright_stops((const float[]){0, NAN}, 2, 3, arena) == 0);
 }
 
 TEST(what_is_not_light_has_no_say_in_exposure)

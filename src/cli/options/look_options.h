@@ -32,8 +32,9 @@
      .out = &(look)->view},                                                                    \
     {"--config", OPTION_TEXT, "FILE",                                                          \
      "OpenColorIO configuration; else $OCIO, else the program's own", .out = &(look)->config}, \
-    {"--adapt", OPTION_CHOICE, "none|local",                                                   \
-     "local: keeps a dark cabin and a bright street in one picture (default none)",            \
+    {"--adapt", OPTION_CHOICE, "auto|none|local",                                              \
+     "local: keeps a dark cabin and a bright street in one picture; auto (default): where "    \
+     "the street would burn out and --exposure is auto",                                       \
      .out = &(look)->adapt},                                                                   \
     {"--denoise", OPTION_FLAG, NULL,                                                           \
      "filters the noise of few samples away: a preview, not for figures",                      \

@@ -119,7 +119,8 @@ static bool frame_exposure(const char *exr, Arena *arena, const char **out, Erro
 static DevelopOptions look_of(FrameView view, const char *exposure, const char *exr)
 {
     const DevelopOptions looks[] = {
-        [FRAME_PICTURE] = {.own_config = true, .exposure = exposure, .frame_name = exr},
+        [FRAME_PICTURE] = {.own_config = true, .exposure = exposure, .frame_name = exr,
+                           .adapt = DEVELOP_ADAPT_NONE}, /* as the page shows a moved sun */
         [FRAME_LUMINANCE] = {.false_colour = true, .frame_name = exr},
         [FRAME_CONTRAST] = {.layer = "display.contrast", .frame_name = exr,
                             .range = {1, FRAMES_CONTRAST}}};
