@@ -83,6 +83,19 @@ MATERIALS = [
 ]
 
 
+CAMERA_DEG = 6.0  # height of what the camera "hud" sees
+
+
+def camera_node():
+    """At the middle of the eye box, towards that of the picture; glTF's up is y."""
+    right, ahead, up = sight(0, 0)
+    yaw, pitch = -np.arctan2(right, ahead) / 2, np.arcsin(up) / 2
+    turn = [np.cos(yaw) * np.sin(pitch), np.sin(yaw) * np.cos(pitch),
+            -np.sin(yaw) * np.sin(pitch), np.cos(yaw) * np.cos(pitch)]
+    return {"name": "hud", "camera": 0, "translation": [EYE[0], EYE[2], -EYE[1] + 0.0],
+            "rotation": [round(float(part), 9) + 0.0 for part in turn]}
+
+
 def document(optics, packing):
     primitives = [packing.primitive(0, *mirror_mesh(optics)),
                   packing.primitive(1, *picture_mesh(optics))]
@@ -91,8 +104,10 @@ def document(optics, packing):
         "asset": {"version": "2.0", "generator": "model_hud.py of Parhelion"},
         "extensionsUsed": ["KHR_materials_emissive_strength", "PARHELION_display"],
         "scene": 0,
-        "scenes": [{"nodes": [0, 1]}],
-        "nodes": [{"name": name, "mesh": i} for i, name in enumerate(names)],
+        "scenes": [{"nodes": [0, 1, 2]}],
+        "nodes": [*({"name": name, "mesh": i} for i, name in enumerate(names)), camera_node()],
+        "cameras": [{"name": "hud", "type": "perspective", "perspective": {
+            "aspectRatio": 16 / 9, "yfov": float(np.radians(CAMERA_DEG)), "znear": 0.01}}],
         "meshes": [{"name": name, "primitives": [p]} for name, p in zip(names, primitives)],
         "materials": MATERIALS,
         "textures": [{"source": 0, "sampler": 0}],

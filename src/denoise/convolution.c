@@ -48,7 +48,7 @@ void convolve(const ConvolutionRow *row)
     for (int x = 0; x < row->width; x += PIXELS) convolve_pixels(row, x);
 }
 
-/* ---- the builds, named by the one for every processor ------------------------------------- */
+/* ---- the builds, named by the one for every processor ------------------------------------ */
 
 #ifndef convolve
 #ifdef PARHELION_KERNELS
