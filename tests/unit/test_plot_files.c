@@ -243,14 +243,18 @@ TEST(the_report_stands_alone)
     assert_ids_are_whole(html);
 }
 
-/* Both angle brackets inside the script would end up as tags here; it is taken out first. */
+/* Angle brackets inside a script would end up as tags here: scripts are taken out first. */
 TEST(the_report_is_well_formed)
 {
     REPORT_OK(ips.panel_path, "-o", fixture_path(&ips, "w.html"));
     char *html = (char *)read_bytes(fixture_path(&ips, "w.html"), &ips.arena).data;
-    char *script = strstr(html, "<script>"), *after = strstr(html, "</script>");
-    assert_true(script && after && script < after);
-    memset(script, ' ', (size_t)(after - script) + strlen("</script>"));
+    int   scripts = 0;
+    for (char *script = html; (script = strstr(script, "<script>")); scripts++) {
+        char *after = strstr(script, "</script>");
+        assert_non_null(after);
+        memset(script, ' ', (size_t)(after - script) + strlen("</script>"));
+    }
+    assert_true(scripts > 0);
     for (char *meta = html; (meta = strstr(meta, "<meta "));)
         meta[1] = '!'; /* an element without an end in HTML */
     assert_true(assert_well_formed(html) > 2000);

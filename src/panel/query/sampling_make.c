@@ -31,7 +31,7 @@ typedef struct SamplingDetail {
 } SamplingDetail;
 
 static const SamplingDetail fine = {5, SAMPLING_MADE_LEVEL, 16, AZIMUTHS_MAX, 0.004};
-static const SamplingDetail coarse = {4, 5, 8, 16, 0.016};
+static const SamplingDetail coarse = {4, 5, 8, AZIMUTHS_MAX, 0.016};
 
 /* Places of the stored frame, and the weights of the lanes. */
 typedef struct SamplingWork {

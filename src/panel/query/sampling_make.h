@@ -5,7 +5,7 @@
  *
  * The same bytes on every machine. Some milliseconds for each incidence and azimuth. Where the
  * section would be too much of the file it is made when the file is opened: of several azimuths
- * a coarse one, whose weights vary by some percent more, in a tenth of the time.
+ * a coarse one, whose weights vary by some percent more, in a fifth of the time.
  * Memory    the section's bytes in the arena.
  * Fails     as sampling_tree_build.
  */

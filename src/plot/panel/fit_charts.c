@@ -231,9 +231,10 @@ static void pass_over(const PlotData *s, const FitTableRef *ref, bool counts, Re
     }
 }
 
-static void measure_residuals(const PlotData *s, Residuals *out)
+/* The drawing's arena: the data's own may be the one that it was copied from. */
+static void measure_residuals(const PlotData *s, Arena *arena, Residuals *out)
 {
-    FitTableRef *ref = ARENA_NEW(s->arena, FitTableRef, FIT_TABLES_MAX);
+    FitTableRef *ref = ARENA_NEW(arena, FitTableRef, FIT_TABLES_MAX);
     int          tables = emission_tables(s->source.measured, ref);
     for (int t = 0; t < tables; t++) pass_over(s, &ref[t], false, out);
     out->reach = round_up(1.3 * fmax(fmax(out->most, stated_error_percent(s)), 0.01));
@@ -251,7 +252,7 @@ static void draw_histogram(Canvas *canvas, Box box, const PanelChart *shown, Pan
     const PlotData *s = shown->data;
     Residuals     *r = ARENA_NEW(canvas->arena, Residuals, 1);
     double         most = stated_error_percent(s);
-    measure_residuals(s, r);
+    measure_residuals(s, canvas->arena, r);
     Chart chart = chart_open(canvas, box,
         (AxisSpec){.low = LEAST_PERCENT, .high = r->reach, .is_log = true, .suffix = " %",
                    .title = "size of fitted less measured luminance"},
@@ -311,7 +312,7 @@ static void draw_residual_map(Canvas *canvas, Box box, const PanelChart *shown,
     const PlotData *s = shown->data;
     Residuals     *r = ARENA_NEW(canvas->arena, Residuals, 1);
     Field         *field = ARENA_NEW(canvas->arena, Field, 1);
-    measure_residuals(s, r);
+    measure_residuals(s, canvas->arena, r);
     *field = residual_field(s, &r->worst, canvas->arena);
     double   reach = residual_reach(field, s, canvas->arena);
     PolarMap map = {.field = field, .map = MAP_SIGNED, .low = -reach, .high = reach,
@@ -414,7 +415,7 @@ static void draw_fit_brdf(Canvas *canvas, Box box, const PanelChart *shown, Pane
 static void add_emission_fit(PanelChartList *list, const PlotData *s)
 {
     Residuals *r = ARENA_NEW(s->arena, Residuals, 1);
-    measure_residuals(s, r);
+    measure_residuals(s, s->arena, r);
     for (int i = 0; i < 2; i++)
         panel_chart_add(list, &(PanelChart){PLOT_FIT, i ? "Measured and fitted, vertical"
                                                  : "Measured and fitted, horizontal",
