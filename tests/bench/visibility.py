@@ -23,7 +23,7 @@ Observers   25 years where no age is given, looking as long as they liked, discs
 Criterion   these thresholds are of a choice among four or so. The formula has 2.6 for what is
             seen nearly always; 1 in its place is for half. So the mean by which the formula is
             above is a matter of the criterion, `rms about it` of the formula.
-Spread      the root of the mean of var_log_cone_contrast: how surely each threshold is known."""
+Spread      the root of the mean of var_log_cone_contrast: how sure each threshold is."""
 import csv
 import glob
 import math

@@ -58,7 +58,8 @@ TEST(thresholds_have_further_digits)
 TEST(dim_pieces_have_their_values)
 {
     VisibilityTarget dim = target_at(0.001), mid = target_at(0.05);
-    double small = pow(10, 0.028 - 3 * 0.173), large = pow(10, -0.891 - 3 * 0.5275 + 9 * 0.0227);
+    double small = pow(10, 0.028 - 3 * 0.173);
+    double large = pow(10, -0.891 - 3 * 0.5275 + 9 * 0.0227);
     double af = 36.0 / 2160 + 0.99;
     assert_close(visibility_threshold(&dim), 2.6 * pow(small / 10 + large, 2) * af, 1e-12);
     double l = log10(0.05), k = 0.075 * (l + 1) * (l + 1) + 0.0245;
@@ -72,8 +73,9 @@ TEST(dim_pieces_have_their_values)
 TEST(level_counts_thresholds)
 {
     for (int i = 0; i < 12; i++) {
-        VisibilityTarget t = {3 + 11 * i, pow(10, 0.5 * i - 3), 24 + 4 * i, 0.1 + 0.2 * i, i & 1};
-        double           threshold = visibility_threshold(&t);
+        VisibilityTarget t = {3 + 11 * i, pow(10, 0.5 * i - 3), 24 + 4 * i, 0.1 + 0.2 * i,
+                              i % 2 == 1};
+        double threshold = visibility_threshold(&t);
         assert_close(visibility_level(&t, threshold), 1, 1e-14);
         assert_close(visibility_level(&t, -7 * threshold), 7, 1e-14);
     }
