@@ -194,7 +194,7 @@ static Unjudged why_unjudged(const ReviewCase *c, int counted)
 static double sampling_share(const ReviewCase *c, const LimitVerdict *limit, bool is_below)
 {
     if (limit_kind_named(limit->kind) == LIMIT_VISIBILITY_LEVEL)
-        return visibility_sampling_share(c, visibility_decisive(c, limit->is_upper), is_below);
+        return visibility_doubt(c, visibility_decisive(c, limit->is_upper), is_below).sampling;
     double end = is_below ? c->reflected_range.high : c->reflected_range.low;
     double all = is_below ? c->contrast_low : c->contrast_high;
     double half = contrast_of(&c->luminance_cd_m2, AS_IT_IS, end) - c->contrast_ratio;
@@ -252,6 +252,14 @@ static double times_to_decide(const OpenLimit *open)
     return fmax(ratio * ratio, 1);
 }
 
+/* Is most of what paths do not lessen the veil's? */
+static bool is_veils(const ReviewCase *c, const LimitVerdict *limit)
+{
+    if (limit_kind_named(limit->kind) != LIMIT_VISIBILITY_LEVEL) return false;
+    return visibility_doubt(c, visibility_decisive(c, limit->is_upper),
+                            limit->found > limit->value).is_veils;
+}
+
 void judge_paths(ReviewCase *review_case, double fixed)
 {
     ReviewCase *c = review_case;
@@ -265,9 +273,10 @@ void judge_paths(ReviewCase *review_case, double fixed)
         double    paths = (double)c->paths * times_to_decide(&open);
         if (paths <= c->paths_to_decide) continue;
         c->paths_to_decide = paths;
-        c->open_by = isfinite(paths)          ? OPEN_BY_PATHS
-                     : open.panel >= open.sun ? OPEN_BY_PANEL
-                                              : OPEN_BY_SUN;
+        c->open_by = isfinite(paths)         ? OPEN_BY_PATHS
+                     : open.panel < open.sun ? OPEN_BY_SUN
+                     : is_veils(c, limit)    ? OPEN_BY_VEIL
+                                             : OPEN_BY_PANEL;
     }
 }
 

@@ -43,10 +43,10 @@ extern const char *const unjudged_names[UNJUDGED_COUNT + 1]; /* NULL, "hidden", 
 #define UNJUDGED_DATA_SHARE 0.1
 
 /* What keeps a case open that is too close: sampling, which more paths lessen; or, whatever
- * their number, what its panel states of its own errors, or what is known of the sun's image in
- * its mirror. */
+ * their number, what its panel states of its own errors, what is known of the sun's image in
+ * its mirror, or, of a visibility level, of the veil in the eye. */
 typedef enum OpenBy {
-    OPEN_NOT, OPEN_BY_PATHS, OPEN_BY_PANEL, OPEN_BY_SUN, OPEN_COUNT
+    OPEN_NOT, OPEN_BY_PATHS, OPEN_BY_PANEL, OPEN_BY_SUN, OPEN_BY_VEIL, OPEN_COUNT
 } OpenBy;
 extern const char *const open_names[OPEN_COUNT + 1]; /* NULL, "paths", "panel error", ... */
 
@@ -218,10 +218,12 @@ typedef struct CaseVisibility {
     double size_arcmin;     /* of the target */
     double glance_s;
     double veil_times;      /* stray light in that eye, over that in the observer's */
+    double veil_doubt;      /* half its 95 % interval, over it; 0: not known */
     double adapted_cd_m2;   /* background, reflected light and veil, through the sunglasses */
     double threshold_cd_m2; /* the least difference that is seen */
     double level;           /* times that it differs; NaN: not known */
-    double low, high;       /* 95 %: of what is reflected, and of the panel's stated errors */
+    double low, high;       /* 95 %: of what is reflected, of the veil, and of the panel's
+                               stated errors */
     const char *doubts;     /* where the formula is doubtful; NULL: nowhere */
 } CaseVisibility;
 

@@ -3,21 +3,27 @@
 
 #include <math.h>
 
-#include "base/count.h"
 #include "text/text.h"
 #include "vision/visibility.h"
 
 /* What an end of the interval is made of. */
 typedef struct Seen {
-    double foreground, background, reflected; /* cd m^-2 */
+    double foreground, background, reflected, veil; /* cd m^-2 */
 } Seen;
+
+static Seen seen_of(const ReviewCase *c, const CaseVisibility *v)
+{
+    const CaseLuminances *l = &c->luminance_cd_m2;
+    double veil = isnan(l->veil) ? 0 : l->veil * v->veil_times;
+    return (Seen){l->foreground, l->background, l->reflected, veil};
+}
 
 static VisibilityTarget target_of(const ReviewCase *c, const CaseVisibility *v, Seen seen)
 {
-    double veil = isnan(c->luminance_cd_m2.veil) ? 0 : c->luminance_cd_m2.veil * v->veil_times;
     return (VisibilityTarget){
         .size_arcmin = v->size_arcmin,
-        .adapted_cd_m2 = c->glasses_transmittance * (seen.background + seen.reflected + veil),
+        .adapted_cd_m2 =
+            c->glasses_transmittance * (seen.background + seen.reflected + seen.veil),
         .age_years = v->age_years, .glance_s = v->glance_s,
         .is_darker = seen.foreground < seen.background};
 }
@@ -29,34 +35,45 @@ static double level_of(const ReviewCase *c, const CaseVisibility *v, Seen seen)
     return visibility_level(&target, c->glasses_transmittance * difference);
 }
 
-static Seen seen_of(const ReviewCase *c, double reflected)
-{
-    return (Seen){c->luminance_cd_m2.foreground, c->luminance_cd_m2.background, reflected};
-}
+/* How far each of the independent doubts takes the level away, to one side. */
+typedef struct Away {
+    double sampling, veil, front, back, reflecting;
+} Away;
 
-/* More reflected light asks for more of a difference: the low end is that of the most. (Where
- * the formula's pieces meet it asks for up to 2 % less; no end passes the level itself.) The
- * panel's errors are independent of it and of each other; sign: -1 the low end. */
-static double end_of(const ReviewCase *c, const CaseVisibility *v, double sign)
+/* More light that the eye is adapted to asks for more of a difference: the low end, sign -1, is
+ * that of the most. */
+static Away away_of(const ReviewCase *c, const CaseVisibility *v, double sign)
 {
-    double reflects = INTERVAL_SIGMAS * c->panel.reflection_error;
-    double emits = sign * INTERVAL_SIGMAS * c->panel.emission_error, squares = 0;
-    Seen   as_it_is = seen_of(c, c->luminance_cd_m2.reflected), front = as_it_is;
-    Seen   back = as_it_is, reflecting = as_it_is, sampled = as_it_is;
-    bool   is_darker = as_it_is.foreground < as_it_is.background;
+    double reflects = sign * INTERVAL_SIGMAS * c->panel.reflection_error;
+    double emits = sign * INTERVAL_SIGMAS * c->panel.emission_error;
+    Seen   is = seen_of(c, v), front = is, back = is, reflecting = is, sampled = is, veil = is;
+    bool   is_darker = is.foreground < is.background;
+    double level = level_of(c, v, is);
     sampled.reflected = sign < 0 ? c->reflected_range.high : c->reflected_range.low;
-    double end = level_of(c, v, sampled);
-    if (emits == 0 && reflects == 0)
-        return sign < 0 ? fmin(end, v->level) : fmax(end, v->level);
+    veil.veil *= fmax(1 - sign * v->veil_doubt, 0);
     front.foreground *= fmax(1 + (is_darker ? -emits : emits), 0);
     back.background *= fmax(1 + (is_darker ? emits : -emits), 0);
-    reflecting.reflected *= fmax(1 - sign * reflects, 0);
-    const Seen ENDS[] = {sampled, front, back, reflecting};
-    for (int i = 0; i < COUNT_OF(ENDS); i++) {
-        double away = level_of(c, v, ENDS[i]) - v->level;
-        squares += away * away;
-    }
-    return fmax(v->level + sign * sqrt(squares), 0);
+    reflecting.reflected *= fmax(1 - reflects, 0);
+    return (Away){level_of(c, v, sampled) - level, level_of(c, v, veil) - level,
+                  level_of(c, v, front) - level, level_of(c, v, back) - level,
+                  level_of(c, v, reflecting) - level};
+}
+
+static double panels_square(const Away *away)
+{
+    return away->front * away->front + away->back * away->back +
+           away->reflecting * away->reflecting;
+}
+
+/* (Where the formula's pieces meet more light asks for up to 2 % less: no end passes the level
+ * for that.) */
+static double end_of(const ReviewCase *c, const CaseVisibility *v, double sign)
+{
+    Away   away = away_of(c, v, sign);
+    double rest = panels_square(&away) + away.veil * away.veil;
+    if (isnan(v->level)) return NAN;
+    if (!(rest > 0)) return v->level + sign * fmax(sign * away.sampling, 0);
+    return fmax(v->level + sign * sqrt(rest + away.sampling * away.sampling), 0);
 }
 
 /* ---- where the formula is doubtful ------------------------------------------------------- */
@@ -106,7 +123,7 @@ const CaseVisibility *visibility_levels(const ReviewCase *c, Arena *arena)
     for (int i = 0; i < c->visibility_count; i++) {
         CaseVisibility  *v = &list[i];
         *v = c->visibilities[i];
-        Seen             seen = seen_of(c, c->luminance_cd_m2.reflected);
+        Seen             seen = seen_of(c, v);
         VisibilityTarget target = target_of(c, v, seen);
         v->adapted_cd_m2 = target.adapted_cd_m2;
         v->threshold_cd_m2 = visibility_threshold(&target);
@@ -129,10 +146,10 @@ const CaseVisibility *visibility_decisive(const ReviewCase *c, bool is_upper)
     return found;
 }
 
-double visibility_sampling_share(const ReviewCase *c, const CaseVisibility *of, bool is_below)
+LevelDoubt visibility_doubt(const ReviewCase *c, const CaseVisibility *of, bool is_below)
 {
-    double end = is_below ? c->reflected_range.high : c->reflected_range.low;
-    double half = level_of(c, of, seen_of(c, end)) - of->level;
-    double share = half / ((is_below ? of->low : of->high) - of->level);
-    return share < 1 ? share : 1;
+    Away   away = away_of(c, of, is_below ? -1 : 1);
+    double end = is_below ? of->low : of->high;
+    double share = fabs(away.sampling / (end - of->level));
+    return (LevelDoubt){share < 1 ? share : 1, away.veil * away.veil > panels_square(&away)};
 }

@@ -76,9 +76,10 @@ static const Member LIMIT[] = {
 #undef OF
 #define OF(kind, member) MEMBER(CaseVisibility, kind, member)
 static const Member LEVEL[] = {
-    OF(NUMBER, age_years), OF(WHOLE, is_observer), OF(NUMBER, size_arcmin), OF(TEXT, doubts),
-    OF(NUMBER, glance_s), OF(NUMBER, veil_times), OF(NUMBER, adapted_cd_m2), OF(NUMBER, low),
-    OF(NUMBER, threshold_cd_m2), OF(NUMBER, level), OF(NUMBER, high)};
+    OF(NUMBER, age_years), OF(NUMBER, size_arcmin), OF(NUMBER, high), OF(TEXT, doubts),
+    OF(NUMBER, glance_s), OF(NUMBER, veil_times), OF(NUMBER, veil_doubt), OF(NUMBER, low),
+    OF(NUMBER, adapted_cd_m2), OF(NUMBER, threshold_cd_m2), OF(NUMBER, level),
+    OF(WHOLE, is_observer)};
 #undef OF
 #define OF(kind, member) MEMBER(CaseCause, kind, member)
 static const Member CAUSE[] = {OF(WHOLE, links), OF(NUMBER, share), OF(NUMBER, cd_m2),
@@ -95,9 +96,8 @@ static const Member CASE[] = {
     OF(TEXT, when), OF(WHOLE, ambient), OF(WHOLE, has_sun), OF(NUMBER, contrast_ratio),
     OF(NUMBER, contrast_low), OF(NUMBER, contrast_high), OF(WHOLE, paths),
     OF(NUMBER, contrast_with_veil), OF(NUMBER, height_arcmin), OF(NUMBER, jnd),
-    OF(NUMBER, visibility),
-    OF(NUMBER, glare.dgp), OF(NUMBER, glare.ugr), OF(NUMBER, glare.dgi),
-    OF(NUMBER, glare.dgp_range.low), OF(NUMBER, glare.ugr_range.high),
+    OF(NUMBER, visibility), OF(NUMBER, glare.dgp), OF(NUMBER, glare.ugr),
+    OF(NUMBER, glare.dgi), OF(NUMBER, glare.dgp_range.low), OF(NUMBER, glare.ugr_range.high),
     OF(NUMBER, glare.dgi_range.low), OF(NUMBER, glare.threshold_cd_m2),
     OF(NUMBER, glare.background_cd_m2), OF(NUMBER, glare.source_lx),
     OF(NUMBER, glare.smallest_sr), OF(NUMBER, glare.largest_sr),

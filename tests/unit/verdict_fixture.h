@@ -330,9 +330,9 @@ static inline void fixture_add_levels(Arena *arena, Review *review)
         ReviewCase     *c = &review->cases[i];
         CaseVisibility *v = ARENA_NEW(arena, CaseVisibility, 2);
         double          level = isnan(c->contrast_ratio) ? NAN : 6 + i;
-        v[0] = (CaseVisibility){50, true, 2.25, 0.2, 1, 3.5, 0.125, level, level - 0.5,
+        v[0] = (CaseVisibility){50, true, 2.25, 0.2, 1, 0.0625, 3.5, 0.125, level, level - 0.5,
                                 level + 0.25, NULL};
-        v[1] = (CaseVisibility){70, false, 2.25, 0.2, 1.25, 3.75, 0.375, level / 2,
+        v[1] = (CaseVisibility){70, false, 2.25, 0.2, 1.25, 0.0625, 3.75, 0.375, level / 2,
                                 level / 2 - 0.25, level / 2 + 0.25, "a <doubt>, \"quoted\""};
         c->visibilities = v;
         c->visibility_count = 2;

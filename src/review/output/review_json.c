@@ -129,8 +129,9 @@ TABLE(visibility_json, CaseVisibility,
     OWN(FIGURE, CaseVisibility, age_years), AS("observer", FLAG, CaseVisibility, is_observer),
     OWN(FIGURE, CaseVisibility, level), AS("interval", RANGE, CaseVisibility, low),
     OWN(FIGURE, CaseVisibility, threshold_cd_m2), OWN(FIGURE, CaseVisibility, adapted_cd_m2),
-    OWN(FIGURE, CaseVisibility, veil_times), OWN(FIGURE, CaseVisibility, size_arcmin),
-    OWN(FIGURE, CaseVisibility, glance_s), OWN(TEXT, CaseVisibility, doubts));
+    OWN(FIGURE, CaseVisibility, veil_times), OWN(FIGURE, CaseVisibility, veil_doubt),
+    OWN(FIGURE, CaseVisibility, size_arcmin), OWN(FIGURE, CaseVisibility, glance_s),
+    OWN(TEXT, CaseVisibility, doubts));
 
 TABLE(glare_json, CaseGlare,
     OWN(FIGURE, CaseGlare, threshold_cd_m2), OWN(FIGURE, CaseGlare, background_cd_m2),

@@ -318,6 +318,10 @@ const char *words_sun(const ReviewCase *c, const char *const *directions, Arena 
 /* Why no paths decide it, and what would: "the limit lies within ...; what helps: ...". */
 static const char *words_undecidable(const ReviewCase *c, Arena *arena)
 {
+    static const char *const WITHIN[OPEN_COUNT] = {
+        [OPEN_BY_PANEL] = "the panel's own stated error",
+        [OPEN_BY_SUN] = "what is known of the sun's image in the display",
+        [OPEN_BY_VEIL] = "what is known of the veil in the eye"};
     const char *brighter = "", *helps = "";
     for (int i = 0; i < c->remedy_count; i++)
         if (c->remedies[i].kind == REMEDY_BRIGHTNESS) brighter = c->remedies[i].what;
@@ -327,10 +331,7 @@ static const char *words_undecidable(const ReviewCase *c, Arena *arena)
     else if (*brighter)
         helps = arena_format(arena, "; what helps: %s", brighter);
     return arena_format(arena, "; no number of paths decides it: the limit lies within %s%s",
-                        c->open_by == OPEN_BY_PANEL
-                            ? "the panel's own stated error"
-                            : "what is known of the sun's image in the display",
-                        helps);
+                        WITHIN[c->open_by], helps);
 }
 
 const char *words_decide(const ReviewCase *c, Arena *arena)

@@ -57,18 +57,29 @@ static double veil_at(const Setup *lit, const EyeLook *look, double age_years, A
     return eye_read(&setup, look, scratch).veil;
 }
 
-void case_visibility_veils(const Setup *lit, const EyeLook *look, ReviewCase *c, Arena *arena)
+/* Half the interval over the veil: of the older and the younger eye alike, whose paths are the
+ * same. */
+static double doubt_of(const EyeReading *reading)
 {
-    double own = lit->request->observer.age_years, other = other_age(own);
-    double veil = c->luminance_cd_m2.veil;
-    if (c->visibility_count < 2 || !(veil > 0)) return;
+    MeanInterval range = reading->veil_range;
+    double       half = fmax(range.high - reading->veil, reading->veil - range.low);
+    return half > 0 ? half / reading->veil : 0;
+}
+
+void case_visibility_veils(const Setup *lit, const EyeLook *look, const EyeReading *observers,
+                           ReviewCase *c, Arena *arena)
+{
+    double own = lit->request->observer.age_years, other = other_age(own), rise = 0;
+    if (!(observers->veil > 0)) return;
     CaseVisibility *list = ARENA_NEW(arena, CaseVisibility, c->visibility_count);
     memcpy(list, c->visibilities, (size_t)c->visibility_count * sizeof *list);
-    double rise = (veil_at(lit, look, other, *arena) - veil) /
-                  (eye_spread_aging(other) - eye_spread_aging(own));
-    for (int i = 1; i < c->visibility_count; i++) {
+    if (c->visibility_count > 1)
+        rise = (veil_at(lit, look, other, *arena) / observers->veil - 1) /
+               (eye_spread_aging(other) - eye_spread_aging(own));
+    for (int i = 0; i < c->visibility_count; i++) {
         double aging = eye_spread_aging(list[i].age_years) - eye_spread_aging(own);
-        list[i].veil_times = 1 + rise * aging / veil;
+        list[i].veil_times = 1 + rise * aging;
+        list[i].veil_doubt = doubt_of(observers);
     }
     c->visibilities = list;
 }

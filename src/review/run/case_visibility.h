@@ -26,6 +26,11 @@ bool case_has_visibility(const ReviewRequest *request, const Profile *profile);
 void case_visibility_start(const ReviewRequest *request, const SymbolSplit *split,
                            ReviewCase *c, Arena *arena);
 
-/* Sets veil_times of each, of an eye whose veil c has: by a second reading of the same paths,
- * for another age (eye_spread_aging). None is taken where all have the observer's age. */
-void case_visibility_veils(const Setup *lit, const EyeLook *look, ReviewCase *c, Arena *arena);
+/* A level hangs on the veil, so that it is read by so many rounds, close (EyeLook). */
+#define VISIBILITY_ROUNDS 8
+
+/* Sets veil_times and veil_doubt of each, from the observer's reading: for other ages by a
+ * second one of the same paths (eye_spread_aging). None is taken where all have the observer's
+ * age. */
+void case_visibility_veils(const Setup *lit, const EyeLook *look, const EyeReading *observers,
+                           ReviewCase *c, Arena *arena);

@@ -242,11 +242,13 @@ static void set_shown(CaseLuminances *l, const SymbolEmission *emission, double 
 static void see_stray_light(const Setup *setup, const SetupSymbol *symbol, Vec3 eye,
                             ReviewCase *c, Arena *arena)
 {
-    EyeLook    look = {eye, vec3_sub(symbol_middle(symbol).position, eye), 1, NULL};
+    bool       has_levels = c->visibility_count > 0;
+    EyeLook    look = {eye, vec3_sub(symbol_middle(symbol).position, eye),
+                       has_levels ? VISIBILITY_ROUNDS : 1, NULL, has_levels};
     Setup      lit = setup_lit(setup);
     EyeReading stray = eye_read(&lit, &look, *arena);
     c->luminance_cd_m2.veil = stray.veil;
-    case_visibility_veils(&lit, &look, c, arena);
+    if (has_levels) case_visibility_veils(&lit, &look, &stray, c, arena);
     setup_unlight(setup);
     c->veil_displays = stray.parts[EYE_LAMPS] + stray.parts[EYE_GLINTS] + stray.parts[EYE_NEAR];
     c->glare = glare_found(&stray.glare, &setup->request->glare);
