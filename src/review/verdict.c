@@ -5,7 +5,8 @@
 
 const char *const verdict_names[5] = {"pass", "fail", "too close", "cannot be judged"};
 const char *const open_names[OPEN_COUNT + 1] = {
-    [OPEN_BY_PATHS] = "paths", [OPEN_BY_PANEL] = "panel error", [OPEN_BY_SUN] = "sun's image"};
+    [OPEN_BY_PATHS] = "paths", [OPEN_BY_PANEL] = "panel error", [OPEN_BY_SUN] = "sun's image",
+    [OPEN_BY_VEIL] = "veil"};
 
 const char *const unjudged_names[UNJUDGED_COUNT + 1] = {
     [UNJUDGED_HIDDEN] = "hidden", [UNJUDGED_PANEL] = "panel not usable",
@@ -68,7 +69,7 @@ bool limit_is_open(const LimitVerdict *limit)
 
 bool case_is_undecidable(const ReviewCase *c)
 {
-    return c->open_by == OPEN_BY_PANEL || c->open_by == OPEN_BY_SUN;
+    return c->open_by > OPEN_BY_PATHS;
 }
 
 bool review_is_seen(double visible_share)

@@ -43,10 +43,10 @@ extern const char *const unjudged_names[UNJUDGED_COUNT + 1]; /* NULL, "hidden", 
 #define UNJUDGED_DATA_SHARE 0.1
 
 /* What keeps a case open that is too close: sampling, which more paths lessen; or, whatever
- * their number, what its panel states of its own errors, or what is known of the sun's image in
- * its mirror. */
+ * their number, what its panel states of its own errors, what is known of the sun's image in
+ * its mirror, or, of a visibility level, of the veil in the eye. */
 typedef enum OpenBy {
-    OPEN_NOT, OPEN_BY_PATHS, OPEN_BY_PANEL, OPEN_BY_SUN, OPEN_COUNT
+    OPEN_NOT, OPEN_BY_PATHS, OPEN_BY_PANEL, OPEN_BY_SUN, OPEN_BY_VEIL, OPEN_COUNT
 } OpenBy;
 extern const char *const open_names[OPEN_COUNT + 1]; /* NULL, "paths", "panel error", ... */
 
@@ -84,6 +84,7 @@ typedef struct LimitVerdict {
     double      low, high;    /* 95 % interval of `found`; equal where it is exact */
     double      margin;       /* above; NaN where `found` is */
     Verdict     verdict;
+    double      age_years;    /* of a visibility level: who has it; 0 or NaN: nobody */
 } LimitVerdict;
 
 /* What a display's panel says of itself (panel/query/panel_stated.h). */
@@ -209,6 +210,23 @@ typedef struct CaseWhole {
 
 CaseWhole case_whole_unknown(void);
 
+/* How a symbol stands above what somebody of an age just sees (vision/visibility.h). The target
+ * is one of its strokes, as wide as that, before its background. */
+typedef struct CaseVisibility {
+    double age_years;
+    bool   is_observer;     /* the request's observer */
+    double size_arcmin;     /* of the target */
+    double glance_s;
+    double veil_times;      /* stray light in that eye, over that in the observer's */
+    double veil_doubt;      /* half its 95 % interval, over it; 0: not known */
+    double adapted_cd_m2;   /* background, reflected light and veil, through the sunglasses */
+    double threshold_cd_m2; /* the least difference that is seen */
+    double level;           /* times that it differs; NaN: not known */
+    double low, high;       /* 95 %: of what is reflected, of the veil, and of the panel's
+                               stated errors */
+    const char *doubts;     /* where the formula is doubtful; NULL: nowhere */
+} CaseVisibility;
+
 #define CASE_BATCHES 32
 
 #define DECIDE_TIMES 64 /* --decide's budget: so many times the paths of the precision */
@@ -235,6 +253,8 @@ typedef struct ReviewCase {
     double  jnd;                 /* steps of DICOM's GSDF between the two, veil included */
     double  visibility;          /* Michelson contrast, veil included, by the least that an eye
                                     sees of strokes that wide (Barten) */
+    const CaseVisibility *visibilities; /* the observer's first; none: nobody asked */
+    int     visibility_count;
     CaseGlare glare;             /* of this gaze */
     long    paths;               /* that what is reflected was read from */
     const double *batches;       /* [CASE_BATCHES] estimates by independent batches of them, cd

@@ -14,15 +14,19 @@ static ReviewRequest  request = {.forward = {0, 0, -1}, .observer = {50, 0.5},
 static const HumanEye whose = {50, 0.5};
 static const Vec3     at = {0, 0, -1}; /* looked at from the origin */
 
-static EyeReading read_towards(World *world, Vec3 towards, int rounds)
+static EyeReading read_look(World *world, EyeLook look)
 {
     const Kernel *kernel;
     assert_done(kernel_choose(NULL, &kernel, &err));
     if (!world->bvh) world_ready(world, 16); /* a test may look twice */
     Setup setup = {.request = &request, .tools = {.kernel = kernel, .threads = 2},
                    .scene = world->scene, .context = world->context};
-    EyeLook look = {vec3(0, 0, 0), towards, rounds, NULL};
     return eye_read(&setup, &look, world->arena);
+}
+
+static EyeReading read_towards(World *world, Vec3 towards, int rounds)
+{
+    return read_look(world, (EyeLook){vec3(0, 0, 0), towards, rounds, NULL, false});
 }
 
 static EyeReading read_eye(World *world)
@@ -198,7 +202,7 @@ TEST(an_image_of_the_sun_veils_by_its_illuminance)
     assert_true(setup_sun(&setup, &towards, bands));
     false_suns_search(&setup, vec3(0, 0, 0), &world.arena, &rays);
     FalseSuns  images = false_suns_of(&rays, bands, &world.arena);
-    EyeLook    look = {vec3(0, 0, 0), at, 4, &images};
+    EyeLook    look = {vec3(0, 0, 0), at, 4, &images, false};
     EyeReading found = eye_read(&setup, &look, world.arena);
     double     lux = 0.8 * 60000 * cos(radians_from_degrees(20));
     double     wanted = lux * eye_spread_at(20, whose);
@@ -277,6 +281,74 @@ TEST(eyes_look_straight_up_and_down)
         EyeReading found = read_towards(&world, vec3(0, (float)sign, 0), 1);
         assert_true(found.veil > 0 && found.glare.figures.dgp > 0);
     }
+}
+
+/* Under a sky beside a lamp, as near as may be and far: two ages tell all others. */
+TEST(veils_are_a_line_over_aging)
+{
+    static const double ages[] = {25, 50, 75};
+    const HumanEye before = request.observer;
+    SCOPED_WORLD   world = dark_world();
+    double veil[3], aging[3];
+    builder_sky(world.scene, 200);
+    builder_part(world.scene, builder_lamp(1e5f));
+    builder_quad(world.scene, vec3(0, 0.01f, -1), vec3(0.01f, 0, 0), vec3(0, 0.01f, 0));
+    for (int i = 0; i < 3; i++) {
+        request.observer.age_years = ages[i];
+        aging[i] = eye_spread_aging(ages[i]);
+        veil[i] = read_look(&world, (EyeLook){vec3(0, 0, 0), at, 2, NULL, true}).veil;
+    }
+    request.observer = before;
+    double share = (aging[1] - aging[0]) / (aging[2] - aging[0]);
+    assert_true(veil[2] > 1.05 * veil[0]);
+    assert_close(veil[1], veil[0] + share * (veil[2] - veil[0]), 1e-12);
+}
+
+/* f L cos theta over a square before the gaze, by rings that widen evenly, from 0.1 degrees on:
+ * of those that reach beyond its sides four arcs. */
+static double veil_of_square(double half, double cd_m2)
+{
+    double sum = 0, end = half * sqrt(2), ratio = 1.0005;
+    for (double r = tan(radians_from_degrees(0.1)); r < end; r *= ratio) {
+        double middle = r * sqrt(ratio), width = r * (ratio - 1);
+        double beyond = middle > half ? 8 * acos(half / middle) : 0;
+        double f = eye_spread_at(degrees_from_radians(atan(middle)), whose);
+        sum += f * middle * width * (2 * PI - beyond) / pow(1 + middle * middle, 2);
+    }
+    return cd_m2 * sum;
+}
+
+/* A display that is looked at: light samples, spread over all of it, seldom meet what weighs
+ * most. */
+TEST(a_close_reading_knows_what_is_looked_at)
+{
+    const double half = 0.15, cd_m2 = 300;
+    SCOPED_WORLD world = dark_world();
+    builder_part(world.scene, builder_lamp((float)cd_m2));
+    builder_quad(world.scene, at, vec3((float)half, 0, 0), vec3(0, (float)half, 0));
+    double     wanted = veil_of_square(half, cd_m2);
+    EyeReading close = read_look(&world, (EyeLook){vec3(0, 0, 0), at, 4, NULL, true});
+    EyeReading plain = read_towards(&world, at, 4);
+    assert_close(close.veil, wanted, 0.002);
+    assert_true(close.veil_range.low < wanted && wanted < close.veil_range.high);
+    assert_close(close.parts[EYE_LAMPS], close.veil, 1e-12);
+    assert_true(close.veil_sigma < 0.2 * plain.veil_sigma);
+    assert_close(close.vertical_lx, plain.vertical_lx, 1e-12);
+}
+
+/* Nothing is counted twice, or lost: neither what lies farther nor a lamp without a body. */
+TEST(a_close_reading_leaves_the_rest_alone)
+{
+    SCOPED_WORLD world = dark_world();
+    builder_part(world.scene, builder_lamp(1e5f));
+    builder_quad(world.scene, at_angle(20), vec3(0.001f, 0, 0), vec3(0, 0.001f, 0));
+    world.scene->lights[world.scene->light_count++] =
+        (PunctualLight){.name = "lamp", .kind = LIGHT_POINT, .position = at_angle(2),
+                        .intensity = {30, 30, 30}, .level = 1};
+    EyeReading close = read_look(&world, (EyeLook){vec3(0, 0, 0), at, 2, NULL, true});
+    EyeReading plain = read_towards(&world, at, 2);
+    assert_close(close.veil, plain.veil, 1e-12);
+    assert_true(close.veil > 0);
 }
 
 TEST_PROGRAM(NULL, NULL)

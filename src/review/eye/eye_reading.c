@@ -28,6 +28,7 @@
 typedef struct EyePath {
     double seen;               /* cd m^-2, without the sun's disc; */
     double apart[EYE_SOURCES]; /* of it, the part that light samples do not read; */
+    double shown;              /* and what lamps and displays show by themselves; */
     double told;               /* of the latter, what the rays of glare_field.h show; */
     double images;             /* and of the glints the sun's */
     double mirrored;           /* and of bright lamps those that lamp_images.h reports */
@@ -50,6 +51,7 @@ typedef struct EyePaths {
     GlareSample *samples[LIGHT_SETS]; /* of the pupil's plane, likewise */
     const FalseSuns *images;
     BrightLamps  lamps;
+    double       close_deg;       /* nearer to the gaze lamps are read by paths; 0: nowhere */
 } EyePaths;
 
 static Vec3 local_direction(double theta, double phi)
@@ -114,6 +116,7 @@ static void add_found(void *user, const PathHistory *history, const float xyz[3]
     path->seen += (double)xyz[1];
     if (!is_direct || history->source == LIGHTS_SKY)
         path->apart[source_of(history)] += (double)xyz[1];
+    if (is_direct && history->source == LIGHTS_EMITTERS) path->shown += (double)xyz[1];
     if (glare_field_tells(history)) path->told += (double)xyz[1];
     if (bright_lamps_tell(listener->lamps, history)) path->mirrored += (double)xyz[1];
     if (source_of(history) != EYE_GLINTS) return;
@@ -159,6 +162,11 @@ static double veil_of(const EyePaths *paths, Vec3 towards, double lux)
     return degrees >= FROM_DEG ? lux * eye_spread_at(fmin(degrees, 90), paths->whose) : 0;
 }
 
+static bool is_close(const EyePaths *paths, Vec3 towards)
+{
+    return paths->close_deg > 0 && degrees_between(towards, paths->gaze) < paths->close_deg;
+}
+
 static void add_to_pupil(void *user, const PathHistory *history, const float xyz[3])
 {
     PupilSums *sums = user;
@@ -166,9 +174,10 @@ static void add_to_pupil(void *user, const PathHistory *history, const float xyz
     glare_sample_note(history, xyz[1], sums->paths->aim.eye,
                       &sums->paths->samples[history->source][sums->path]);
     if (history->count || history->source == LIGHTS_SKY) return;
+    *(is_sun ? &sums->sun_lx : &sums->lamp_lx) += (double)xyz[1];
+    if (history->source == LIGHTS_EMITTERS && is_close(sums->paths, history->towards)) return;
     *(is_sun ? &sums->sun_veil : &sums->lamp_veil) +=
         veil_of(sums->paths, history->towards, (double)xyz[1]);
-    *(is_sun ? &sums->sun_lx : &sums->lamp_lx) += (double)xyz[1];
 }
 
 typedef struct PupilWork {
@@ -264,6 +273,10 @@ static void add_path(const EyePaths *paths, int i, EyeSums *sums)
         sums->reading.vertical_lx += left * weight;
         add_veil(paths, i / PATHS, counted_as((EyeSource)k, is_near), left * veil, sums);
         all += left * veil * PATHS;
+    }
+    if (path->shown > 0 && is_close(paths, d)) {
+        add_veil(paths, i / PATHS, EYE_LAMPS, path->shown * veil, sums);
+        all += path->shown * veil * PATHS;
     }
     bright_add(&sums->veil.bright, all);
     sums->rest[i] = fmax(sums->rest[i], 0); /* rounding alone is below */
@@ -442,6 +455,7 @@ static EyeReading read_eye(const Setup *setup, const EyeLook *look, Arena scratc
     EyePaths paths = {.setup = setup, .count = count, .gaze = vec3_normalize(look->towards),
                       .whose = setup->request->observer,
                       .images = look->images,
+                      .close_deg = look->is_close ? EYE_CLOSE_DEG : 0,
                       .targets = ARENA_NEW(&scratch, Vec3, count),
                       .solid_angles = ARENA_NEW(&scratch, double, count),
                       .found = ARENA_NEW(&scratch, EyePath, count)};
@@ -483,8 +497,8 @@ EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch)
                             ahead[1], ahead[2], look->images ? look->images->count : -1,
                             glare->threshold_cd_m2, glare->task_factor, glare->task_deg,
                             glare->peak_cd_m2, glare->low_light, glare->small_sources};
-    Question   question = {.base = tools->base, .kind = "eye", .numbers = numbers,
-                           .number_count = COUNT_OF(numbers)};
+    Question   question = {.base = tools->base, .kind = look->is_close ? "close eye" : "eye",
+                           .numbers = numbers, .number_count = COUNT_OF(numbers)};
     JournalKey key = question_key(&question, &aim, scratch);
     if (journal_find(tools->journal, key, &reading, sizeof reading) &&
         eye_reading_is_sound(&reading))

@@ -22,6 +22,7 @@
 #include "review/eye/glare_table.h"
 
 #define EYE_NEAR_DEG 1.0 /* from the gaze; about the fovea, where the eye sees sharply */
+#define EYE_CLOSE_DEG 5.0
 #define EYE_ROUNDS_MOST ESTIMATE_BATCHES
 
 /* Where an eye looks from, and how surely it is to be known: rounds of 4096 paths, which differ
@@ -31,6 +32,9 @@ typedef struct EyeLook {
     Vec3 towards; /* any length but 0 */
     int  rounds;  /* 1 .. EYE_ROUNDS_MOST */
     const FalseSuns *images; /* from there; NULL: nobody looked */
+    bool is_close; /* within EYE_CLOSE_DEG of the gaze glowing surfaces and displays are read by
+                      the paths, which lie ever closer there, not by light samples, of which few
+                      meet what lies about a symbol and weighs most */
 } EyeLook;
 
 /* Where light begins that the eye scatters. */

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "plot/draw/ticks.h"
+#include "review/output/review_levels.h"
 #include "review/quantity.h"
 #include "review/review_decide.h"
 #include "text/interval_text.h"
@@ -134,13 +135,20 @@ static bool is_belied(const LimitVerdict *limit, const char *figure)
     return isfinite(limit->found) && is != 0 && !(is * looks > 0);
 }
 
+/* Whose it is, where it is somebody's. */
+static const char *with_age(const LimitVerdict *limit, const char *figure, Arena *arena)
+{
+    if (!(limit->age_years > 0)) return figure;
+    return arena_format(arena, "%s at %g years", figure, limit->age_years);
+}
+
 const char *words_found(const LimitVerdict *limit, Arena *arena)
 {
     if (isnan(limit->found)) return "–";
     const char *figure = words_within(limit->found, limit->low, limit->high, arena);
     for (int digits = 4; digits <= 9 && is_belied(limit, figure); digits++)
         figure = arena_format(arena, "%.*g", digits, limit->found);
-    return with_unit(limit, figure, arena);
+    return with_age(limit, with_unit(limit, figure, arena), arena);
 }
 
 const char *words_kind(const LimitVerdict *limit)
@@ -148,7 +156,8 @@ const char *words_kind(const LimitVerdict *limit)
     static const char *const WORDS[LIMIT_KIND_COUNT] = {
         [LIMIT_CONTRAST_RATIO] = "contrast", [LIMIT_LUMINANCE_CONTRAST] = "luminance contrast",
         [LIMIT_MODULATION] = "modulation", [LIMIT_CHARACTER_HEIGHT] = "height",
-        [LIMIT_STROKE_RATIO] = "stroke ratio", [LIMIT_WIDTH_RATIO] = "width ratio"};
+        [LIMIT_STROKE_RATIO] = "stroke ratio", [LIMIT_WIDTH_RATIO] = "width ratio",
+        [LIMIT_VISIBILITY_LEVEL] = "visibility level"};
     LimitKind kind = limit_kind_named(limit->kind);
     if (kind < LIMIT_KIND_COUNT) return WORDS[kind];
     return limit->name ? limit->name : "";
@@ -158,7 +167,7 @@ const char *words_measured(const LimitVerdict *limit, Arena *arena)
 {
     const char *figure = interval_text(limit->found, limit->low, limit->high, arena);
     if (is_belied(limit, figure)) figure = arena_format(arena, "%.9g", limit->found);
-    return with_unit(limit, figure, arena);
+    return with_age(limit, with_unit(limit, figure, arena), arena);
 }
 
 const char *words_quantity(const LimitVerdict *limit, Arena *arena)
@@ -309,6 +318,10 @@ const char *words_sun(const ReviewCase *c, const char *const *directions, Arena 
 /* Why no paths decide it, and what would: "the limit lies within ...; what helps: ...". */
 static const char *words_undecidable(const ReviewCase *c, Arena *arena)
 {
+    static const char *const WITHIN[OPEN_COUNT] = {
+        [OPEN_BY_PANEL] = "the panel's own stated error",
+        [OPEN_BY_SUN] = "what is known of the sun's image in the display",
+        [OPEN_BY_VEIL] = "what is known of the veil in the eye"};
     const char *brighter = "", *helps = "";
     for (int i = 0; i < c->remedy_count; i++)
         if (c->remedies[i].kind == REMEDY_BRIGHTNESS) brighter = c->remedies[i].what;
@@ -318,10 +331,7 @@ static const char *words_undecidable(const ReviewCase *c, Arena *arena)
     else if (*brighter)
         helps = arena_format(arena, "; what helps: %s", brighter);
     return arena_format(arena, "; no number of paths decides it: the limit lies within %s%s",
-                        c->open_by == OPEN_BY_PANEL
-                            ? "the panel's own stated error"
-                            : "what is known of the sun's image in the display",
-                        helps);
+                        WITHIN[c->open_by], helps);
 }
 
 const char *words_decide(const ReviewCase *c, Arena *arena)
@@ -391,8 +401,10 @@ const char *words_unjudged(const ReviewCase *c, Arena *arena)
         return arena_format(arena, "no limit that counts applies to it %s",
                             words_ambient(c->ambient));
     case UNJUDGED_FIGURE:
-        return arena_format(arena, "%s could not be found out",
-                            limit && limit->name ? limit->name : "its figure");
+        return arena_format(arena, "%s could not be found out%s%s",
+                            limit && limit->name ? limit->name : "its figure",
+                            level_doubted(c) ? ": " : "",
+                            level_doubted(c) ? level_doubted(c) : "");
     default: return "nothing of it is known";
     }
 }
@@ -409,6 +421,8 @@ const char *words_to_judge(const ReviewCase *c)
         [UNJUDGED_LIMIT] = "a profile with a limit that applies in this light",
         [UNJUDGED_FIGURE] = "a rectangle of the content that holds the symbol and its "
                             "background"};
+    if (c->unjudged == UNJUDGED_FIGURE && level_doubted(c))
+        return "an observer of an age for which the visibility level is published";
     return WORDS[c->unjudged] && !c->is_optional ? WORDS[c->unjudged] : "";
 }
 

@@ -26,7 +26,7 @@ static GazeGoal goal_of(Vec3 eye, const ReviewGaze *gaze, int most)
 /* Light over the view, quickly. */
 static double coarse_veil(const Setup *setup, const GazeGoal *goal, Arena scratch)
 {
-    EyeLook look = {goal->eye, goal->towards, 1, NULL};
+    EyeLook look = {goal->eye, goal->towards, 1, NULL, false};
     return eye_read(setup, &look, scratch).veil +
            gaze_read(setup, goal, scratch).mirrored.mean;
 }
@@ -115,7 +115,7 @@ static double sun_from_gaze(const Setup *setup, Vec3 gaze)
 /* The sun in mirrors is looked for, if there is a sun. */
 static EyeReading read_eye(const Setup *setup, SunSearches *searches, const GazeGoal *goal)
 {
-    EyeLook   look = {goal->eye, goal->towards, ROUNDS, NULL};
+    EyeLook   look = {goal->eye, goal->towards, ROUNDS, NULL, false};
     Arena     scratch = arena_reserve(EYE_BYTES);
     FalseSuns images;
     Vec3      towards;
