@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* road_glare.h -- what glare takes from a driver who looks at a lit road by night: the veil of a
- * source as road lighting counts it, the threshold increment, and the luminance of a road as an
- * eye between day and night vision sees it.
+/* road_glare.h -- what glare takes from a driver who looks at a lit road by night: the veil of
+ * a source as road lighting counts it, the threshold increment, and the luminance of a road as
+ * an eye between day and night vision sees it.
  *
  * Source   threshold increment: CIE 140 and EN 13201-3, mesopic luminance: CIE 191, as public
  *          implementations of them agree (three and four of these); the documents themselves
@@ -27,9 +27,9 @@
 double road_veil_at(double angle_deg, double age_years);
 
 /* By how many per cent more contrast an object on the road needs under a veil than without:
- * 65 veil / road^0.8 for roads of 0.05 to 5 cd m^-2, 95 veil / road^1.05 of brighter ones; these
- * do not meet either (2 % at 5 cd m^-2). road_cd_m2: the road's mean luminance, photopic, from
- * ROAD_LUMINANCE_MIN on; the veil is 0 or more. */
+ * 65 veil / road^0.8 for roads of 0.05 to 5 cd m^-2, 95 veil / road^1.05 of brighter ones;
+ * these do not meet either (2 % at 5 cd m^-2). road_cd_m2: the road's mean luminance, photopic,
+ * from ROAD_LUMINANCE_MIN on; the veil is 0 or more. */
 double road_threshold_increment(double veil_cd_m2, double road_cd_m2);
 
 /* The way back: the veil that makes an increment. */

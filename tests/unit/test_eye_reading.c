@@ -21,7 +21,7 @@ static EyeReading read_towards(World *world, Vec3 towards, int rounds)
     if (!world->bvh) world_ready(world, 16); /* a test may look twice */
     Setup setup = {.request = &request, .tools = {.kernel = kernel, .threads = 2},
                    .scene = world->scene, .context = world->context};
-    EyeLook look = {vec3(0, 0, 0), towards, rounds, NULL};
+    EyeLook look = {vec3(0, 0, 0), towards, rounds, NULL, NULL};
     return eye_read(&setup, &look, world->arena);
 }
 
@@ -198,7 +198,7 @@ TEST(an_image_of_the_sun_veils_by_its_illuminance)
     assert_true(setup_sun(&setup, &towards, bands));
     false_suns_search(&setup, vec3(0, 0, 0), &world.arena, &rays);
     FalseSuns  images = false_suns_of(&rays, bands, &world.arena);
-    EyeLook    look = {vec3(0, 0, 0), at, 4, &images};
+    EyeLook    look = {vec3(0, 0, 0), at, 4, &images, NULL};
     EyeReading found = eye_read(&setup, &look, world.arena);
     double     lux = 0.8 * 60000 * cos(radians_from_degrees(20));
     double     wanted = lux * eye_spread_at(20, whose);

@@ -20,6 +20,7 @@
 #include "estimate/estimate.h"
 #include "review/eye/false_suns.h"
 #include "review/eye/glare_table.h"
+#include "review/eye/road_veils.h"
 
 #define EYE_NEAR_DEG 1.0 /* from the gaze; about the fovea, where the eye sees sharply */
 #define EYE_ROUNDS_MOST ESTIMATE_BATCHES
@@ -31,6 +32,7 @@ typedef struct EyeLook {
     Vec3 towards; /* any length but 0 */
     int  rounds;  /* 1 .. EYE_ROUNDS_MOST */
     const FalseSuns *images; /* from there; NULL: nobody looked */
+    RoadVeils       *road;   /* gets the same light; NULL: not requested */
 } EyeLook;
 
 /* Where light begins that the eye scatters. */
@@ -56,5 +58,5 @@ typedef struct EyeReading {
 /* As a file keeps it: whether any eye may have read it. */
 bool eye_reading_is_sound(const EyeReading *reading);
 
-/* The request's observer. */
+/* The request's observer. With a road it is read even where a journal has the answer. */
 EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch);

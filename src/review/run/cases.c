@@ -237,7 +237,7 @@ static void set_shown(CaseLuminances *l, const SymbolEmission *emission, double 
 static void see_stray_light(const Setup *setup, const SetupSymbol *symbol, Vec3 eye,
                             ReviewCase *c, Arena scratch)
 {
-    EyeLook    look = {eye, vec3_sub(symbol_middle(symbol).position, eye), 1, NULL};
+    EyeLook    look = {eye, vec3_sub(symbol_middle(symbol).position, eye), 1, NULL, NULL};
     Setup      lit = setup_lit(setup);
     EyeReading stray = eye_read(&lit, &look, scratch);
     setup_unlight(setup);
@@ -494,6 +494,7 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
         ChainPlaces places = remedy_places(&remedies, arena);
         CauseAsk causes = {&tools->setup->tools, &aim, paths, rays, &places, false, false};
         CauseFacts facts = case_causes(&causes, &c, arena);
+        c.own_reflected = facts.own_cd_m2;
         judge_case(&c, tools->profile, arena); /* now that its share without data is known */
         case_remedies(&remedies, &facts, &c, arena);
     }
