@@ -276,7 +276,8 @@ static void add_level(Text *svg, const ChartAxes *axes, double level, const char
 }
 
 /* One display's levels over the road's luminance, as SVG: a line an age for what keeps the
- * limit, one for what its symbols take. display NULL: all by one factor; "": nothing to draw. */
+ * limit, one for what its symbols take. display NULL: all by one factor; "": nothing to
+ * draw. */
 static const char *chart_of(const GazeRoad *road, const char *display, Arena *arena)
 {
     ChartAxes axes;
