@@ -23,6 +23,13 @@ static json_t *numbers(const double *list, int count)
     return out;
 }
 
+static json_t *apart_json(const RecordRow *row, const char *at)
+{
+    const void *apart;
+    memcpy(&apart, at, sizeof apart);
+    return apart ? record_write(row->of, apart) : json_null();
+}
+
 /* Pointers of any kind are copied as what they are to. */
 static json_t *kind_json(const RecordRow *row, const void *item)
 {
@@ -37,7 +44,9 @@ static json_t *kind_json(const RecordRow *row, const void *item)
     case RECORD_NUMBERS: return numbers(value, row->most);
     case RECORD_FLAG: return json_boolean(*(const bool *)value);
     case RECORD_CHOICE: return word(row, *(const int *)value);
-    case RECORD_OBJECT: return is_absent ? json_null() : record_write(row->of, at);
+    case RECORD_OBJECT:
+        if (row->flags & RECORD_APART) return apart_json(row, at);
+        return is_absent ? json_null() : record_write(row->of, at);
     default:
         memcpy(&pointer, at, sizeof pointer);
         if (row->kind == RECORD_TEXTS)

@@ -221,13 +221,23 @@ static const RecordRow PROFILE[] = {
     TEXT("edition", MUST | RECORD_FILLED, edition, NULL),
     FLAG("veil", 0, uses_veil,
          "Contrast counts with the veil that stray light in the eye lays over it."),
+    NUMBER("threshold_increment_max_pct", RECORD_OPEN | RECORD_ABOVE, increment_most_pct, 0,
+           1000,
+           "Of a gaze at a road that is lit by night, per cent. Your own: no profile that "
+           "ships has one."),
     {"ambient", RECORD_OBJECT, MUST, .of = &ambient_format,
      .doc = "Which illuminance of a display's face is night, and which is twilight."},
     LIST("limits", MUST, limits, limit_count, 0, 0, limit_format, NULL),
     LIST("facts", 0, facts, fact_count, 0, 0, fact_format, "What readers should know."),
     {0}};
 
+static void start_profile(void *item)
+{
+    *(Profile *)item = (Profile){.increment_most_pct = NAN};
+}
+
 const RecordFormat profile_format = {"profile", sizeof(Profile), PROFILE,
+                                     .start = start_profile,
                                      .doc = "assets/schemas/profile.md explains the keys."};
 
 /* ---- where it stands --------------------------------------------------------------------- */

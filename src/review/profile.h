@@ -51,6 +51,8 @@ typedef struct Profile {
     uint64_t    file_hash;       /* of that file (text/json_view.h); 0: inside the program */
     const char *title, *edition;
     bool        uses_veil;       /* contrast counts with the veil over it */
+    double      increment_most_pct; /* threshold increment of a gaze at a road by night, at
+                                       most; NaN: no limit is set */
     double      night_below_lx, twilight_below_lx; /* of the display's face */
     const char *ambient_source;
     bool        ambient_read_in_the_standard;

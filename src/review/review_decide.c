@@ -8,6 +8,7 @@
 #include "base/count.h"
 #include "print/utf8.h"
 #include "review/quantity.h"
+#include "review/road_verdict.h"
 
 Verdict sweep_verdict(const ReviewSweep *sweep)
 {
@@ -39,6 +40,11 @@ ReviewCounts review_count(const Review *review)
         const ReviewCase *c = review_case_at(review, i);
         if (review_case_counts(c)) counts.of[c->verdict]++;
         else counts.not_asked++;
+    }
+    for (int i = 0; i < review->gaze_count; i++) {
+        if (!gaze_counts(&review->gazes[i])) continue;
+        counts.of[review->gazes[i].road->verdict]++;
+        counts.total++;
     }
     return counts;
 }
@@ -146,6 +152,23 @@ const ReviewCase **review_rank(const Review *review, Arena *arena)
     if (count > 0) qsort(ranked, (size_t)count, sizeof *ranked, compare_ranked);
     for (int i = 0; i < count; i++) out[i] = ranked[i].of;
     return out;
+}
+
+static bool is_worse_gaze(const GazeFinding *a, const GazeFinding *b)
+{
+    int more = verdict_rank(a->road->verdict) - verdict_rank(b->road->verdict);
+    return more > 0 || (more == 0 && is_less(gaze_worst_age(a)->limit.margin,
+                                             gaze_worst_age(b)->limit.margin));
+}
+
+const GazeFinding *review_worst_road(const Review *review)
+{
+    const GazeFinding *worst = NULL;
+    for (int i = 0; i < review->gaze_count; i++) {
+        const GazeFinding *g = &review->gazes[i];
+        if (gaze_counts(g) && (!worst || is_worse_gaze(g, worst))) worst = g;
+    }
+    return worst;
 }
 
 const ReviewCase *review_worst(const Review *review, Arena scratch)

@@ -7,12 +7,12 @@
 #include "base/arena.h"
 #include "review/verdict.h"
 
-/* Sets review->pass, and returns it: of the cases and sweeps that count (review_case_counts)
- * none fails, and each could be judged; where the review is strict none is too close either,
- * and no material is without data. */
+/* Sets review->pass, and returns it: of the cases and sweeps that count (review_case_counts),
+ * and of the gazes at roads with a limit, none fails, and each could be judged; where the
+ * review is strict none is too close either, and no material is without data. */
 bool review_decide(Review *review);
 
-/* Cases and sweeps by their verdict. */
+/* Cases, sweeps and gazes at roads by their verdict. */
 typedef struct ReviewCounts {
     int of[4];     /* by Verdict, those that count */
     int not_asked; /* those that do not */
@@ -56,6 +56,9 @@ const ReviewCase **review_rank(const Review *review, Arena *arena);
 
 /* The first of them. NULL: there are none. */
 const ReviewCase *review_worst(const Review *review, Arena scratch);
+
+/* Of the gazes at roads that count the worst: by verdict, then margin. NULL: there is none. */
+const GazeFinding *review_worst_road(const Review *review);
 
 /* A case of each display that has some, in the review's order: its panel is what they rest on.
  * review_case_count pointers, *count of them set. */

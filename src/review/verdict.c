@@ -57,6 +57,7 @@ ReviewCase review_case_unknown(void)
     c.eye_failed_share = c.precision_asked = c.precision_reached = (double)NAN;
     c.paths_to_decide = c.decide_times = c.minutes_to_decide = (double)NAN;
     c.glasses_transmittance = 1;
+    c.own_reflected = (double)NAN;
     c.glare = review_glare_unknown();
     c.whole = case_whole_unknown();
     return c;

@@ -283,6 +283,8 @@ typedef struct ReviewCase {
     double  glasses_display_loss; /* the share of the symbol's own light that they take beyond
                                     what they take of any: by a polariser or their colour */
     CasePanel panel;             /* what the display's panel says of itself */
+    double  own_reflected;       /* cd m^-2 of what is reflected that began at the display
+                                    itself; NaN: not known */
     double  veil_displays;       /* cd m^-2 of the veil, at most, that grow with the display's
                                     level; 0: nothing is known of it */
     double  display_lux;         /* illuminance of the display's face */
@@ -335,6 +337,8 @@ typedef struct GazeVeil {
     double near;            /* sky and surfaces within 1 degree: what the eye looks at */
 } GazeVeil;
 
+typedef struct GazeRoad GazeRoad; /* road_verdict.h */
+
 /* The view of an eye that looks elsewhere than at a symbol, such as at the road, and what is
  * lost to it. */
 typedef struct GazeFinding {
@@ -357,6 +361,7 @@ typedef struct GazeFinding {
     double   contrast_left;         /* what that and the veil in the eye leave together */
     MeanInterval contrast_range;    /* of contrast_left */
     CaseGlare glare;
+    GazeRoad *road;          /* it is at a road lit by night; NULL: not stated */
 } GazeFinding;
 
 /* Contrast left below which a gaze is marked as poor: half is lost. No limit. */

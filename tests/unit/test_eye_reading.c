@@ -26,7 +26,7 @@ static EyeReading read_look(World *world, EyeLook look)
 
 static EyeReading read_towards(World *world, Vec3 towards, int rounds)
 {
-    return read_look(world, (EyeLook){vec3(0, 0, 0), towards, rounds, NULL, false});
+    return read_look(world, (EyeLook){vec3(0, 0, 0), towards, rounds, NULL, false, NULL});
 }
 
 static EyeReading read_eye(World *world)
@@ -202,7 +202,7 @@ TEST(an_image_of_the_sun_veils_by_its_illuminance)
     assert_true(setup_sun(&setup, &towards, bands));
     false_suns_search(&setup, vec3(0, 0, 0), &world.arena, &rays);
     FalseSuns  images = false_suns_of(&rays, bands, &world.arena);
-    EyeLook    look = {vec3(0, 0, 0), at, 4, &images, false};
+    EyeLook    look = {vec3(0, 0, 0), at, 4, &images, false, NULL};
     EyeReading found = eye_read(&setup, &look, world.arena);
     double     lux = 0.8 * 60000 * cos(radians_from_degrees(20));
     double     wanted = lux * eye_spread_at(20, whose);

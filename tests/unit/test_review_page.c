@@ -8,6 +8,7 @@
 #include "review/output/review_link.h"
 #include "review/output/review_words.h"
 #include "review_page_fixture.h"
+#include "road_fixture.h"
 
 /* ---- well formed ------------------------------------------------------------------------ */
 
@@ -208,6 +209,8 @@ static json_t *all_values(json_t *own)
     review->mends = &mend;
     review->variant_count = review->sensitivity_count = review->mend_count = 1;
     review->to_come = "more";
+    review->gazes[2].road = fixture_road(&arena, 30, 1);
+    fixture_dimming(review->gazes[2].road);
     assert_done(picture_write(file, &picture, (PictureFile){.bits = 8}, arena, &err));
     json_t *values = review_page_values(
         &(ReviewPage){.review = review, .pictures = &shown, .picture_count = 1, .pairs = pair,

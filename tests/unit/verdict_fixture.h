@@ -304,9 +304,9 @@ static inline Review fixture_odd_review(Arena *arena)
     static GazeFinding gazes[] = {
         {WILD_NAME, WILD_NAME, WILD_NAME, 0, 1e-9, {NAN, 1e9}, {NAN, 0, 1e-12, -0.0, 1e9, 3},
          NAN, 0, 1e12, {NAN, NAN}, WILD_NAME, WILD_NAME, 0, NAN, {NAN, NAN},
-         {.dgp = NAN, .ugr = -INFINITY, .dgi = NAN, .none = WILD_NAME}},
+         {.dgp = NAN, .ugr = -INFINITY, .dgi = NAN, .none = WILD_NAME}, NULL},
         {"", NULL, "", NAN, 0, {0, 0}, {0, 0, 0, 0, 0, 0}, 0, 0, 0, {0, 0}, NULL, NULL, NAN, 0,
-         {0, 1}, {.dgp = 0, .ugr = NAN, .dgi = -3}}};
+         {0, 1}, {.dgp = 0, .ugr = NAN, .dgi = -3}, NULL}};
     Review review = {.title = WILD_NAME, .profile = WILD_NAME,
                      .cases = ARENA_NEW(arena, ReviewCase, 2), .case_count = 2,
                      .sweeps = ARENA_NEW(arena, ReviewSweep, 1), .sweep_count = 1,

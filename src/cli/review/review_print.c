@@ -10,6 +10,7 @@
 #include "review/output/review_gaze.h"
 #include "review/output/review_json.h"
 #include "review/output/review_levels.h"
+#include "review/output/review_road.h"
 #include "review/output/review_variants.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
@@ -93,6 +94,17 @@ static void print_gaze(const GazeFinding *g, Arena scratch)
           review_gaze_mirrored(g, &scratch), review_gaze_veil(g, &scratch));
 }
 
+/* A gaze at a road: its verdict, and displays that no level suits. */
+static void print_road(const GazeFinding *g, Arena scratch)
+{
+    int count;
+    if (!g->road) return;
+    print("%-16s %s, %s, looking at %s: %s\n", road_outcome(g), g->condition, g->eye, g->gaze,
+          road_words(g, &scratch));
+    const char **windows = road_empty_windows(g, &count, &scratch);
+    for (int i = 0; i < count; i++) print("%-16s %s\n", "no level", windows[i]);
+}
+
 static void print_variant(const ReviewVariantFound *v, Arena scratch)
 {
     print("%-16s variant %s: %s\n", verdict_names[review_verdict(v->review)], v->name,
@@ -127,6 +139,7 @@ static void print_review(const Review *review, Arena scratch)
     for (int i = 0; i < review->case_count; i++) print_case(&review->cases[i], scratch);
     for (int i = 0; i < review->sweep_count; i++) print_sweep(&review->sweeps[i], scratch);
     for (int i = 0; i < review->gaze_count; i++) print_gaze(&review->gazes[i], scratch);
+    for (int i = 0; i < review->gaze_count; i++) print_road(&review->gazes[i], scratch);
     const ReviewCase *worst = review_worst(review, scratch);
     for (int i = 0; i < review->variant_count; i++)
         print_variant(&review->variants[i], scratch);

@@ -325,6 +325,61 @@ static void add_brightness(Remedying *m)
     }
 }
 
+/* ---- as dark as it may be ---------------------------------------------------------------- */
+
+static bool is_least_of_contrast(const LimitVerdict *limit)
+{
+    LimitKind kind = limit_kind_named(limit->kind);
+    return kind < LIMIT_KIND_COUNT && limit_kinds[kind].is_contrast && !limit->is_advice &&
+           !limit->is_upper;
+}
+
+static bool keeps_all(const Remedying *m, double factor, double other)
+{
+    Remedying  own = *m;
+    Arena      scratch = *m->arena;
+    own.arena = &scratch;
+    ReviewCase then = judged_with(&own, (Remedied){factor, other});
+    for (int i = 0; i < then.limit_count; i++)
+        if (is_least_of_contrast(&then.limits[i]) && then.limits[i].verdict != VERDICT_PASS)
+            return false;
+    return true;
+}
+
+/* The least factor from `from` on with which all are judged to be kept; the interval narrows
+ * as it grows. */
+static double surely_from(const Remedying *m, double from, double other)
+{
+    double low = from, high = BRIGHTER_MOST;
+    if (!keeps_all(m, high, other)) return (double)INFINITY;
+    for (int i = 0; i < TRIES; i++) {
+        double middle = sqrt(low * high);
+        *(keeps_all(m, middle, other) ? &high : &low) = middle;
+    }
+    return high;
+}
+
+CaseLeast case_least_level(const Profile *profile, const ReviewCase *c, Arena scratch)
+{
+    ReviewCase of = *c;
+    RemedyAsk  ask = {.profile = profile};
+    CauseFacts facts = {.own_cd_m2 = isnan(c->own_reflected) ? 0 : c->own_reflected};
+    Remedying  m = {.ask = &ask, .facts = &facts, .c = &of, .arena = &scratch};
+    double own = own_light(&m), other = of.luminance_cd_m2.reflected - own, least = -1;
+    double veil = veil_of(&m), grows = veil > 0 ? of.veil_displays : 0;
+    if (of.verdict == VERDICT_UNJUDGED || !(of.level > 0)) return (CaseLeast){NAN, NAN};
+    for (m.limit = 0; m.limit < of.limit_count; m.limit++) {
+        if (!is_least_of_contrast(&of.limits[m.limit])) continue;
+        double x = brighter_for(&of.luminance_cd_m2, own + grows, other + veil - grows,
+                                ratio_needed(&m));
+        least = fmax(least, x <= BRIGHTER_MOST ? x : (double)INFINITY);
+    }
+    if (least < 0) return (CaseLeast){NAN, NAN};
+    if (isinf(least)) return (CaseLeast){INFINITY, INFINITY};
+    return (CaseLeast){least * of.level,
+                       surely_from(&m, fmax(least, 1e-6), other) * of.level};
+}
+
 /* ---- tilt -------------------------------------------------------------------------------- */
 
 #define TILTS 6

@@ -37,6 +37,17 @@ typedef struct RemedyAsk {
 /* What the search for causes is to keep apart. */
 ChainPlaces remedy_places(const RemedyAsk *ask, Arena *arena);
 
+/* The least level of the display at which a case keeps all of its limits of contrast that count
+ * and are not upper ones, as it is reckoned for the remedy of brightness; its own light that is
+ * reflected counts (own_reflected). Infinite: at no level up to ten times today's; NaN: it
+ * cannot be judged, is dark, or has no such limit. */
+typedef struct CaseLeast {
+    double level; /* the figure is on the limit */
+    double sure;  /* the limit is judged to be kept; at least `level` */
+} CaseLeast;
+
+CaseLeast case_least_level(const Profile *profile, const ReviewCase *c, Arena scratch);
+
 /* Sets the case's remedies, and whether it is an empty seat that washes it out. They are for
  * the contrast limit that is missed by most, and judged as the case was; where none is missed,
  * or the case cannot be judged, there are none, nor is anything listed that leaves the figure

@@ -4,6 +4,7 @@
 #include "page/page.h"
 #include "review/output/review_json.h"
 #include "review/output/review_levels.h"
+#include "review/output/review_road.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
 
@@ -44,6 +45,23 @@ static void add_case(json_t *list, const Review *review, const ReviewCase *c, co
     json_object_set_new(to, "causes", causes_values(c, scratch));
 }
 
+/* A gaze at a road whose threshold increment has a limit. */
+static void add_road(json_t *list, const Review *review, const GazeFinding *gaze, Arena scratch)
+{
+    Verdict verdict = gaze->road->verdict;
+    json_t *to = page_add(list);
+    bool    is_error = verdict == VERDICT_UNJUDGED, fails = is_failure(review, verdict);
+    page_set(to, "name", road_name(gaze, &scratch));
+    page_set(to, "verdict", verdict_names[verdict]);
+    page_set(to, "outcome", words_verdict(verdict));
+    page_set(to, "reason", road_words(gaze, &scratch));
+    page_set(to, "sun", "");
+    page_set_flag(to, "is_error", is_error);
+    page_set_flag(to, "is_failure", fails);
+    page_set_flag(to, "is_skipped", !is_error && !fails && verdict != VERDICT_PASS);
+    json_object_set_new(to, "causes", json_array());
+}
+
 static const char *sweep_name(const ReviewSweep *s, Arena *arena)
 {
     return arena_format(arena, "%s (worst of %ld, %s %s fails%s)", words_case(&s->worst, arena),
@@ -73,6 +91,8 @@ bool review_junit_write(const Review *review, const char *path, Error *err)
         const char *name = sweep ? sweep_name(sweep, &scratch) : words_case(c, &scratch);
         add_case(tests, review, c, name, scratch);
     }
+    for (int i = 0; i < review->gaze_count; i++)
+        if (gaze_counts(&review->gazes[i])) add_road(tests, review, &review->gazes[i], own);
     bool ok = page_write_values("review_junit.xml", values, NULL, path, err);
     arena_release(&own);
     return ok;
@@ -112,5 +132,14 @@ bool review_csv_write_false_suns(const Review *review, const char *path, Error *
 
 bool review_csv_write_gazes(const Review *review, const char *path, Error *err)
 {
-    return page_write_values("gazes.csv", review_json(review), NULL, path, err);
+    json_t *document = review_json(review);
+    road_add_columns(document, review);
+    return page_write_values("gazes.csv", document, NULL, path, err);
+}
+
+bool review_csv_write_dimming(const Review *review, const char *path, Error *err)
+{
+    json_t *document = review_json(review);
+    road_add_columns(document, review);
+    return page_write_values("dimming.csv", document, NULL, path, err);
 }

@@ -24,3 +24,6 @@ bool review_csv_write(const Review *review, const char *path, Error *err);
 bool review_csv_write_false_suns(const Review *review, const char *path, Error *err);
 /* Eyes that look elsewhere than at symbols. */
 bool review_csv_write_gazes(const Review *review, const char *path, Error *err);
+
+/* How bright displays may be: one row a gaze at a road, display, age and road. */
+bool review_csv_write_dimming(const Review *review, const char *path, Error *err);

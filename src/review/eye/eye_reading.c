@@ -13,6 +13,7 @@
 #include "review/eye/lamp_images.h"
 #include "review/light/reading.h"
 #include "vision/eye_spread.h"
+#include "vision/road_glare.h"
 
 #define PATHS 4096
 #define CHUNK 64
@@ -52,6 +53,7 @@ typedef struct EyePaths {
     const FalseSuns *images;
     BrightLamps  lamps;
     double       close_deg;       /* nearer to the gaze lamps are read by paths; 0: nowhere */
+    RoadVeils   *road; /* or NULL */
 } EyePaths;
 
 static Vec3 local_direction(double theta, double phi)
@@ -105,6 +107,8 @@ static EyeSource source_of(const PathHistory *history)
 typedef struct EyeListener {
     EyePath           *path;
     const BrightLamps *lamps;
+    RoadVeils         *road; /* or NULL */
+    int                id;   /* the path's */
 } EyeListener;
 
 static void add_found(void *user, const PathHistory *history, const float xyz[3])
@@ -114,6 +118,8 @@ static void add_found(void *user, const PathHistory *history, const float xyz[3]
     bool     is_direct = history->count == 0;
     if (is_direct && history->source == LIGHTS_SUN) return;
     path->seen += (double)xyz[1];
+    if (listener->road && (!is_direct || history->source == LIGHTS_SKY))
+        road_light_add(listener->road, listener->id, history, (double)xyz[1]);
     if (!is_direct || history->source == LIGHTS_SKY)
         path->apart[source_of(history)] += (double)xyz[1];
     if (is_direct && history->source == LIGHTS_EMITTERS) path->shown += (double)xyz[1];
@@ -140,7 +146,7 @@ static void read_chunk(void *user, int item, int worker)
     EyePaths      *paths = user;
     PathStatistics statistics = {0};
     for (int i = item * CHUNK; i < (item + 1) * CHUNK; i++) {
-        EyeListener  own = {&paths->found[i], &paths->lamps};
+        EyeListener  own = {&paths->found[i], &paths->lamps, paths->road, i};
         PathListener listener = {.on_light = add_found, .on_mirror = note_mirror, .user = &own};
         paths->found[i].lamp = NO_ID;
         paths->setup->tools.kernel->trace(&paths->aim, i, i + 1, &listener, &statistics);
@@ -165,6 +171,15 @@ static double veil_of(const EyePaths *paths, Vec3 towards, double lux)
 static bool is_close(const EyePaths *paths, Vec3 towards)
 {
     return paths->close_deg > 0 && degrees_between(towards, paths->gaze) < paths->close_deg;
+}
+
+#define BY_SPREAD (-1.0) /* no age of a road's veil */
+
+static double veil_at_age(const EyePaths *paths, Vec3 towards, double lux, double age)
+{
+    double degrees = degrees_between(towards, paths->gaze);
+    if (age == BY_SPREAD) return veil_of(paths, towards, lux);
+    return degrees >= FROM_DEG ? lux * road_veil_at(fmin(degrees, 90), age) : 0;
 }
 
 static void add_to_pupil(void *user, const PathHistory *history, const float xyz[3])
@@ -257,6 +272,20 @@ static EyeSource counted_as(EyeSource source, bool is_near)
     return is_near && (source == EYE_SKY || source == EYE_SURFACES) ? EYE_NEAR : source;
 }
 
+/* All but what is looked at, and the sun's images, which are known by themselves. */
+static void add_path_to_road(const EyePaths *paths, int i, Vec3 d, double weight)
+{
+    const EyePath *path = &paths->found[i];
+    double   degrees = degrees_between(d, paths->gaze);
+    RoadPath to = {.path = i, .degrees = degrees, .lx = weight,
+                   .is_near = degrees < EYE_NEAR_DEG};
+    for (int k = 0; k < EYE_SOURCES; k++)
+        if (counted_as((EyeSource)k, to.is_near) != EYE_NEAR) to.cd_m2 += path->apart[k];
+    if (has_images(paths, d)) to.cd_m2 -= path->images;
+    to.cd_m2 = fmax(to.cd_m2, 0); /* rounding alone is below */
+    road_veils_add_path(paths->road, &to);
+}
+
 static void add_path(const EyePaths *paths, int i, EyeSums *sums)
 {
     const EyePath *path = &paths->found[i];
@@ -279,6 +308,7 @@ static void add_path(const EyePaths *paths, int i, EyeSums *sums)
         all += path->shown * veil * PATHS;
     }
     bright_add(&sums->veil.bright, all);
+    if (paths->road) add_path_to_road(paths, i, d, weight);
     sums->rest[i] = fmax(sums->rest[i], 0); /* rounding alone is below */
 }
 
@@ -301,6 +331,9 @@ static void add_image(void *user, const FalseSun *image, double share)
         (GlareImage){image->part_id, image->seen, (float)facing};
     sums->reading.vertical_lx += lux;
     sums->reading.parts[EYE_GLINTS] += veil;
+    if (work->paths->road)
+        road_veils_add_known(work->paths->road, degrees_between(image->seen,
+                                                                work->paths->gaze), lux);
     sums->image_veil += veil;
     sums->image_variance += veil * veil; /* as if each ray had come by chance */
 }
@@ -326,6 +359,54 @@ static void add_pupils(const EyePaths *paths, const PupilSums *pupils, EyeSums *
     }
 }
 
+/* More light samples than the eye's own veil has: a road's weighs a small lamp near the gaze by
+ * far more than its share of the light, by which samples find it. */
+#define ROAD_TIMES 16
+#define ROAD_SEED (SEED + 2)
+
+typedef struct RoadPupil {
+    const EyePaths *paths;
+    ProbeAim        aim;
+    int             chunk; /* at work */
+} RoadPupil;
+
+static void add_to_road(void *user, const PathHistory *history, const float xyz[3])
+{
+    const RoadPupil *pupil = user;
+    RoadSample sample = {.degrees = degrees_between(history->towards, pupil->paths->gaze),
+                         .lx = (double)xyz[1],
+                         .part_id = history->source == LIGHTS_EMITTERS ? history->source_id
+                                                                       : NO_ID};
+    if (history->count || history->source == LIGHTS_SKY) return;
+    road_veils_add_sample(pupil->paths->road, pupil->chunk, &sample);
+}
+
+static void read_road_chunk(void *user, int item, int worker)
+{
+    (void)worker;
+    RoadPupil      own = *(const RoadPupil *)user;
+    PathStatistics statistics = {0};
+    PathListener   listener = {.on_light = add_to_road, .user = &own};
+    int            first = item * CHUNK * ROAD_TIMES;
+    own.chunk = item;
+    own.paths->setup->tools.kernel->trace(&own.aim, first, first + CHUNK * ROAD_TIMES,
+                                          &listener, &statistics);
+}
+
+static void read_road_pupil(const EyePaths *paths, Arena scratch)
+{
+    int         chunks = paths->count / CHUNK;
+    LitPoint    pupil = {paths->aim.eye, paths->gaze, false};
+    PathContext lights_only = paths->setup->context;
+    uint32_t    seed = review_seed(paths->setup->request, ROAD_SEED);
+    RoadPupil   work = {paths, {.context = &lights_only, .meter = &pupil, .seed = seed}, 0};
+    lights_only.strategy = PATH_LIGHTS_ONLY;
+    lights_only.max_bounces = 1;
+    road_veils_expect_samples(paths->road, chunks, &scratch);
+    parallel_for(paths->setup->tools.threads, chunks, read_road_chunk, &work);
+    road_veils_add_chunks(paths->road, 1.0 / ((double)paths->count * ROAD_TIMES));
+}
+
 /* A path behind its mirror: what a lamp of 1 cd m^-2 there adds to the veil. */
 typedef struct EyeImage {
     double veil;
@@ -339,7 +420,7 @@ static int most_first(const void *a, const void *b)
     return x->path - y->path;
 }
 
-static EyeImage *find_images(const EyePaths *paths, int *count, Arena *arena)
+static EyeImage *find_images(const EyePaths *paths, double age, int *count, Arena *arena)
 {
     EyeImage *images = ARENA_NEW(arena, EyeImage, paths->count);
     *count = 0;
@@ -348,7 +429,8 @@ static EyeImage *find_images(const EyePaths *paths, int *count, Arena *arena)
         double weight = paths->solid_angles[i] * (double)vec3_dot(d, paths->gaze);
         if (paths->found[i].share > 0)
             images[(*count)++] =
-                (EyeImage){(double)paths->found[i].share * veil_of(paths, d, weight), i};
+                (EyeImage){(double)paths->found[i].share *
+                               veil_at_age(paths, d, weight, age), i};
     }
     if (*count) qsort(images, (size_t)*count, sizeof *images, most_first);
     return images;
@@ -356,11 +438,11 @@ static EyeImage *find_images(const EyePaths *paths, int *count, Arena *arena)
 
 /* What a path may have of a lamp's image that none met: of lamps near its way behind a mirror,
  * as far as paths stand apart there. */
-static double unmet_veil(const EyePaths *paths, Arena scratch)
+static double unmet_veil(const EyePaths *paths, double age, Arena scratch)
 {
     int       count;
     bool     *met = ARENA_NEW(&scratch, bool, paths->setup->scene->part_count);
-    EyeImage *images = find_images(paths, &count, &scratch);
+    EyeImage *images = find_images(paths, age, &count, &scratch);
     double    most = 0;
     for (int i = 0; i < paths->count; i++)
         if (paths->found[i].lamp != NO_ID) met[paths->found[i].lamp] = true;
@@ -381,11 +463,19 @@ static void set_veil_range(const EyePaths *paths, EyeSums *sums, Arena scratch)
     EyeReading *out = &sums->reading;
     out->veil_sigma = out->veil_range.low = out->veil_range.high = (double)NAN;
     if (sums->veil.batches < 2) return;
-    sums->veil.unmet = unmet_veil(paths, scratch);
+    sums->veil.unmet = unmet_veil(paths, BY_SPREAD, scratch);
     Estimate veil = estimate_of(&sums->veil);
     estimate_add_known(&veil, sums->image_veil, sqrt(sums->image_variance));
     out->veil_sigma = veil.sigma;
     out->veil_range = veil.interval;
+}
+
+static void finish_road(const EyePaths *paths, Arena scratch)
+{
+    read_road_pupil(paths, scratch);
+    for (int a = 0; a < road_veils_ages(paths->road); a++)
+        road_veils_set_unmet(paths->road, a,
+                             unmet_veil(paths, road_veils_age(paths->road, a), scratch));
 }
 
 /* The mean luminance about the gaze; the sun's disc is no task. */
@@ -433,6 +523,7 @@ static EyeReading sum_up(const EyePaths *paths, const PupilSums *pupils, Arena s
     add_images(paths, &sums);
     for (int k = 0; k < EYE_SOURCES; k++) r->veil += r->parts[k];
     set_veil_range(paths, &sums, scratch);
+    if (paths->road) finish_road(paths, scratch);
     r->glare = read_glare(paths, &sums, scratch);
     return *r;
 }
@@ -456,6 +547,7 @@ static EyeReading read_eye(const Setup *setup, const EyeLook *look, Arena scratc
                       .whose = setup->request->observer,
                       .images = look->images,
                       .close_deg = look->is_close ? EYE_CLOSE_DEG : 0,
+                      .images = look->images, .road = look->road,
                       .targets = ARENA_NEW(&scratch, Vec3, count),
                       .solid_angles = ARENA_NEW(&scratch, double, count),
                       .found = ARENA_NEW(&scratch, EyePath, count)};
@@ -465,6 +557,7 @@ static EyeReading read_eye(const Setup *setup, const EyeLook *look, Arena scratc
     paths.lamps = bright_lamps(setup->scene, least, &scratch);
     for (int set = 0; set < LIGHT_SETS; set++)
         paths.samples[set] = ARENA_NEW(&scratch, GlareSample, count);
+    if (look->road) road_veils_expect(look->road, count, look->rounds, &scratch);
     set_head(&paths);
     paths.aim = (ProbeAim){.context = &setup->context, .eye = look->eye,
                            .targets = paths.targets, .target_count = count,
@@ -500,7 +593,7 @@ EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch)
     Question   question = {.base = tools->base, .kind = look->is_close ? "close eye" : "eye",
                            .numbers = numbers, .number_count = COUNT_OF(numbers)};
     JournalKey key = question_key(&question, &aim, scratch);
-    if (journal_find(tools->journal, key, &reading, sizeof reading) &&
+    if (!look->road && journal_find(tools->journal, key, &reading, sizeof reading) &&
         eye_reading_is_sound(&reading))
         return reading;
     reading = read_eye(setup, look, scratch);

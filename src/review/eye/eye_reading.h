@@ -20,6 +20,7 @@
 #include "estimate/estimate.h"
 #include "review/eye/false_suns.h"
 #include "review/eye/glare_table.h"
+#include "review/eye/road_veils.h"
 
 #define EYE_NEAR_DEG 1.0 /* from the gaze; about the fovea, where the eye sees sharply */
 #define EYE_CLOSE_DEG 5.0
@@ -35,6 +36,7 @@ typedef struct EyeLook {
     bool is_close; /* within EYE_CLOSE_DEG of the gaze glowing surfaces and displays are read by
                       the paths, which lie ever closer there, not by light samples, of which few
                       meet what lies about a symbol and weighs most */
+    RoadVeils       *road;   /* gets the same light; NULL: not requested */
 } EyeLook;
 
 /* Where light begins that the eye scatters. */
@@ -60,5 +62,5 @@ typedef struct EyeReading {
 /* As a file keeps it: whether any eye may have read it. */
 bool eye_reading_is_sound(const EyeReading *reading);
 
-/* The request's observer. */
+/* The request's observer. With a road it is read even where a journal has the answer. */
 EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch);

@@ -15,6 +15,7 @@
 #include "review/output/review_link.h"
 #include "review/export/review_junit.h"
 #include "review/output/review_json.h"
+#include "review/output/review_road.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
 #include "text/text.h"
@@ -404,6 +405,9 @@ bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Are
                 review, arena_format(arena, "%s/false_suns.csv", folder->name), err)) &&
            review_csv_write_gazes(review, arena_format(arena, "%s/gazes.csv", folder->name),
                                   err) &&
+           (!review_has_dimming(review) ||
+            review_csv_write_dimming(
+                review, arena_format(arena, "%s/dimming.csv", folder->name), err)) &&
            review_junit_write(review, arena_format(arena, "%s/junit.xml", folder->name), err) &&
            review_json_write(review_json(review),
                              arena_format(arena, "%s/review.json", folder->name), err) &&

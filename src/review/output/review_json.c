@@ -8,6 +8,7 @@
 #include "record/record_write.h"
 #include "review/output/review_facts.h"
 #include "review/review_decide.h"
+#include "review/road_verdict.h"
 #include "text/json_text.h"
 
 #define DIGITS 6
@@ -260,6 +261,45 @@ TABLE(veil_json, GazeVeil,
     OWN(FIGURE, GazeVeil, lamps), OWN(FIGURE, GazeVeil, glints),
     OWN(FIGURE, GazeVeil, surfaces), OWN(FIGURE, GazeVeil, near));
 
+TABLE(road_display_json, RoadDisplay,
+    OWN(TEXT, RoadDisplay, display), OWN(FIGURE, RoadDisplay, level),
+    AS("veil_share", FIGURE, RoadDisplay, share),
+    AS("threshold_increment_pct", FIGURE, RoadDisplay, increment_pct),
+    AS("threshold_increment_interval", RANGE, RoadDisplay, increment_range),
+    OWN(FIGURE, RoadDisplay, straight_share), OWN(FIGURE, RoadDisplay, mirrored_share),
+    OWN(FIGURE, RoadDisplay, scattered_share), OWN(TEXT, RoadDisplay, mirrored_by),
+    OWN(FIGURE, RoadDisplay, mirrored_by_share), OWN(FIGURE, RoadDisplay, level_most),
+    AS("level_most_interval", RANGE, RoadDisplay, level_most_range));
+
+TABLE(road_age_json, RoadAge,
+    OWN(FIGURE, RoadAge, age_years), AS("veil_cd_m2", FIGURE, RoadAge, veil),
+    AS("veil_interval", RANGE, RoadAge, veil_range),
+    AS("threshold_increment_pct", FIGURE, RoadAge, increment_pct),
+    AS("threshold_increment_interval", RANGE, RoadAge, increment_range),
+    AS("threshold_increment_by_cie_135_pct", FIGURE, RoadAge, increment_by_spread_pct),
+    PART("limit", MUST, RoadAge, limit, limit_json),
+    LIST("displays", MUST, RoadAge, displays, display_count, road_display_json));
+
+TABLE(road_dimming_json, RoadDimming,
+    OWN(TEXT, RoadDimming, display), OWN(FIGURE, RoadDimming, age_years),
+    OWN(FIGURE, RoadDimming, road_cd_m2), OWN(FIGURE, RoadDimming, level),
+    OWN(FIGURE, RoadDimming, level_most),
+    AS("level_most_interval", RANGE, RoadDimming, level_most_range),
+    OWN(FIGURE, RoadDimming, level_least), OWN(FIGURE, RoadDimming, level_least_sure),
+    OWN(TEXT, RoadDimming, symbol),
+    AS_WORD("window", MUST | RECORD_NULL, RoadDimming, window, road_windows + 1));
+
+TABLE(road_json, GazeRoad,
+    OWN(FIGURE, GazeRoad, luminance_cd_m2), OWN(FIGURE, GazeRoad, s_p),
+    OWN(FIGURE, GazeRoad, mesopic_cd_m2),
+    AS_WORD("not_evaluated_because", MUST | RECORD_NULL, GazeRoad, left_out,
+            road_left_outs + 1),
+    OWN(FIGURE, GazeRoad, without_data_share),
+    AS("counts", FLAG, GazeRoad, has_limit), OWN(VERDICT, GazeRoad, verdict),
+    AS("reason", REASON, GazeRoad, unjudged),
+    LIST("ages", MUST, GazeRoad, ages, age_count, road_age_json),
+    LIST("dimming", MUST, GazeRoad, dimming, dimming_count, road_dimming_json));
+
 TABLE(gaze_json, GazeFinding,
     OWN(TEXT, GazeFinding, condition), OWN(TEXT, GazeFinding, eye),
     OWN(TEXT, GazeFinding, gaze), AS("sun_from_gaze_deg", FIGURE, GazeFinding, sun_deg),
@@ -273,7 +313,9 @@ TABLE(gaze_json, GazeFinding,
     OWN(TEXT, GazeFinding, mirrored_by), OWN(TEXT, GazeFinding, mirrored_from),
     OWN(FIGURE, GazeFinding, contrast_behind_glass), OWN(FIGURE, GazeFinding, contrast_left),
     AS("contrast_interval", RANGE, GazeFinding, contrast_range),
-    GLARE_MEMBERS(GazeFinding));
+    GLARE_MEMBERS(GazeFinding),
+    {"road", RECORD_OBJECT, RECORD_APART | RECORD_BRIEF, RECORD_AT(GazeFinding, road),
+     .of = &road_json});
 
 TABLE(response_json, ReviewResponse,
     OWN(TEXT, ReviewResponse, probe), OWN(TEXT, ReviewResponse, file),

@@ -13,6 +13,7 @@
 #include "review/output/review_link.h"
 #include "review/output/ray_file.h"
 #include "review/output/review_levels.h"
+#include "review/output/review_road.h"
 #include "review/output/review_words.h"
 #include "review/quantity.h"
 #include "review/review_decide.h"
@@ -349,7 +350,18 @@ static const char *answer_words(const Review *review, const ReviewCase *worst)
                                           : "nothing fails; the worst is ";
 }
 
-static void set_verdict(json_t *to, const Review *review, const ReviewCase *worst)
+/* A gaze at a road that decides more than any symbol does is named first. */
+static const char *lead_words(const Review *review, const ReviewCase *worst, Arena *arena)
+{
+    const GazeFinding *road = review_worst_road(review);
+    const char        *words = answer_words(review, worst);
+    int rank = review_case_counts(worst) ? verdict_rank(worst->verdict) : -1;
+    if (!road || verdict_rank(road->road->verdict) <= rank) return words;
+    return arena_format(arena, "%s: %s; of what is read the worst is ", road_name(road, arena),
+                        road_words(road, arena));
+}
+
+static void set_verdict(json_t *to, const Review *review, const ReviewCase *worst, Arena *arena)
 {
     static const char *const CLASSES[4] = {
         [VERDICT_PASS] = " same", [VERDICT_FAIL] = "", [VERDICT_TOO_CLOSE] = " open",
@@ -357,7 +369,7 @@ static void set_verdict(json_t *to, const Review *review, const ReviewCase *wors
     Verdict verdict = review_verdict(review);
     page_set(to, "class", CLASSES[verdict]);
     page_set(to, "outcome", words_verdict(verdict));
-    page_set(to, "lead", worst ? answer_words(review, worst) : "");
+    page_set(to, "lead", worst ? lead_words(review, worst, arena) : "");
 }
 
 /* ---- every symbol and eye --------------------------------------------------------------- */
@@ -551,7 +563,7 @@ bool values_add_answer(const PageValues *v, Error *err)
 {
     const ReviewCase    *worst = review_worst(v->review, *v->arena);
     const ReviewPicture *frame = worst ? frame_of(v->page, worst) : NULL;
-    set_verdict(values_object(v->doc, "answer"), v->review, worst);
+    set_verdict(values_object(v->doc, "answer"), v->review, worst, v->arena);
     if (!worst) return true;
     json_object_set(v->doc, "worst", values_of_case(v, worst));
     set_grid(v, values_object(v->doc, "grid"));

@@ -156,6 +156,13 @@ bool review_is_optional(const ReviewRequest *request, int symbol_id, const Revie
     return false;
 }
 
+bool review_road_is_in(const ReviewRoad *road, const char *condition)
+{
+    for (int i = 0; i < road->condition_count; i++)
+        if (!strcmp(road->conditions[i], condition)) return true;
+    return !road->condition_count;
+}
+
 int review_look_count(const ReviewRequest *request)
 {
     int count = 0;

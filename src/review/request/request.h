@@ -111,8 +111,28 @@ bool review_eye_is_wide(const ReviewEye *eye);
 /* Point i of an eye that is no camera. */
 void review_eye_point(const ReviewEye *eye, int i, double out_m[3]);
 
+/* The road that a gaze goes to, lit by night: its threshold increment is evaluated
+ * (vision/road_glare.h). */
+typedef struct ReviewRoad {
+    double        luminance_cd_m2; /* photopic, mean, of the road itself */
+    double        s_p;             /* scotopic over photopic, of its light; NaN: not given */
+    const double *ages;            /* years */
+    int           age_count;       /* 0: the request's observer alone */
+    const double *dimming;         /* cd m^-2, rising: roads of the table of levels */
+    int           dimming_count;   /* 0: the program's own (ROAD_DIMMING) */
+    const char *const *conditions; /* names of those in which it is evaluated */
+    int           condition_count; /* 0: all moments without the sun */
+} ReviewRoad;
+
+#define ROAD_AGES_MOST 6
+#define ROAD_DIMMING_MOST 12
+
+/* Is the gaze's road evaluated in that condition, as far as the request says? */
+bool review_road_is_in(const ReviewRoad *road, const char *condition);
+
 typedef struct ReviewGaze {
     const char *name;         /* "symbols" when it goes to each symbol */
+    const ReviewRoad *road;   /* NULL: none is stated */
     bool        at_symbols;
     double      direction[3]; /* unit; else */
     bool       *for_eye;      /* [eye_count]: whether that eye looks so */

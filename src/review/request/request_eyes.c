@@ -4,6 +4,7 @@
 
 #include "record/rows.h"
 #include "review/request/request_format.h"
+#include "vision/road_glare.h"
 
 #define OWNER ReviewEye
 #define METRES_MAX 1e6
@@ -94,6 +95,50 @@ const RecordFormat review_eye_format = {
 
 /* ---- where they look --------------------------------------------------------------------- */
 
+#define OWNER ReviewRoad
+
+static const RecordRow ROAD[] = {
+    NUMBER("luminance_cd_m2", MUST, luminance_cd_m2, ROAD_LUMINANCE_MIN, 1000,
+           "Photopic, the mean of the road itself."),
+    NUMBER("s_p", RECORD_OPEN | RECORD_ABOVE, s_p, 0, 10,
+           "Scotopic over photopic luminance of its light: for the mesopic luminance."),
+    FIGURES("ages_years", 0, ages, age_count, 1, ROAD_AGES_MOST, HUMAN_EYE_AGE_MIN,
+            HUMAN_EYE_AGE_MAX, "Rising. Default: the observer's."),
+    FIGURES("dimming_cd_m2", 0, dimming, dimming_count, 1, ROAD_DIMMING_MOST,
+            ROAD_LUMINANCE_MIN, 1000,
+            "Rising: the road luminances of the table of levels. Default: 0.1 to 2."),
+    {"conditions", RECORD_TEXTS, RECORD_MANY(OWNER, conditions, condition_count),
+     RECORD_COUNT(1, 1000),
+     .doc = "Names of the moments in which it is evaluated; none has a sun above the horizon. "
+            "Default: all such."},
+    {0}};
+
+static void start_road(void *item)
+{
+    *(ReviewRoad *)item = (ReviewRoad){.s_p = NAN};
+}
+
+static bool check_rising(const JsonView *view, const char *key, const double *list, int count,
+                         Error *err)
+{
+    for (int i = 1; i < count; i++)
+        if (!(list[i] > list[i - 1]))
+            return record_fails(view, key, err, "has %g behind %g, required: rising numbers",
+                                list[i], list[i - 1]);
+    return true;
+}
+
+static bool check_road(const JsonView *view, void *item, Error *err)
+{
+    const ReviewRoad *road = item;
+    return check_rising(view, "ages_years", road->ages, road->age_count, err) &&
+           check_rising(view, "dimming_cd_m2", road->dimming, road->dimming_count, err);
+}
+
+static const RecordFormat road_format = {"road", sizeof(OWNER), ROAD, .start = start_road,
+                                         .check = check_road};
+
+#undef OWNER
 #define OWNER ReviewGaze
 
 static const char *const SYMBOLS[] = {"symbols", NULL};
@@ -127,6 +172,9 @@ static const RecordRow GAZE[] = {
     {"eyes", RECORD_LIST, RECORD_MANY(Lookers, eyes, count), RECORD_COUNT(1, 256),
      .of = &looker_format, .read = read_lookers,
      .doc = "Names of the eyes that look so; default: all."},
+    OBJECT("road", RECORD_APART, road, road_format,
+           "The gaze is at a road that is lit by night: the threshold increment of all that "
+           "the eye sees is evaluated."),
     {0}};
 
 static bool check_gaze(const JsonView *view, void *item, Error *err)
@@ -135,6 +183,9 @@ static bool check_gaze(const JsonView *view, void *item, Error *err)
     ReviewRequest *request = view->whole;
     gaze->at_symbols = record_has(view, "at");
     if (!record_one_of(view, "at", "direction", err)) return false;
+    if (gaze->road && gaze->at_symbols)
+        return record_fails(view, "road", err,
+                            "stands beside 'at', required: a gaze with a 'direction'");
     if (!gaze->name && !gaze->at_symbols) return record_misses(view, "name", err);
     if (!gaze->name) gaze->name = SYMBOLS[0];
     for (const ReviewGaze *before = request->gazes; before < gaze; before++)
@@ -148,4 +199,4 @@ static bool check_gaze(const JsonView *view, void *item, Error *err)
 const RecordFormat review_gaze_format = {
     "gaze", sizeof(OWNER), GAZE, .check = check_gaze,
     .rules = "{'oneOf': [{'required': ['at']}, {'required': ['direction']}], "
-             "'dependentRequired': {'direction': ['name']}}"};
+             "'dependentRequired': {'direction': ['name'], 'road': ['direction']}}"};

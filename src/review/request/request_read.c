@@ -199,6 +199,36 @@ static void look(ReviewRequest *request, Arena *arena)
     }
 }
 
+/* A road of which nothing would be evaluated is no road. */
+static bool check_road(const JsonView *view, const ReviewRequest *request,
+                       const ReviewGaze *gaze, Error *err)
+{
+    const ReviewRoad *road = gaze->road;
+    bool is_any = false;
+    for (int i = 0; i < road->condition_count; i++) {
+        const ReviewCondition *of = review_condition_named(request, road->conditions[i]);
+        if (!of || of->kind != CONDITION_MOMENT)
+            return record_fails(view, "gaze", err,
+                                "'%.60s' has a road in '%.60s', which is no moment; required: "
+                                "the name of a condition that is one", gaze->name,
+                                road->conditions[i]);
+    }
+    for (int i = 0; i < request->condition_count; i++)
+        is_any |= request->conditions[i].kind == CONDITION_MOMENT;
+    return is_any || record_fails(view, "gaze", err,
+                                  "'%.60s' has a road, which is evaluated in moments, and "
+                                  "there is none; required: a condition that is one",
+                                  gaze->name);
+}
+
+static bool check_roads(const JsonView *view, const ReviewRequest *request, Error *err)
+{
+    for (int i = 0; i < request->gaze_count; i++)
+        if (request->gazes[i].road && !check_road(view, request, &request->gazes[i], err))
+            return false;
+    return true;
+}
+
 static bool check_review(const JsonView *view, void *item, Error *err)
 {
     ReviewRequest *request = item;
@@ -208,7 +238,7 @@ static bool check_review(const JsonView *view, void *item, Error *err)
     turn_ellipses(request);
     look(request, view->arena);
     request->is_compared = review_is_compared(request);
-    return true;
+    return check_roads(view, request, err);
 }
 
 const RecordFormat review_format = {

@@ -244,7 +244,7 @@ static void see_stray_light(const Setup *setup, const SetupSymbol *symbol, Vec3 
 {
     bool       has_levels = c->visibility_count > 0;
     EyeLook    look = {eye, vec3_sub(symbol_middle(symbol).position, eye),
-                       has_levels ? VISIBILITY_ROUNDS : 1, NULL, has_levels};
+                       has_levels ? VISIBILITY_ROUNDS : 1, NULL, has_levels, NULL};
     Setup      lit = setup_lit(setup);
     EyeReading stray = eye_read(&lit, &look, *arena);
     c->luminance_cd_m2.veil = stray.veil;
@@ -511,6 +511,7 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
         ChainPlaces places = remedy_places(&remedies, arena);
         CauseAsk causes = {&tools->setup->tools, &aim, paths, rays, &places, false, false};
         CauseFacts facts = case_causes(&causes, &c, arena);
+        c.own_reflected = facts.own_cd_m2;
         judge_case(&c, tools->profile, arena); /* now that its share without data is known */
         case_remedies(&remedies, &facts, &c, arena);
     }

@@ -9,6 +9,7 @@
 #include "review/eye/gaze_reading.h"
 #include "review/light/setup.h"
 #include "review/run/cases.h"
+#include "review/run/road.h"
 
 #define ROUNDS 16
 #define PRECISION 0.01
@@ -26,7 +27,7 @@ static GazeGoal goal_of(Vec3 eye, const ReviewGaze *gaze, int most)
 /* Light over the view, quickly. */
 static double coarse_veil(const Setup *setup, const GazeGoal *goal, Arena scratch)
 {
-    EyeLook look = {goal->eye, goal->towards, 1, NULL, false};
+    EyeLook look = {goal->eye, goal->towards, 1, NULL, false, NULL};
     return eye_read(setup, &look, scratch).veil +
            gaze_read(setup, goal, scratch).mirrored.mean;
 }
@@ -112,10 +113,18 @@ static double sun_from_gaze(const Setup *setup, Vec3 gaze)
     return degrees_from_radians(acos(fmin(fmax(cosine, -1), 1)));
 }
 
-/* The sun in mirrors is looked for, if there is a sun. */
-static EyeReading read_eye(const Setup *setup, SunSearches *searches, const GazeGoal *goal)
+/* What a road needs of the light; known from a journal, it is read no more. */
+static RoadVeils *road_veils_wanted(const RoadKept *kept, RoadReading *out, Arena *scratch)
 {
-    EyeLook   look = {goal->eye, goal->towards, ROUNDS, NULL, false};
+    if (!out || road_reading_find(kept, out, *scratch)) return NULL;
+    return road_veils_start(kept->setup->scene, kept->ages, scratch);
+}
+
+/* The sun in mirrors is looked for, if there is a sun. ages: of a road, or NULL. */
+static EyeReading read_eye(const Setup *setup, SunSearches *searches, const GazeGoal *goal,
+                           const RoadAges *ages, RoadReading *road)
+{
+    EyeLook   look = {goal->eye, goal->towards, ROUNDS, NULL, false, NULL};
     Arena     scratch = arena_reserve(EYE_BYTES);
     FalseSuns images;
     Vec3      towards;
@@ -124,15 +133,47 @@ static EyeReading read_eye(const Setup *setup, SunSearches *searches, const Gaze
         images = false_suns_of(sun_searches_ask(searches, setup, goal->eye), bands, &scratch);
         look.images = &images;
     }
+    RoadKept kept = {setup, goal->eye, goal->towards, ages, ROUNDS,
+                     look.images ? look.images->count : -1};
+    look.road = road_veils_wanted(&kept, road, &scratch);
     EyeReading eye = eye_read(setup, &look, scratch);
+    if (look.road) {
+        road_veils_read(look.road, road);
+        road_reading_keep(&kept, road, scratch);
+    }
     arena_release(&scratch);
     return eye;
 }
 
-static void read_gaze(const Setup *setup, SunSearches *searches, const GazeGoal *goal,
-                      Arena *arena, GazeFinding *out)
+/* One gaze. */
+typedef struct GazeAsk {
+    const Setup      *setup;
+    SunSearches      *searches;
+    const ReviewGaze *gaze;
+    const Profile    *profile;
+} GazeAsk;
+
+static EyeReading read_light(const GazeAsk *ask, const GazeGoal *goal, Arena *arena,
+                             GazeFinding *out)
 {
-    EyeReading  eye = read_eye(setup, searches, goal);
+    const Setup      *setup = ask->setup;
+    const ReviewRoad *road = ask->gaze->road;
+    RoadLeftOut       left_out = road ? road_left_out(setup, road) : ROAD_EVALUATED;
+    if (!road || left_out) {
+        if (road) out->road = road_stated(road, left_out, arena);
+        return read_eye(setup, ask->searches, goal, NULL, NULL);
+    }
+    RoadAges    ages = road_ages(setup->request, road, arena);
+    RoadReading reading = road_reading_start(ages.count, setup->scene->display_count, arena);
+    EyeReading  eye = read_eye(setup, ask->searches, goal, &ages, &reading);
+    out->road = road_of(setup, road, &reading, ask->profile, arena);
+    return eye;
+}
+
+static void read_gaze(const GazeAsk *ask, const GazeGoal *goal, Arena *arena, GazeFinding *out)
+{
+    const Setup *setup = ask->setup;
+    EyeReading   eye = read_light(ask, goal, arena, out);
     GazeReading along = gaze_read(setup, goal, *arena);
     out->sun_deg = sun_from_gaze(setup, goal->towards);
     out->veil = eye.veil;
@@ -149,9 +190,9 @@ static void read_gaze(const Setup *setup, SunSearches *searches, const GazeGoal 
     set_contrasts(&along, out);
 }
 
-bool setup_gazes(const Setup *setup, const MomentShare *share, SunSearches *searches,
-                 Arena *arena, GazeFinding *out, Error *err)
+bool setup_gazes(const GazesAsk *gazes, Arena *arena, GazeFinding *out, Error *err)
 {
+    const Setup         *setup = gazes->setup;
     const ReviewRequest *request = setup->request;
     int at = -1, looks = review_look_count(request);
     for (int g = 0; g < request->gaze_count; g++)
@@ -160,14 +201,18 @@ bool setup_gazes(const Setup *setup, const MomentShare *share, SunSearches *sear
             const ReviewEye  *eye = &request->eyes[e];
             int count;
             if (gaze->at_symbols || !gaze->for_eye[e]) continue;
-            if (!moment_share_has(share, ++at, looks)) continue;
+            if (!moment_share_has(gazes->share, ++at, looks)) continue;
             Vec3 *points = setup_eye_points(setup, eye, &count, arena, err);
             if (!points) return false;
             GazeGoal goal = goal_of(worst_point(setup, gaze, points, count, *arena), gaze,
                                     PATHS_MOST);
             out[at] = (GazeFinding){.condition = setup->condition->name, .eye = eye->name,
                                  .gaze = gaze->name};
-            read_gaze(setup, searches, &goal, arena, &out[at]);
+            GazeAsk ask = {setup, gazes->searches, gaze, gazes->profile};
+            read_gaze(&ask, &goal, arena, &out[at]);
+            if (gaze->road)
+                road_dim(gaze->road, gazes->profile, gazes->cases, gazes->case_count, &out[at],
+                         arena);
         }
     return true;
 }

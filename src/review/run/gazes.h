@@ -13,7 +13,15 @@
 #include "review/run/job.h"
 #include "review/verdict.h"
 
+typedef struct GazesAsk {
+    const Setup       *setup;
+    const MomentShare *share;
+    SunSearches       *searches;
+    const Profile     *profile; /* limits of roads */
+    const ReviewCase  *cases;   /* of this moment, which are made before */
+    int                case_count;
+} GazesAsk;
+
 /* Fills review_look_count(request) findings, eyes fastest, but for those that are others'.
  * Fails where an eye's camera is missing. */
-bool setup_gazes(const Setup *setup, const MomentShare *share, SunSearches *searches,
-                 Arena *arena, GazeFinding *out, Error *err);
+bool setup_gazes(const GazesAsk *gazes, Arena *arena, GazeFinding *out, Error *err);

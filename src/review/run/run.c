@@ -126,7 +126,8 @@ static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena
     if (!ride_moments(run, &tools, review, arena, err)) return false;
     if (run->base) return true;
     GazeFinding *gazes = review->gazes + review->gaze_count;
-    if (!setup_gazes(setup, &tools.share, run->sun_searches, arena, gazes, err)) return false;
+    GazesAsk looks = {setup, &tools.share, run->sun_searches, run->profile, cases, count};
+    if (!setup_gazes(&looks, arena, gazes, err)) return false;
     work_add(run->work, WORK_LOOK, plan.of[WORK_LOOK]);
     review->gaze_count += review_look_count(run->request);
     return true;

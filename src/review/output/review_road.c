@@ -1,0 +1,449 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "review/output/review_road.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/mathd.h"
+#include "page/page.h"
+#include "review/output/review_words.h"
+#include "text/interval_text.h"
+#include "text/text.h"
+
+/* ---- which age --------------------------------------------------------------------------- */
+
+/* That decides; without a limit the oldest, whose increment is the greatest; NULL: none is
+ * known. */
+static const RoadAge *shown_age(const GazeFinding *g)
+{
+    const RoadAge *age = gaze_worst_age(g);
+    return age || !g->road->age_count ? age : &g->road->ages[g->road->age_count - 1];
+}
+
+static bool has_roads(const Review *review)
+{
+    for (int i = 0; i < review->gaze_count; i++)
+        if (review->gazes[i].road) return true;
+    return false;
+}
+
+bool review_has_dimming(const Review *review)
+{
+    for (int i = 0; i < review->gaze_count; i++)
+        if (review->gazes[i].road && review->gazes[i].road->dimming_count) return true;
+    return false;
+}
+
+/* ---- words ------------------------------------------------------------------------------- */
+
+const char *road_outcome(const GazeFinding *gaze)
+{
+    if (gaze->road->left_out) return "not evaluated";
+    return gaze_counts(gaze) ? verdict_names[gaze->road->verdict] : "no limit";
+}
+
+const char *road_name(const GazeFinding *gaze, Arena *arena)
+{
+    return arena_format(arena, "%s, seen by %s, %s", gaze->gaze ? gaze->gaze : "?",
+                        gaze->eye ? gaze->eye : "?", gaze->condition ? gaze->condition : "?");
+}
+
+/* "all straight", "72 % by windscreen (glass)": by which way most of it comes. */
+static const char *way_words(const RoadDisplay *d, Arena *arena)
+{
+    if (isnan(d->straight_share)) return "";
+    if (d->straight_share >= 0.5)
+        return arena_format(arena, ", %s straight",
+                            d->straight_share > 0.995 ? "all"
+                                                      : words_share(d->straight_share, arena));
+    if (d->mirrored_share >= d->scattered_share && d->mirrored_by)
+        return arena_format(arena, ", %s by %s", words_share(d->mirrored_by_share, arena),
+                            d->mirrored_by);
+    return arena_format(arena, ", %s by surfaces that it lights",
+                        words_share(d->scattered_share, arena));
+}
+
+/* What the displays make, and which of them most. */
+static const char *displays_words(const RoadAge *age, Arena *arena)
+{
+    double share = 0;
+    for (int i = 0; i < age->display_count; i++) share += age->displays[i].share;
+    if (!age->display_count) return "; no display makes any of it";
+    const RoadDisplay *d = &age->displays[0];
+    const char *all = age->display_count == 1 ? ""
+                      : arena_format(arena, "displays make %s of it, ",
+                                     words_share(fmin(share, 1), arena));
+    return arena_format(arena, "; %s%s %s%s", all, d->display,
+                        words_share(fmin(d->share, 1), arena), way_words(d, arena));
+}
+
+static const char *unjudged_because(const GazeRoad *road, Arena *arena)
+{
+    if (road->unjudged == UNJUDGED_DATA)
+        return arena_format(arena, "cannot be judged: %s of the veil came via materials "
+                            "without optical data; ",
+                            words_share(road->without_data_share, arena));
+    if (road->unjudged == UNJUDGED_PANEL)
+        return "cannot be judged: the panel of a display that makes more than a tenth of the "
+               "veil says of itself that it is not usable; ";
+    return "";
+}
+
+const char *road_words(const GazeFinding *gaze, Arena *arena)
+{
+    const GazeRoad *road = gaze->road;
+    if (road->left_out)
+        return arena_format(arena, "threshold increment not evaluated: %s",
+                            road_left_outs[road->left_out]);
+    const RoadAge *age = shown_age(gaze);
+    LimitVerdict   as = age->limit;
+    as.unit = "%";
+    as.found = age->increment_pct;
+    as.low = age->increment_range.low;
+    as.high = age->increment_range.high;
+    const char *required =
+        gaze_counts(gaze) ? arena_format(arena, ", required %s", words_required(&as, arena))
+                          : "";
+    return arena_format(
+        arena, "%sthreshold increment %s%s, at %.4g years on a road of %.4g cd/m2 (with the "
+        "veil by CIE 135 %.3g %%)%s%s",
+        unjudged_because(road, arena), words_measured(&as, arena),
+        required, age->age_years, road->luminance_cd_m2, age->increment_by_spread_pct,
+        displays_words(age, arena),
+        gaze_counts(gaze) ? "" : "; the profile has no limit of it");
+}
+
+/* ---- windows ----------------------------------------------------------------------------- */
+
+static const char *percent(double level, Arena *arena)
+{
+    if (isnan(level)) return "–";
+    if (!(level < 10)) return "more than 1000 %"; /* nobody asks for more */
+    return arena_format(arena, "%.3g %%", 100 * level);
+}
+
+/* Rows of one display and age stand apart by their roads. */
+static const char *empty_words(const GazeFinding *gaze, const RoadDimming *first, Arena *arena)
+{
+    const GazeRoad *road = gaze->road;
+    const char     *roads = "";
+    const RoadDimming *last = first;
+    for (const RoadDimming *row = first; row < road->dimming + road->dimming_count; row++) {
+        if (row->window != ROAD_WINDOW_EMPTY || row->age_years != first->age_years ||
+            !words_same(row->display, first->display))
+            continue;
+        roads = arena_format(arena, "%s%s%.4g", roads, roads[0] ? ", " : "", row->road_cd_m2);
+        last = row;
+    }
+    return arena_format(
+        arena, "%s, %.4g years, roads of %s cd/m²: no level of %s does both. Its symbols take "
+        "%s%s%s%s, and the increment is kept up to %s%s.", road_name(gaze, arena),
+        first->age_years, roads, first->display ? first->display : "all displays together",
+        isfinite(last->level_least_sure) ? percent(last->level_least_sure, arena)
+                                         : "more than ten times today's level",
+        last->symbol ? " (" : "", last->symbol ? last->symbol : "", last->symbol ? ")" : "",
+        last->level_most > 0 ? percent(last->level_most, arena) : "none of it",
+        last->level_most > 0 ? arena_format(arena, " at %.4g cd/m²", last->road_cd_m2)
+                             : ": the rest of the veil is too much");
+}
+
+const char **road_empty_windows(const GazeFinding *gaze, int *count, Arena *arena)
+{
+    const GazeRoad *road = gaze->road;
+    const char    **list = ARENA_NEW(arena, const char *, road->dimming_count + 1);
+    *count = 0;
+    for (int i = 0; i < road->dimming_count; i++) {
+        const RoadDimming *row = &road->dimming[i];
+        bool               is_first = row->window == ROAD_WINDOW_EMPTY;
+        for (int k = 0; k < i && is_first; k++)
+            is_first = road->dimming[k].window != ROAD_WINDOW_EMPTY ||
+                       road->dimming[k].age_years != row->age_years ||
+                       !words_same(road->dimming[k].display, row->display);
+        if (is_first) list[(*count)++] = empty_words(gaze, row, arena);
+    }
+    return list;
+}
+
+/* ---- the chart --------------------------------------------------------------------------- */
+
+#define WIDTH 420.0 /* of its coordinates; the page scales it */
+#define HEIGHT 240.0
+#define LEFT 52.0
+#define RIGHT 84.0
+#define TOP 12.0
+#define BOTTOM 34.0
+#define LEVEL_SEEN 10.0 /* beyond that nobody asks */
+#define LEVEL_LEAST 1e-4
+
+/* Both axes are of logarithms. */
+typedef struct ChartAxes {
+    double road_low, road_high, level_low, level_high;
+} ChartAxes;
+
+static double place(double value, double low, double high)
+{
+    return (log10_d(value) - log10_d(low)) / (log10_d(high) - log10_d(low));
+}
+
+static double chart_x(const ChartAxes *axes, double road)
+{
+    return LEFT + (WIDTH - LEFT - RIGHT) * place(road, axes->road_low, axes->road_high);
+}
+
+static double chart_y(const ChartAxes *axes, double level)
+{
+    double shown = fmin(fmax(level, axes->level_low), axes->level_high);
+    return TOP + (HEIGHT - TOP - BOTTOM) *
+                     (1 - place(shown, axes->level_low, axes->level_high));
+}
+
+static bool is_of(const RoadDimming *row, const char *display)
+{
+    return !row->display == !display && words_same(row->display, display);
+}
+
+static void widen(ChartAxes *axes, double level)
+{
+    if (!(level > LEVEL_LEAST && level < LEVEL_SEEN)) return;
+    axes->level_low = fmin(axes->level_low, level);
+    axes->level_high = fmax(axes->level_high, level);
+}
+
+/* Whole decades of levels. False: nothing to draw. */
+static bool chart_axes(const GazeRoad *road, const char *display, ChartAxes *axes)
+{
+    *axes = (ChartAxes){INFINITY, 0, 1, 1};
+    for (int i = 0; i < road->dimming_count; i++) {
+        const RoadDimming *row = &road->dimming[i];
+        if (!is_of(row, display)) continue;
+        axes->road_low = fmin(axes->road_low, row->road_cd_m2);
+        axes->road_high = fmax(axes->road_high, row->road_cd_m2);
+        widen(axes, row->level_most);
+        widen(axes, row->level_least_sure);
+        widen(axes, row->level);
+    }
+    axes->level_low = pow_d(10, floor(log10_d(axes->level_low * 0.999)));
+    axes->level_high = pow_d(10, ceil(log10_d(axes->level_high * 0.999)));
+    return axes->road_low < axes->road_high;
+}
+
+static void add_grid(Text *svg, const ChartAxes *axes, const GazeRoad *road,
+                     const char *display)
+{
+    for (double level = axes->level_low; level <= axes->level_high * 1.001; level *= 10) {
+        double y = chart_y(axes, level);
+        text_format(svg, "<path class=\"tick\" d=\"M%.1f %.1fH%.1f\"/><text x=\"%.1f\" "
+                    "y=\"%.1f\" class=\"end\">%.4g %%</text>", LEFT, y, WIDTH - RIGHT, LEFT - 5,
+                    y + 4, 100 * level);
+    }
+    double before = -HUGE_VAL;
+    for (int i = 0; i < road->dimming_count; i++) {
+        const RoadDimming *row = &road->dimming[i];
+        double x = chart_x(axes, row->road_cd_m2);
+        if (!is_of(row, display) || row->age_years != road->ages[0].age_years ||
+            x - before < 26)
+            continue;
+        before = x;
+        text_format(svg, "<text x=\"%.1f\" y=\"%.1f\" class=\"mid\">%.4g</text>", x,
+                    HEIGHT - BOTTOM + 14, row->road_cd_m2);
+    }
+    text_format(svg, "<text x=\"%.1f\" y=\"%.1f\" class=\"mid\">road, cd/m²</text>",
+                LEFT + 0.5 * (WIDTH - LEFT - RIGHT), HEIGHT - 5);
+}
+
+static void add_line(Text *svg, const ChartAxes *axes, const GazeRoad *road,
+                     const char *display, double age)
+{
+    const char *step = "M";
+    double      x = 0, y = 0;
+    text_add(svg, "<path class=\"most\" d=\"");
+    for (int i = 0; i < road->dimming_count; i++) {
+        const RoadDimming *row = &road->dimming[i];
+        if (!is_of(row, display) || row->age_years != age || isnan(row->level_most)) continue;
+        x = chart_x(axes, row->road_cd_m2);
+        y = chart_y(axes, row->level_most);
+        text_format(svg, "%s%.1f %.1f", step, x, y);
+        step = "L";
+    }
+    text_format(svg, "\"/><text x=\"%.1f\" y=\"%.1f\">%.4g years</text>", x + 5, y + 4, age);
+}
+
+static void add_level(Text *svg, const ChartAxes *axes, double level, const char *kind)
+{
+    if (!(level > LEVEL_LEAST && level < LEVEL_SEEN)) return;
+    text_format(svg, "<path class=\"%s\" d=\"M%.1f %.1fH%.1f\"/>", kind, LEFT,
+                chart_y(axes, level), WIDTH - RIGHT);
+}
+
+/* One display's levels over the road's luminance, as SVG: a line an age for what keeps the
+ * limit, one for what its symbols take. display NULL: all by one factor; "": nothing to
+ * draw. */
+static const char *chart_of(const GazeRoad *road, const char *display, Arena *arena)
+{
+    ChartAxes axes;
+    Text      svg = {.arena = arena};
+    if (!chart_axes(road, display, &axes)) return "";
+    text_format(&svg, "<svg class=\"dimming\" viewBox=\"0 0 %.0f %.0f\" role=\"img\" "
+                "aria-label=\"levels over the road's luminance\">", WIDTH, HEIGHT);
+    add_grid(&svg, &axes, road, display);
+    for (int i = 0; i < road->dimming_count; i++) {
+        const RoadDimming *row = &road->dimming[i];
+        if (!is_of(row, display)) continue;
+        add_level(&svg, &axes, row->level_least_sure, "least");
+        add_level(&svg, &axes, row->level, "now");
+        break;
+    }
+    for (int a = 0; a < road->age_count; a++)
+        add_line(&svg, &axes, road, display, road->ages[a].age_years);
+    text_add(&svg, "</svg>");
+    return svg.data;
+}
+
+/* ---- values ------------------------------------------------------------------------------ */
+
+static json_t *new_list(json_t *to, const char *name)
+{
+    json_t *list = json_array();
+    json_object_set_new(to, name, list);
+    return list;
+}
+
+static const char *around(double low, double high, const char *unit, Arena *arena)
+{
+    return low < high ? arena_format(arena, "%s%s", words_interval(low, high, arena), unit)
+                      : NULL;
+}
+
+static void set_age(json_t *to, const RoadAge *age, bool has_limit, Arena *arena)
+{
+    const MeanInterval *range = &age->increment_range;
+    json_t             *displays = new_list(to, "displays");
+    page_set(to, "age", arena_format(arena, "%.4g", age->age_years));
+    page_set(to, "increment", words_within(age->increment_pct, range->low, range->high, arena));
+    page_set(to, "range", around(range->low, range->high, " %", arena));
+    page_set(to, "veil", words_within(age->veil, age->veil_range.low, age->veil_range.high,
+                                      arena));
+    page_set(to, "by_cie_135", words_figure(age->increment_by_spread_pct, arena));
+    page_set(to, "class", has_limit ? words_class(age->limit.verdict) : "");
+    page_set(to, "mark", has_limit ? words_mark(age->limit.verdict) : "");
+    page_set(to, "margin", has_limit ? words_margin(age->limit.margin, arena) : "");
+    for (int i = 0; i < age->display_count; i++) {
+        const RoadDisplay *d = &age->displays[i];
+        json_t            *row = page_add(displays);
+        page_set(row, "name", d->display);
+        page_set(row, "level", percent(d->level, arena));
+        page_set(row, "share", words_share(d->share, arena));
+        page_set(row, "increment", words_within(d->increment_pct, d->increment_range.low,
+                                                d->increment_range.high, arena));
+        page_set(row, "straight", words_share(d->straight_share, arena));
+        page_set(row, "mirrored", words_share(d->mirrored_share, arena));
+        page_set(row, "mirrored_by", d->mirrored_by);
+        page_set(row, "scattered", words_share(d->scattered_share, arena));
+        page_set(row, "level_most",
+                 isnan(d->level_most) ? NULL
+                 : d->level_most > 0  ? percent(d->level_most, arena)
+                                      : "not even dark");
+    }
+}
+
+static void set_row(json_t *to, const RoadDimming *row, Arena *arena)
+{
+    const char *most = row->level_most > 0 ? percent(row->level_most, arena) : "not even dark";
+    page_set(to, "age", arena_format(arena, "%.4g", row->age_years));
+    page_set(to, "road", arena_format(arena, "%.4g", row->road_cd_m2));
+    page_set(to, "most", isnan(row->level_most) ? "–" : most);
+    page_set(to, "most_range",
+             row->level_most_range.high < LEVEL_SEEN
+                 ? around(100 * row->level_most_range.low, 100 * row->level_most_range.high,
+                          " %", arena)
+                 : NULL);
+    page_set(to, "window", row->window ? road_windows[row->window] : "–");
+    page_set(to, "class", row->window == ROAD_WINDOW_EMPTY   ? "bad"
+                          : row->window == ROAD_WINDOW_CLOSE ? "close"
+                                                             : "");
+}
+
+static void set_least(json_t *to, const RoadDimming *first, Arena *arena)
+{
+    double sure = first->level_least_sure;
+    page_set(to, "display", first->display ? first->display : "all displays by one factor");
+    page_set(to, "level", percent(first->level, arena));
+    page_set(to, "symbol", first->symbol);
+    page_set(to, "least", isnan(sure)    ? NULL
+                          : isinf(sure)  ? "more than ten times today's"
+                          : !(sure > 0)  ? "none"
+                                         : percent(sure, arena));
+}
+
+static void add_dimming(json_t *to, const GazeRoad *road, Arena *arena)
+{
+    json_t *list = new_list(to, "dimmed");
+    for (int i = 0; i < road->dimming_count; i++) {
+        const RoadDimming *first = &road->dimming[i];
+        bool               is_first = true;
+        for (int k = 0; k < i; k++) is_first &= !is_of(&road->dimming[k], first->display);
+        if (!is_first) continue;
+        json_t *of = page_add(list), *rows = new_list(of, "rows");
+        set_least(of, first, arena);
+        page_set(of, "chart", chart_of(road, first->display, arena));
+        for (int k = i; k < road->dimming_count; k++)
+            if (is_of(&road->dimming[k], first->display))
+                set_row(page_add(rows), &road->dimming[k], arena);
+    }
+}
+
+static void add_road(json_t *list, const GazeFinding *gaze, Arena *arena)
+{
+    const GazeRoad *road = gaze->road;
+    json_t     *to = page_add(list), *ages = new_list(to, "ages");
+    json_t     *empty = new_list(to, "empty");
+    int         count;
+    const char **windows = road_empty_windows(gaze, &count, arena);
+    page_set(to, "name", road_name(gaze, arena));
+    page_set(to, "words", road_words(gaze, arena));
+    page_set(to, "outcome", road_outcome(gaze));
+    page_set(to, "class", gaze_counts(gaze) ? words_class(road->verdict) : "");
+    page_set(to, "road", arena_format(arena, "%.4g", road->luminance_cd_m2));
+    page_set(to, "s_p", isnan(road->s_p) ? NULL : arena_format(arena, "%.4g", road->s_p));
+    page_set(to, "mesopic", isnan(road->mesopic_cd_m2)
+                                ? NULL : arena_format(arena, "%.4g", road->mesopic_cd_m2));
+    page_set_flag(to, "is_evaluated", !road->left_out);
+    page_set_flag(to, "has_limit", road->has_limit);
+    page_set_count(to, "dimming_count", road->dimming_count);
+    if (road->age_count)
+        page_set(to, "limit", words_number(road->ages[0].limit.value, arena));
+    for (int i = 0; i < road->age_count; i++)
+        set_age(page_add(ages), &road->ages[i], road->has_limit, arena);
+    add_dimming(to, road, arena);
+    for (int i = 0; i < count; i++) json_array_append_new(empty, json_string(windows[i]));
+}
+
+void road_add_values(json_t *document, const Review *review, Arena *arena)
+{
+    json_t *roads = new_list(document, "roads");
+    for (int i = 0; i < review->gaze_count; i++)
+        if (review->gazes[i].road) add_road(roads, &review->gazes[i], arena);
+    page_set_flag(document, "has_roads", json_array_size(roads) > 0);
+}
+
+void road_add_columns(json_t *document, const Review *review)
+{
+    json_t *gazes = json_object_get(document, "gazes");
+    page_set_flag(document, "has_roads", has_roads(review));
+    for (int i = 0; i < review->gaze_count; i++) {
+        const GazeFinding *gaze = &review->gazes[i];
+        json_t            *to = json_array_get(gazes, (size_t)i);
+        if (!gaze->road) {
+            json_object_set_new(to, "road", json_null());
+            continue;
+        }
+        json_t        *road = json_object_get(to, "road");
+        const RoadAge *age = shown_age(gaze);
+        page_set(road, "outcome", road_outcome(gaze));
+        json_object_set_new(road, "shown", json_null());
+        if (age)
+            json_object_set(road, "shown",
+                            json_array_get(json_object_get(road, "ages"),
+                                           (size_t)(age - gaze->road->ages)));
+    }
+}

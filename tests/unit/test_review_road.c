@@ -1,0 +1,218 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Gazes at roads: limits, what counts, and what is written of them. */
+#include "review/export/review_junit.h"
+#include "review/judge_road.h"
+#include "review/output/review_json.h"
+#include "review/output/review_page.h"
+#include "review/output/review_road.h"
+#include "review_page_fixture.h"
+#include "road_fixture.h"
+
+static const Profile profile = {.increment_most_pct = 15};
+
+static GazeRoad *judged(double old_pct, double half, double unusable, double without_data)
+{
+    GazeRoad *road = fixture_road(&arena, old_pct, half);
+    road->without_data_share = without_data;
+    judge_road(road, &profile, unusable);
+    return road;
+}
+
+/* ---- verdicts ---------------------------------------------------------------------------- */
+
+TEST(an_increment_is_judged_by_its_whole_interval)
+{
+    static const struct {
+        double  pct, half;
+        Verdict verdict;
+    } rows[] = {{14, 0.9, VERDICT_PASS}, {14, 1.1, VERDICT_TOO_CLOSE},
+                {15.5, 1, VERDICT_TOO_CLOSE}, {16.1, 1, VERDICT_FAIL}, {15, 0, VERDICT_PASS}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        GazeRoad *road = judged(rows[i].pct, rows[i].half, 0, 0);
+        assert_true(road->has_limit);
+        assert_int_equal(road->verdict, rows[i].verdict);
+        assert_int_equal(road->unjudged, UNJUDGED_NOT);
+        assert_int_equal(road->ages[0].limit.verdict, VERDICT_PASS);
+        assert_close(road->ages[1].limit.margin + 1, 15 / rows[i].pct, 1e-12);
+        assert_true(road->ages[1].limit.found == rows[i].pct);
+        assert_true(road->ages[1].limit.low == rows[i].pct - rows[i].half);
+    }
+}
+
+TEST(what_nobody_measured_is_not_judged)
+{
+    assert_int_equal(judged(2, 0.1, 0, 0.11)->verdict, VERDICT_UNJUDGED);
+    assert_int_equal(judged(2, 0.1, 0, 0.11)->unjudged, UNJUDGED_DATA);
+    assert_int_equal(judged(2, 0.1, 0.11, 0)->unjudged, UNJUDGED_PANEL);
+    assert_int_equal(judged(2, 0.1, 0.09, 0.09)->verdict, VERDICT_PASS);
+    assert_int_equal(judged((double)NAN, 0.1, 0, 0)->unjudged, UNJUDGED_FIGURE);
+}
+
+TEST(without_a_limit_nothing_counts)
+{
+    const Profile none = {.increment_most_pct = NAN};
+    GazeFinding   gaze = {.road = fixture_road(&arena, 40, 1)};
+    judge_road(gaze.road, &none, 0);
+    assert_false(gaze_counts(&gaze));
+    assert_null(gaze_worst_age(&gaze));
+    gaze.road = fixture_road(&arena, 40, 1);
+    gaze.road->left_out = ROAD_BY_DAY;
+    judge_road(gaze.road, &profile, 0);
+    assert_false(gaze_counts(&gaze));
+    gaze.road = NULL;
+    assert_false(gaze_counts(&gaze));
+}
+
+/* The fixture's review, in which the third gaze is at a road by night. */
+static Review review_with(GazeRoad *road)
+{
+    Review review = fixture_review(&arena);
+    review.gazes[2].road = road;
+    return review;
+}
+
+TEST(a_gaze_counts_as_a_case_does)
+{
+    Review       before = fixture_review(&arena);
+    ReviewCounts counts = review_count(&before);
+    Review       review = review_with(judged(30, 1, 0, 0));
+    ReviewCounts more = review_count(&review);
+    assert_int_equal(more.total, counts.total + 1);
+    assert_int_equal(more.of[VERDICT_FAIL], counts.of[VERDICT_FAIL] + 1);
+    assert_ptr_equal(review_worst_road(&review), &review.gazes[2]);
+    review.case_count = review.sweep_count = review.without_data_count = 0;
+    assert_false(review_decide(&review));
+    assert_int_equal(review_verdict(&review), VERDICT_FAIL);
+    review.gazes[2].road = judged(2, 1, 0, 0);
+    assert_true(review_decide(&review));
+    review.gazes[2].road = judged(2, 1, 0, 1);
+    assert_false(review_decide(&review));
+    assert_int_equal(review_verdict(&review), VERDICT_UNJUDGED);
+    review.gazes[2].road = judged(15, 1, 0, 0);
+    assert_true(review_decide(&review));
+    review.is_strict = true;
+    assert_false(review_decide(&review));
+}
+
+/* ---- what is written --------------------------------------------------------------------- */
+
+TEST(a_road_is_read_as_it_was_written)
+{
+    GazeRoad *road = judged(30, 1, 0, 0.05);
+    Review    again, review = review_with(road);
+    const char *path = fresh_name(".json");
+    fixture_dimming(road);
+    assert_done(review_json_write(review_json(&review), path, &err));
+    assert_done(review_json_read(path, &arena, &again, &err));
+    assert_null(again.gazes[0].road);
+    const GazeRoad *r = again.gazes[2].road;
+    assert_same(road->mesopic_cd_m2, r->mesopic_cd_m2);
+    assert_int_equal(r->verdict, VERDICT_FAIL);
+    assert_true(r->has_limit && r->age_count == 2 && r->dimming_count == 4);
+    assert_same(30, r->ages[1].increment_pct);
+    assert_same(31, r->ages[1].increment_range.high);
+    assert_same(15, r->ages[1].limit.value);
+    assert_string_equal(r->ages[1].displays[1].mirrored_by, "windscreen (glass)");
+    assert_same(0.3, r->ages[0].displays[1].level_most_range.low);
+    assert_true(isnan(r->ages[0].displays[0].level_most));
+    assert_int_equal(r->dimming[0].window, ROAD_WINDOW_EMPTY);
+    assert_int_equal(r->dimming[3].window, ROAD_WINDOW_NONE);
+    assert_null(r->dimming[3].display);
+    assert_same(0.022, r->dimming[1].level_most_range.high);
+    const char *first = taken(path), *second = fresh_name(".json");
+    assert_done(review_json_write(review_json(&again), second, &err));
+    assert_non_null(strstr(taken(second), strstr(first, "\"road\"")));
+}
+
+static const char *written(bool (*write)(const Review *, const char *, Error *),
+                           const Review *review)
+{
+    const char *path = fresh_name(".txt");
+    assert_done(write(review, path, &err));
+    return taken(path);
+}
+
+TEST(tables_have_columns_of_roads_where_there_is_one)
+{
+    GazeRoad   *road = judged(30, 1, 0, 0);
+    Review      review = review_with(road), before = fixture_review(&arena);
+    const char *old = written(review_csv_write_gazes, &before);
+    const char *with = written(review_csv_write_gazes, &review);
+    size_t      head = strcspn(old, "\r");
+    assert_null(strstr(old, "road_cd_m2"));
+    assert_memory_equal(old, with, head);
+    assert_true(strncmp(with + head, ",road_cd_m2,road_mesopic_cd_m2,threshold_increment_pct,",
+                        54) == 0);
+    assert_non_null(strstr(with, ",0.3,0.325,30,29,31,15,fail,70,27,"));
+    assert_non_null(strstr(with, ",wide screen,0.8\r\n"));
+    fixture_dimming(road);
+    const char *dimming = written(review_csv_write_dimming, &review);
+    assert_non_null(strstr(dimming, ",driver,road,wide screen,70,0.1,0.5,0,0,0,0.02,0.021,"
+                                    "speed,empty\r\n"));
+    assert_non_null(strstr(dimming, ",driver,road,*,70,0.4,0.5,0.06,"));
+}
+
+TEST(a_test_of_ci_is_made_of_each_road_that_counts)
+{
+    Review      before = fixture_review(&arena), review = review_with(judged(30, 1, 0, 0));
+    const char *old = written(review_junit_write, &before);
+    const char *with = written(review_junit_write, &review);
+    int         tests = review_count(&before).total;
+    assert_non_null(strstr(old, arena_format(&arena, "tests=\"%d\"", tests)));
+    assert_non_null(strstr(with, arena_format(&arena, "tests=\"%d\"", tests + 1)));
+    assert_non_null(strstr(with, "<failure type=\"fail\" message=\"Fails: threshold increment "
+                                 "30.0 +- 1.0 %, required &lt;= 15 %, at 70 years on a road of "
+                                 "0.3 cd/m2"));
+    int cases = 0;
+    for (const char *at = with; (at = strstr(at, "<testcase ")); at++) cases++;
+    assert_int_equal(cases, tests + 1);
+}
+
+TEST(the_page_says_who_makes_it_and_what_keeps_it)
+{
+    GazeRoad *road = judged(30, 1, 0, 0);
+    Review    review = review_with(road), before = fixture_review(&arena);
+    fixture_dimming(road);
+    review_decide(&review);
+    ReviewPage  page = {.review = &review}, old = {.review = &before};
+    const char *text = page_of(&page);
+    assert_null(strstr(page_of(&old), "The road after dark"));
+    assert_non_null(strstr(text, "displays make 90 % of it, wide screen 80 %, all straight"));
+    assert_non_null(strstr(text, "mesopic luminance of 0.325 cd/m²"));
+    assert_non_null(strstr(text, "70 years, roads of 0.1 cd/m²: no level of wide screen does "
+                                 "both. Its symbols take 2.1 % (speed), and the increment is "
+                                 "kept up to none of it: the rest of the veil is too much."));
+    assert_non_null(strstr(text, "<svg class=\"dimming\""));
+}
+
+TEST(a_road_that_is_left_out_says_so)
+{
+    GazeRoad *road = ARENA_NEW(&arena, GazeRoad, 1);
+    *road = (GazeRoad){.luminance_cd_m2 = 0.3, .s_p = NAN, .mesopic_cd_m2 = NAN,
+                       .left_out = ROAD_BY_DAY, .without_data_share = NAN,
+                       .verdict = VERDICT_UNJUDGED};
+    Review      review = review_with(road);
+    ReviewPage  page = {.review = &review};
+    const char *text = page_of(&page);
+    assert_non_null(strstr(text, "not evaluated: the sun is above the horizon"));
+    const char *table = written(review_csv_write_gazes, &review);
+    assert_non_null(strstr(table, ",,,,,not evaluated,,,,,"));
+    assert_int_equal(review_count(&review).total, review_case_count(&review));
+}
+
+/* What an interval says and what its verdict says is one thing. */
+TEST(words_say_the_ways_of_light)
+{
+    GazeFinding gaze = {.condition = "night", .eye = "driver", .gaze = "road",
+                        .road = judged(30, 1, 0, 0)};
+    RoadDisplay *first = &gaze.road->ages[1].displays[0];
+    *first = gaze.road->ages[1].displays[1];
+    assert_non_null(strstr(road_words(&gaze, &arena),
+                           "cluster 10 %, 60 % by windscreen (glass)"));
+    first->mirrored_share = 0.1;
+    first->scattered_share = 0.7;
+    assert_non_null(strstr(road_words(&gaze, &arena), "70 % by surfaces that it lights"));
+    assert_string_equal(road_outcome(&gaze), "fail");
+}
+
+TEST_PROGRAM(page_begin, clear_folder)
