@@ -73,7 +73,8 @@ double luminance_contrast(double one, double other, double added);
  * that stands out, is -1 (-100 %) for every limit and 0 lies on the limit. With the progress
  * p = ln(ratio) of all kinds of contrast, each turned into the contrast ratio that it stands
  * for (judge.h), and p = figure of heights and strokes: p(found) / p(value) - 1, of an upper
- * limit p(value) / p(found) - 1. */
+ * limit p(value) / p(found) - 1. Of visual security p is the figure S itself: -1 is a picture
+ * of which nothing is hidden. */
 typedef struct LimitVerdict {
     const char *name, *kind, *unit, *source;
     double      value;        /* the limit */
@@ -256,6 +257,7 @@ typedef struct ReviewCase {
     double  origin_m[3];         /* of the scene that it was (scene/scene.h): its rays, view and
                                     rim are in its coordinates */
     bool    is_optional;         /* the request says that this eye need not see it */
+    bool    must_not_be_read;    /* nor may it read it: the verdict is of that (judge.h) */
     double  level;               /* at which the display was set, 1: as measured */
     double  glasses_transmittance; /* luminous, of the observer's sunglasses; 1: none. All
                                     luminances are reported without that factor */
@@ -299,6 +301,15 @@ bool limit_is_open(const LimitVerdict *limit);
 
 /* Is it too close, and would no number of paths decide it? */
 bool case_is_undecidable(const ReviewCase *c);
+
+/* Is enough of it seen to judge it? Of what must not be read, anything. */
+bool case_is_seen(const ReviewCase *c);
+
+/* What keeps it from being read, where it must not be read and cannot: nothing of it is seen;
+ * else its contrast is as low as its limit of visual security requires. */
+typedef enum KeptBy { KEPT_NOT, KEPT_HIDDEN, KEPT_SECURITY, KEPT_COUNT } KeptBy;
+extern const char *const kept_names[KEPT_COUNT + 1]; /* NULL, "hidden", "visual security" */
+KeptBy case_kept_by(const ReviewCase *c);
 
 /* A case of which no figure is known: all are NaN, and nothing is seen. */
 ReviewCase review_case_unknown(void);

@@ -9,6 +9,7 @@
 #include "review/output/review_facts.h"
 #include "review/review_decide.h"
 #include "text/json_text.h"
+#include "vision/privacy.h"
 
 #define DIGITS 6
 #define DOCUMENT_BYTES ((size_t)1 << 32) /* address space: what is not touched costs nothing */
@@ -136,6 +137,40 @@ TABLE(glare_json, CaseGlare,
     LATER("dgi_interval", RANGE, Type, glare.dgi_range),                                       \
     PART("glare", 0, Type, glare, glare_json)
 
+/* Of what must not be read: V and S, and what keeps it. */
+typedef struct PrivacyFigures {
+    const char *by;
+    double v, v_low, v_high, s, s_low, s_high;
+} PrivacyFigures;
+
+TABLE(privacy_json, PrivacyFigures,
+    AS_TEXT("kept_by", 0, PrivacyFigures, by), AS("visual_security", FIGURE, PrivacyFigures, v),
+    AS("visual_security_interval", RANGE, PrivacyFigures, v_low),
+    AS("s", FIGURE, PrivacyFigures, s), AS("s_interval", RANGE, PrivacyFigures, s_low));
+
+/* NULL: it may be read. An infinite V is null, as every infinite figure. */
+static json_t *write_privacy(const void *item)
+{
+    const ReviewCase *c = item;
+    if (!c->must_not_be_read) return NULL;
+    PrivacyFigures of = {
+        kept_names[case_kept_by(c)],
+        privacy_security_of_contrast(c->contrast_ratio),
+        privacy_security_of_contrast(c->contrast_high),
+        privacy_security_of_contrast(c->contrast_low), privacy_s_of_contrast(c->contrast_ratio),
+        privacy_s_of_contrast(c->contrast_high), privacy_s_of_contrast(c->contrast_low)};
+    return record_write(&privacy_json, &of);
+}
+
+/* Their figures follow from the contrast's, which are read, too. */
+static bool read_privacy(const JsonView *view, const RecordRow *row, void *item, Error *err)
+{
+    PrivacyFigures ignored = {.by = NULL};
+    RecordRow      object = {.key = row->key, .kind = RECORD_OBJECT, .of = &privacy_json};
+    ((ReviewCase *)item)->must_not_be_read = true;
+    return record_read_kind(view, &object, &ignored, err);
+}
+
 /* Of a case, and of a false sun. */
 typedef struct SunAt {
     double azimuth_deg, elevation_deg;
@@ -207,6 +242,8 @@ TABLE(case_json, ReviewCase,
     OWN(FIGURE, ReviewCase, margin), OWN(VERDICT, ReviewCase, verdict),
     LATER("reason", REASON, ReviewCase, unjudged),
     LATER("optional", FLAG, ReviewCase, is_optional),
+    {"must_not_be_read", RECORD_OWN, RECORD_BRIEF, .read = read_privacy,
+     .write = write_privacy},
     PART("panel", 0, ReviewCase, panel, panel_json),
     LIST("causes", MUST, ReviewCase, causes, cause_count, cause_json),
     {"cause_groups", RECORD_OBJECT, RECORD_WRITTEN, .of = &groups_json},
@@ -225,6 +262,8 @@ FOLLOWS(ReviewCase, sun_elevation_deg, sun_azimuth_deg);
 FOLLOWS(ReviewFalseSun, sun_elevation_deg, sun_azimuth_deg);
 FOLLOWS(LimitVerdict, high, low);
 FOLLOWS(CaseCause, high, low);
+FOLLOWS(PrivacyFigures, v_high, v_low);
+FOLLOWS(PrivacyFigures, s_high, s_low);
 
 TABLE(sweep_json, ReviewSweep,
     OWN(TEXT, ReviewSweep, condition), OWN(TEXT, ReviewSweep, eye),

@@ -12,6 +12,7 @@
 #include "text/interval_text.h"
 #include "text/text.h"
 #include "vision/discomfort.h"
+#include "vision/privacy.h"
 
 bool words_same(const char *a, const char *b)
 {
@@ -148,7 +149,8 @@ const char *words_kind(const LimitVerdict *limit)
     static const char *const WORDS[LIMIT_KIND_COUNT] = {
         [LIMIT_CONTRAST_RATIO] = "contrast", [LIMIT_LUMINANCE_CONTRAST] = "luminance contrast",
         [LIMIT_MODULATION] = "modulation", [LIMIT_CHARACTER_HEIGHT] = "height",
-        [LIMIT_STROKE_RATIO] = "stroke ratio", [LIMIT_WIDTH_RATIO] = "width ratio"};
+        [LIMIT_STROKE_RATIO] = "stroke ratio", [LIMIT_WIDTH_RATIO] = "width ratio",
+        [LIMIT_VISUAL_SECURITY] = "visual security S"};
     LimitKind kind = limit_kind_named(limit->kind);
     if (kind < LIMIT_KIND_COUNT) return WORDS[kind];
     return limit->name ? limit->name : "";
@@ -182,6 +184,7 @@ const char *words_ratio_as(const ReviewCase *c, double ratio, Arena *arena)
 const char *words_judged(const ReviewCase *c, Arena *arena)
 {
     const LimitVerdict *limit = case_worst_limit(c);
+    if (case_kept_by(c) == KEPT_HIDDEN) return "hidden";
     if (c->unjudged == UNJUDGED_HIDDEN && c->visible_share > 0) return "mostly hidden";
     if (c->unjudged) return unjudged_names[c->unjudged];
     return limit ? words_quantity(limit, arena) : words_contrast(c, arena);
@@ -365,6 +368,9 @@ const char *words_precision(const ReviewCase *c, Arena *arena)
 
 static const char *words_seen(const ReviewCase *c, Arena *arena)
 {
+    if (!(c->visible_share > 0) && c->must_not_be_read)
+        return "the middle of the eye's places sees nothing of it, but others do, and a sweep "
+               "counts by its middle";
     if (!(c->visible_share > 0)) return "nothing of it is seen";
     return arena_format(arena, "%s of it is seen, more than %s is required",
                         words_share(c->visible_share, arena), words_share(SEEN_LEAST, arena));
@@ -452,9 +458,34 @@ const char *words_whole(const ReviewCase *c, Arena *arena)
                         is_edged ? "; " : "", lit);
 }
 
-const char *words_reason(const ReviewCase *c, Arena *arena)
+/* Before what is said of one that must not be read. */
+static const char *words_forbidden(const ReviewCase *c)
+{
+    static const char *const WORDS[4] = {
+        [VERDICT_PASS] = "must not be read, and surely cannot be: ",
+        [VERDICT_FAIL] = "must not be read, but can be: ",
+        [VERDICT_TOO_CLOSE] = "must not be read, and perhaps can be: ",
+        [VERDICT_UNJUDGED] = "must not be read: "};
+    return c->must_not_be_read ? WORDS[c->verdict] : "";
+}
+
+/* V and contrast beside S; "": none. */
+static const char *words_security(const ReviewCase *c, Arena *arena)
+{
+    if (!c->must_not_be_read || isnan(c->contrast_ratio)) return "";
+    double v = privacy_security_of_contrast(c->contrast_ratio);
+    return arena_format(arena, "; V %s, contrast %s",
+                        words_within(v, privacy_security_of_contrast(c->contrast_high),
+                                     privacy_security_of_contrast(c->contrast_low), arena),
+                        words_contrast(c, arena));
+}
+
+static const char *reason_of(const ReviewCase *c, Arena *arena)
 {
     const LimitVerdict *limit = case_worst_limit(c);
+    if (case_kept_by(c) == KEPT_HIDDEN)
+        return arena_format(arena, "nothing of it is seen%s%s", c->hider_count ? ": " : "",
+                            words_hiders(c, arena));
     if (c->verdict == VERDICT_UNJUDGED) return words_unjudged(c, arena);
     if (!limit) return "no limit applies to it";
     const char *name = name_of(limit, arena);
@@ -468,6 +499,13 @@ const char *words_reason(const ReviewCase *c, Arena *arena)
                             required, words_precision(c, arena), words_decide(c, arena));
     return arena_format(arena, "%s %s, required %s%s", name, found, required,
                         words_precision(c, arena));
+}
+
+const char *words_reason(const ReviewCase *c, Arena *arena)
+{
+    const char *reason = reason_of(c, arena);
+    if (!c->must_not_be_read) return reason;
+    return arena_format(arena, "%s%s%s", words_forbidden(c), reason, words_security(c, arena));
 }
 
 const char *words_headline(const ReviewCase *c, Arena *arena)

@@ -171,6 +171,9 @@ static const char *name_of(const VerdictAsk *ask, Arena *arena)
                 ask->of->symbol);
     text_format(&text, "%d %.17g %.17g\n", profile->uses_veil, profile->night_below_lx,
                 profile->twilight_below_lx);
+    if (ask->of->must_not_be_read)
+        text_format(&text, "security %d %.17g\n", profile->is_security_own,
+                    profile->security.value);
     for (int i = 0; i < profile->limit_count; i++) {
         const ProfileLimit *limit = &profile->limits[i];
         const LimitSlope   *slope = &limit->slope;
@@ -306,7 +309,7 @@ static Reading read_part(const CaseLook *look, WorstPart *part, ReviewCase *c,
     const Setup *setup = ask->tools->setup;
     ask->direct = direct_sun(setup, &part->aim, *arena);
     Reading reading = read_symbol(look, &part->aim, ask, *arena);
-    if (worst_part_is_better(&part->whole, reading.interval)) {
+    if (worst_part_is_better(&part->whole, reading.interval, c->must_not_be_read)) {
         worst_part_take_all(look->symbol, part, arena);
         ask->direct = direct_sun(setup, &part->aim, *arena);
         reading = read_symbol(look, &part->aim, ask, *arena);
@@ -342,7 +345,7 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
         symbol_visibility(&symbol->surface, &setup->context, look->eye, NULL);
     c->visible_share = seen.visible_share;
     start_look(tools, look, c, arena);
-    if (!review_is_seen(seen.visible_share)) return (ProbeAim){.target_count = 0};
+    if (!case_is_seen(c)) return (ProbeAim){.target_count = 0};
     SymbolLook shown = {&symbol->surface, &symbol->split, look->eye, setup->tools.threads};
     SymbolEmission emission = symbol_emission(&shown, c->level);
     set_shown(&c->luminance_cd_m2, &emission, seen.transmittance);
@@ -350,7 +353,7 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
                     .seed = review_seed(setup->request,
                                         look->is_coarse ? COARSE_SEED : EYE_SEED)};
     symbol_put_on_glasses(setup, symbol, &aim, c, arena);
-    PartAsk   in = {symbol, &aim, look->is_coarse};
+    PartAsk   in = {symbol, &aim, look->is_coarse, c->must_not_be_read};
     WorstPart part = worst_part_find(setup, &in, arena);
     bool wants_veil = !look->is_bare || tools->profile->uses_veil;
     if (!look->is_coarse && wants_veil) see_stray_light(setup, symbol, look->eye, c, *arena);
@@ -385,6 +388,7 @@ static ReviewCase start_case(const CaseTools *tools, const ReviewEye *eye,
     c.level = setup_level(setup, symbol->display.display_id);
     c.panel = symbol->panel;
     c.is_optional = review_is_optional(setup->request, symbol->symbol_id, eye);
+    c.must_not_be_read = review_is_private(setup->request, symbol->symbol_id, eye);
     memcpy(c.origin_m, setup->scene->origin, sizeof c.origin_m);
     if (setup_sun(setup, &towards, bands)) {
         SunAngles angles = setup_angles(setup, towards);
