@@ -81,7 +81,10 @@ bool review_junit_write(const Review *review, const char *path, Error *err)
 /* Columns are the templates': assets/pages/cases.csv and the others. */
 bool review_csv_write(const Review *review, const char *path, Error *err)
 {
-    return page_write_values("cases.csv", review_json(review), NULL, path, err);
+    json_t *values = review_json(review);
+    page_set_flag(values, "has_private", review_has_privacy(review));
+    page_set(values, "must_not_be_read", NULL); /* of cases without it */
+    return page_write_values("cases.csv", values, NULL, path, err);
 }
 
 bool review_csv_write_false_suns(const Review *review, const char *path, Error *err)

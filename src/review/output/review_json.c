@@ -7,9 +7,9 @@
 #include "base/count.h"
 #include "record/record_write.h"
 #include "review/output/review_facts.h"
+#include "review/output/review_privacy.h"
 #include "review/review_decide.h"
 #include "text/json_text.h"
-#include "vision/privacy.h"
 
 #define DIGITS 6
 #define DOCUMENT_BYTES ((size_t)1 << 32) /* address space: what is not touched costs nothing */
@@ -137,38 +137,18 @@ TABLE(glare_json, CaseGlare,
     LATER("dgi_interval", RANGE, Type, glare.dgi_range),                                       \
     PART("glare", 0, Type, glare, glare_json)
 
-/* Of what must not be read: V and S, and what keeps it. */
-typedef struct PrivacyFigures {
-    const char *by;
-    double v, v_low, v_high, s, s_low, s_high;
-} PrivacyFigures;
-
-TABLE(privacy_json, PrivacyFigures,
-    AS_TEXT("kept_by", 0, PrivacyFigures, by), AS("visual_security", FIGURE, PrivacyFigures, v),
-    AS("visual_security_interval", RANGE, PrivacyFigures, v_low),
-    AS("s", FIGURE, PrivacyFigures, s), AS("s_interval", RANGE, PrivacyFigures, s_low));
-
-/* NULL: it may be read. An infinite V is null, as every infinite figure. */
 static json_t *write_privacy(const void *item)
 {
-    const ReviewCase *c = item;
-    if (!c->must_not_be_read) return NULL;
-    PrivacyFigures of = {
-        kept_names[case_kept_by(c)],
-        privacy_security_of_contrast(c->contrast_ratio),
-        privacy_security_of_contrast(c->contrast_high),
-        privacy_security_of_contrast(c->contrast_low), privacy_s_of_contrast(c->contrast_ratio),
-        privacy_s_of_contrast(c->contrast_high), privacy_s_of_contrast(c->contrast_low)};
-    return record_write(&privacy_json, &of);
+    return privacy_json(item);
 }
 
-/* Their figures follow from the contrast's, which are read, too. */
+/* Its figures follow from the contrast's, which are read, too. */
 static bool read_privacy(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
-    PrivacyFigures ignored = {.by = NULL};
-    RecordRow      object = {.key = row->key, .kind = RECORD_OBJECT, .of = &privacy_json};
+    const json_t *value = json_object_get(view->object, row->key);
     ((ReviewCase *)item)->must_not_be_read = true;
-    return record_read_kind(view, &object, &ignored, err);
+    return json_is_object(value) ||
+           json_view_wrong_kind(view, row->key, value, "an object", err);
 }
 
 /* Of a case, and of a false sun. */
@@ -262,8 +242,6 @@ FOLLOWS(ReviewCase, sun_elevation_deg, sun_azimuth_deg);
 FOLLOWS(ReviewFalseSun, sun_elevation_deg, sun_azimuth_deg);
 FOLLOWS(LimitVerdict, high, low);
 FOLLOWS(CaseCause, high, low);
-FOLLOWS(PrivacyFigures, v_high, v_low);
-FOLLOWS(PrivacyFigures, s_high, s_low);
 
 TABLE(sweep_json, ReviewSweep,
     OWN(TEXT, ReviewSweep, condition), OWN(TEXT, ReviewSweep, eye),
@@ -474,11 +452,16 @@ static json_t *write_places(const void *review)
     int           count;
     ReviewPlaces *places = review_places(review, &count, &scratch);
     json_t       *list = json_array();
-    for (int i = 0; i < count; i++)
-        json_array_append_new(
-            list, json_pack("{s:o, s:o, s:f, s:o}", "eye", text(places[i].at->eye), "symbol",
-                            text(places[i].at->symbol), "read_share", places[i].read_share,
-                            "condition", text(places[i].at->condition)));
+    for (int i = 0; i < count; i++) {
+        const ReviewCase *at = places[i].at;
+        double passing = places[i].passing_share;
+        double read = at->must_not_be_read ? 1 - passing : passing;
+        json_t *place = json_pack("{s:o, s:o, s:f, s:o}", "eye", text(at->eye), "symbol",
+                                  text(at->symbol), "read_share", read, "condition",
+                                  text(at->condition));
+        if (at->must_not_be_read) set(place, "must_not_be_read", json_true());
+        json_array_append_new(list, place);
+    }
     arena_release(&scratch);
     return list;
 }

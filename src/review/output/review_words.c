@@ -7,12 +7,12 @@
 #include <string.h>
 
 #include "plot/draw/ticks.h"
+#include "review/output/review_privacy.h"
 #include "review/quantity.h"
 #include "review/review_decide.h"
 #include "text/interval_text.h"
 #include "text/text.h"
 #include "vision/discomfort.h"
-#include "vision/privacy.h"
 
 bool words_same(const char *a, const char *b)
 {
@@ -458,28 +458,6 @@ const char *words_whole(const ReviewCase *c, Arena *arena)
                         is_edged ? "; " : "", lit);
 }
 
-/* Before what is said of one that must not be read. */
-static const char *words_forbidden(const ReviewCase *c)
-{
-    static const char *const WORDS[4] = {
-        [VERDICT_PASS] = "must not be read, and surely cannot be: ",
-        [VERDICT_FAIL] = "must not be read, but can be: ",
-        [VERDICT_TOO_CLOSE] = "must not be read, and perhaps can be: ",
-        [VERDICT_UNJUDGED] = "must not be read: "};
-    return c->must_not_be_read ? WORDS[c->verdict] : "";
-}
-
-/* V and contrast beside S; "": none. */
-static const char *words_security(const ReviewCase *c, Arena *arena)
-{
-    if (!c->must_not_be_read || isnan(c->contrast_ratio)) return "";
-    double v = privacy_security_of_contrast(c->contrast_ratio);
-    return arena_format(arena, "; V %s, contrast %s",
-                        words_within(v, privacy_security_of_contrast(c->contrast_high),
-                                     privacy_security_of_contrast(c->contrast_low), arena),
-                        words_contrast(c, arena));
-}
-
 static const char *reason_of(const ReviewCase *c, Arena *arena)
 {
     const LimitVerdict *limit = case_worst_limit(c);
@@ -505,7 +483,9 @@ const char *words_reason(const ReviewCase *c, Arena *arena)
 {
     const char *reason = reason_of(c, arena);
     if (!c->must_not_be_read) return reason;
-    return arena_format(arena, "%s%s%s", words_forbidden(c), reason, words_security(c, arena));
+    return arena_format(arena, "%s%s%s%s", privacy_words_before(c), reason,
+                        isnan(c->contrast_ratio) ? "" : "; contrast ",
+                        isnan(c->contrast_ratio) ? "" : words_contrast(c, arena));
 }
 
 const char *words_headline(const ReviewCase *c, Arena *arena)

@@ -44,7 +44,7 @@ static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const DistantT
 
 /* ---- what is hidden ---------------------------------------------------------------------- */
 
-/* The share of an eye's places that see anything of it; more than 0 where they are not known. */
+/* The share of an eye's places that see anything of it; 1 where they are not known. */
 static double seeing_share(const Sweep *sweep, const Sight *sight, Arena scratch)
 {
     Error ignored;
@@ -101,8 +101,8 @@ static bool is_worse(const SunFigures *figures, int sun, int than)
     if (rank != other) return rank > other;
     float margin = figures->margin[sun], before = figures->margin[than];
     if (!isnan(margin) && !isnan(before) && margin != before) return margin < before;
-    float more = figures->contrast[sun] - figures->contrast[than];
-    return figures->is_private ? more > 0 : more < 0;
+    float one = figures->contrast[sun], two = figures->contrast[than];
+    return figures->is_private ? one > two : one < two;
 }
 
 int sun_figures_next(const SunFigures *figures, const SweepSuns *suns, FarSteps of,
