@@ -20,10 +20,14 @@ double privacy_security_of_contrast(double ratio)
     return ratio > 1 ? ratio / (ratio - 1) : (double)INFINITY;
 }
 
+double privacy_s(double security)
+{
+    return isfinite(security) ? log10_d(security) : security;
+}
+
 double privacy_s_of_contrast(double ratio)
 {
-    double v = privacy_security_of_contrast(ratio);
-    return isfinite(v) ? log10_d(v) : v;
+    return privacy_s(privacy_security_of_contrast(ratio));
 }
 
 /* C = 1/(1 - 10^-S), without the loss of 1 - 10^-S near S = 0. */

@@ -25,6 +25,9 @@
  * picture. */
 double privacy_security(double white, double black, double reflected);
 
+/* S of a V. */
+double privacy_s(double security);
+
 /* V of a contrast ratio, 1 to infinity: infinite of 1, 1 of an infinite one; and S of it. Both
  * fall as the ratio rises. */
 double privacy_security_of_contrast(double ratio);

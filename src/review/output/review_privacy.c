@@ -21,10 +21,9 @@ PrivacyFigures privacy_figures(const ReviewCase *c)
     const CaseLuminances *l = &c->luminance_cd_m2;
     double white = fmax(l->foreground, l->background);
     double black = fmin(l->foreground, l->background);
-    return (PrivacyFigures){privacy_security(white, black, l->reflected),
-                            privacy_security_of_contrast(c->contrast_high),
-                            privacy_security_of_contrast(c->contrast_low),
-                            privacy_s_of_contrast(c->contrast_ratio),
+    double v = privacy_security(white, black, l->reflected);
+    return (PrivacyFigures){v, privacy_security_of_contrast(c->contrast_high),
+                            privacy_security_of_contrast(c->contrast_low), privacy_s(v),
                             privacy_s_of_contrast(c->contrast_high),
                             privacy_s_of_contrast(c->contrast_low)};
 }
