@@ -210,6 +210,16 @@ typedef struct CaseWhole {
 
 CaseWhole case_whole_unknown(void);
 
+/* A place of an eye box or ellipse, and how it sees what must not be read: read by few paths, as
+ * is enough to find the worst of all. */
+typedef struct CasePlace {
+    double  eye_m[3];       /* world */
+    Verdict verdict;
+    double  visible_share;
+    double  contrast_ratio; /* NaN: nothing of it is seen */
+    double  contrast_low, contrast_high;
+} CasePlace;
+
 #define CASE_BATCHES 32
 
 #define DECIDE_TIMES 64 /* --decide's budget: so many times the paths of the precision */
@@ -258,6 +268,8 @@ typedef struct ReviewCase {
                                     rim are in its coordinates */
     bool    is_optional;         /* the request says that this eye need not see it */
     bool    must_not_be_read;    /* nor may it read it: the verdict is of that (judge.h) */
+    const CasePlace *places;     /* of that, and of an eye box or ellipse: all of its points */
+    int     place_count;
     double  level;               /* at which the display was set, 1: as measured */
     double  glasses_transmittance; /* luminous, of the observer's sunglasses; 1: none. All
                                     luminances are reported without that factor */

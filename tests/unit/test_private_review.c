@@ -13,7 +13,8 @@
 /* The driver must not read what the passenger must. `behind` sees the display's back. */
 static const char request_text[] =
     "{'title':'Private','scene':['a.gltf'],'forward':[0,0,-1],"
-    "'eyes':{'passenger':{'camera':'eye'},'driver':{'position_m':[-0.6,0.02,0.5]},"
+    "'eyes':{'passenger':{'camera':'eye'},'driver':{'centre_m':[-0.6,0.02,0.5],"
+    "'half_size_m':[0.05,0,0.05],'grid':[2,1,2]},"
     "'behind':{'position_m':[0.1,0,-0.6]}},"
     "'symbols':{'film':{'display':'cluster','content':'c.png','uv':[0.167,0.408,0.27,0.609],"
     "'polarity':'light-on-dark','must_not_be_read':['driver','behind']}},"
@@ -79,6 +80,29 @@ static void assert_moments(const Review *review)
     assert_int_equal(case_of(review, "night", "passenger")->verdict, VERDICT_PASS);
 }
 
+/* Of an eye box every place is kept; the case is that of the one by which it is read best, read
+ * more surely. */
+static void assert_places(const Review *review)
+{
+    const ReviewCase *c = case_of(review, "night", "driver");
+    const ReviewCase *bright = case_of(review, "bright", "driver");
+    double            most = 0;
+    assert_int_equal(c->place_count, 4);
+    assert_int_equal(case_of(review, "night", "behind")->place_count, 0);
+    for (int i = 0; i < 4; i++) {
+        const CasePlace *p = &c->places[i];
+        assert_int_equal(p->verdict, VERDICT_FAIL);
+        assert_near(fabs(p->eye_m[0] + 0.6), 0.05, 1e-6);
+        assert_near(p->eye_m[1], 0.02, 1e-6);
+        assert_near(fabs(p->eye_m[2] - 0.5), 0.05, 1e-6);
+        most = fmax(most, p->contrast_ratio);
+        assert_int_equal(bright->places[i].verdict, VERDICT_PASS);
+    }
+    assert_near(c->eye_failed_share, 1, 0);
+    assert_near(bright->eye_failed_share, 0, 0);
+    assert_close(most, c->contrast_ratio, 0.05);
+}
+
 /* Only what shows less of it helps. */
 static void assert_remedies(const Review *review)
 {
@@ -111,6 +135,7 @@ ARENA_TEST(a_review_of_what_must_not_be_read)
     assert_int_equal(review.case_count, 6);
     assert_false(review.pass);
     assert_moments(&review);
+    assert_places(&review);
     assert_remedies(&review);
     assert_variant(&review);
     int said = 0;

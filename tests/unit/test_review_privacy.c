@@ -204,4 +204,34 @@ TEST(places_that_can_read_it)
     json_decref(root);
 }
 
+/* From where it can be read: in the document and back, and drawn, a plan for each height. */
+TEST(places_are_kept_and_drawn)
+{
+    Review          review = private_review(), again;
+    const CasePlace places[] = {{{0.1, 1.2, -0.3}, VERDICT_FAIL, 1, 3, 2.9, 3.1},
+                                {{0.2, 1.2, -0.3}, VERDICT_PASS, 1, 1.02, 1.01, 1.03},
+                                {{0.1, 1.1, -0.3}, VERDICT_TOO_CLOSE, 1, 1.1, 1.05, 1.15},
+                                {{0.2, 1.1, -0.2}, VERDICT_PASS, 0, NAN, NAN, NAN}};
+    review.cases[0].places = places;
+    review.cases[0].place_count = COUNT_OF(places);
+    const char *path = fresh_name(".json");
+    assert_done(review_json_write(review_json(&review), path, &err));
+    assert_done(review_json_read(path, &arena, &again, &err));
+    remove(path);
+    assert_int_equal(again.cases[0].place_count, COUNT_OF(places));
+    for (int i = 0; i < COUNT_OF(places); i++) {
+        const CasePlace *one = &again.cases[0].places[i];
+        assert_int_equal(one->verdict, places[i].verdict);
+        assert_near(one->eye_m[2], places[i].eye_m[2], 1e-9);
+        assert_same(one->contrast_high, places[i].contrast_high);
+    }
+    const char *page = page_of(&(ReviewPage){.review = &review});
+    assert_int_equal(count_of(page, "<circle "), 4);
+    assert_non_null(strstr(page, ">y 1.2 m</text>"));
+    assert_non_null(strstr(page, "0.10, 1.20, -0.30 m: fail, S 0.17"));
+    assert_non_null(strstr(page, "0.20, 1.10, -0.20 m: pass, hidden"));
+    assert_true(strstr(page, ">y 1.1 m</text>") > strstr(page, ">y 1.2 m</text>"));
+    assert_null(strstr(strstr(page, ": fail, S 0.17"), "<circle ")); /* it lies on top */
+}
+
 TEST_PROGRAM(page_begin, clear_folder)

@@ -137,18 +137,30 @@ TABLE(glare_json, CaseGlare,
     LATER("dgi_interval", RANGE, Type, glare.dgi_range),                                       \
     PART("glare", 0, Type, glare, glare_json)
 
+TABLE(place_json, CasePlace,
+    {"position_m", RECORD_NUMBERS, MUST, RECORD_AT(CasePlace, eye_m),
+     RECORD_RANGE(-HUGE_VAL, HUGE_VAL), RECORD_COUNT(3, 3)},
+    OWN(VERDICT, CasePlace, verdict), OWN(FIGURE, CasePlace, visible_share),
+    OWN(FIGURE, CasePlace, contrast_ratio), AS("interval", RANGE, CasePlace, contrast_low));
+
+TABLE(private_json, ReviewCase, LIST("places", 0, ReviewCase, places, place_count, place_json));
+
 static json_t *write_privacy(const void *item)
 {
-    return privacy_json(item);
+    const ReviewCase *c = item;
+    json_t           *out = privacy_json(c);
+    if (out && c->place_count)
+        json_object_set_new(out, "places",
+                            record_write_list(&place_json, c->places, c->place_count));
+    return out;
 }
 
 /* Its figures follow from the contrast's, which are read, too. */
 static bool read_privacy(const JsonView *view, const RecordRow *row, void *item, Error *err)
 {
-    const json_t *value = json_object_get(view->object, row->key);
+    RecordRow places = {.key = row->key, .kind = RECORD_OBJECT, .of = &private_json};
     ((ReviewCase *)item)->must_not_be_read = true;
-    return json_is_object(value) ||
-           json_view_wrong_kind(view, row->key, value, "an object", err);
+    return record_read_kind(view, &places, item, err);
 }
 
 /* Of a case, and of a false sun. */
@@ -242,6 +254,7 @@ FOLLOWS(ReviewCase, sun_elevation_deg, sun_azimuth_deg);
 FOLLOWS(ReviewFalseSun, sun_elevation_deg, sun_azimuth_deg);
 FOLLOWS(LimitVerdict, high, low);
 FOLLOWS(CaseCause, high, low);
+FOLLOWS(CasePlace, contrast_high, contrast_low);
 
 TABLE(sweep_json, ReviewSweep,
     OWN(TEXT, ReviewSweep, condition), OWN(TEXT, ReviewSweep, eye),

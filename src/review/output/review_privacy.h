@@ -1,15 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* review_privacy.h -- what is said of a symbol that must not be read (vision/privacy.h).
  *
- * Memory   the document's (jansson). Threads: pure. Fails: never.
+ * Memory   the document's (jansson), the arena's. Threads: pure. Fails: never.
  */
 #pragma once
 #include <jansson.h>
 
+#include "base/arena.h"
 #include "review/verdict.h"
-
-/* Before the reason of its verdict: "must not be read, but can be: "; "": it may be read. */
-const char *privacy_words_before(const ReviewCase *c);
 
 /* V and S with their 95 % intervals, whose ends are those of the contrast, the other way round.
  * NaN where the contrast is. */
@@ -18,6 +16,11 @@ typedef struct PrivacyFigures {
 } PrivacyFigures;
 
 PrivacyFigures privacy_figures(const ReviewCase *c);
+
+/* From where in an eye box or ellipse it can be read, as inline SVG: a plan of each height, seen
+ * from above, x to the right and z down as the scene has them, the heights from the top on; of
+ * more than nine heights one plan, those that can read it on top. NULL: it has one place. */
+const char *privacy_places_drawn(const ReviewCase *c, Arena *arena);
 
 /* What review.json says of it: those figures, and what keeps it from being read. What is
  * infinite is null. NULL: it may be read. */

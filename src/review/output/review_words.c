@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "plot/draw/ticks.h"
-#include "review/output/review_privacy.h"
 #include "review/quantity.h"
 #include "review/review_decide.h"
 #include "text/interval_text.h"
@@ -479,13 +478,21 @@ static const char *reason_of(const ReviewCase *c, Arena *arena)
                         words_precision(c, arena));
 }
 
+/* Of what must not be read, before the reason. */
+static const char *const FORBIDDEN[4] = {
+    [VERDICT_PASS] = "must not be read, and surely cannot be",
+    [VERDICT_FAIL] = "must not be read, but can be",
+    [VERDICT_TOO_CLOSE] = "must not be read, and perhaps can be",
+    [VERDICT_UNJUDGED] = "must not be read"};
+
 const char *words_reason(const ReviewCase *c, Arena *arena)
 {
     const char *reason = reason_of(c, arena);
     if (!c->must_not_be_read) return reason;
-    return arena_format(arena, "%s%s%s%s", privacy_words_before(c), reason,
-                        isnan(c->contrast_ratio) ? "" : "; contrast ",
-                        isnan(c->contrast_ratio) ? "" : words_contrast(c, arena));
+    bool has_contrast = !isnan(c->contrast_ratio);
+    return arena_format(arena, "%s: %s%s%s", FORBIDDEN[c->verdict], reason,
+                        has_contrast ? "; contrast " : "",
+                        has_contrast ? words_contrast(c, arena) : "");
 }
 
 const char *words_headline(const ReviewCase *c, Arena *arena)

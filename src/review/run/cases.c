@@ -445,24 +445,56 @@ static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewC
     return aim;
 }
 
-/* The index of an eye's worst point; sets the share of points that fail. */
-static int worst_point(const CaseTools *tools, const CaseLook *look, const Vec3 *points,
-                       int count, ReviewCase *c, Arena scratch)
+/* The points of an eye; places: NULL, or [count] to be filled. */
+typedef struct EyePlaces {
+    const Vec3 *points;
+    int         count;
+    CasePlace  *places;
+} EyePlaces;
+
+static CasePlace place_of(const Setup *setup, Vec3 eye, const ReviewCase *seen)
+{
+    CasePlace place = {.verdict = seen->verdict, .visible_share = seen->visible_share,
+                       .contrast_ratio = seen->contrast_ratio,
+                       .contrast_low = seen->contrast_low,
+                       .contrast_high = seen->contrast_high};
+    world_from_scene(setup->scene->origin, eye, place.eye_m);
+    return place;
+}
+
+/* The index of an eye's worst point; sets the share of points that fail, and of what must not
+ * be read how each sees it: [count] in `places`. */
+static int worst_point(const CaseTools *tools, const CaseLook *look, const EyePlaces *of,
+                       ReviewCase *c, Arena scratch)
 {
     ReviewCase start = *c, worst;
     int        at = 0, failed = 0;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < of->count; i++) {
         Arena      room = scratch;
-        CaseLook   one = {look->symbol, points[i], true, true};
+        CaseLook   one = {look->symbol, of->points[i], true, true};
         ReviewCase seen = start;
         judge_look(tools, &one, &seen, &room);
         failed += seen.verdict == VERDICT_FAIL || seen.verdict == VERDICT_UNJUDGED;
+        if (of->places) of->places[i] = place_of(tools->setup, of->points[i], &seen);
         if (i && !is_worse(&seen, &worst)) continue;
         worst = seen;
         at = i;
     }
-    c->eye_failed_share = (double)failed / count;
+    c->eye_failed_share = (double)failed / of->count;
     return at;
+}
+
+/* The worst of an eye's points, which all of them are read for where there are several. */
+static Vec3 worst_place(const CaseTools *tools, const CaseLook *look, EyePlaces of,
+                        ReviewCase *c, Arena *arena)
+{
+    if (of.count == 1) return of.points[0];
+    if (c->must_not_be_read) {
+        of.places = ARENA_NEW(arena, CasePlace, of.count);
+        c->places = of.places;
+        c->place_count = of.count;
+    }
+    return of.points[worst_point(tools, look, &of, c, *arena)];
 }
 
 static RemedyAsk remedies_of(const CaseTools *tools, const SetupSymbol *symbol,
@@ -486,8 +518,7 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
     if (!points || !review_goes_on(tools->setup->tools.journal, err)) return false;
     c.display_lux = ask->face_lux;
     c.eye_failed_share = (double)NAN;
-    look.eye =
-        points[count > 1 ? worst_point(tools, &look, points, count, &c, *arena) : 0];
+    look.eye = worst_place(tools, &look, (EyePlaces){points, count, NULL}, &c, arena);
     ProbeAim aim = judge_look(tools, &look, &c, arena);
     world_from_scene(tools->setup->scene->origin, look.eye, c.eye_m);
     c.panel = symbol_panel(ask->symbol, arena);
