@@ -49,10 +49,15 @@ function contrast(foreground,background,level,reflected){
   var dark=Math.min(foreground,background)*level+reflected;
   return dark>0?bright/dark:bright>0?Infinity:1;
 }
+/* Visual security S of what must not be read (vision/privacy.c). */
+function security(ratio){
+  return ratio>1?isFinite(ratio)?Math.log10(ratio/(ratio-1)):0:Infinity;
+}
 /* limit: [value, kind]; null: none is asked. The margin counts by the logarithm of the contrast
    ratio, as review/quantity.c has it. */
 function marginOf(limit,ratio){
   if(!limit)return NaN;
+  if(limit[1]==='visual_security')return security(ratio)/limit[0]-1;
   var asked=limit[1]==='luminance_contrast'?limit[0]+1:
     limit[1]==='modulation'?(limit[0]<1?(1+limit[0])/(1-limit[0]):Infinity):limit[0];
   if(ratio===asked)return 0;
@@ -62,6 +67,7 @@ function marginOf(limit,ratio){
 function ratioWords(limit,ratio){
   var kind=limit?limit[1]:'contrast_ratio';
   if(kind==='luminance_contrast')return 'luminance contrast '+figure(ratio-1);
+  if(kind==='visual_security')return 'visual security S '+figure(security(ratio));
   if(kind==='modulation')
     return 'modulation '+figure(isFinite(ratio)?(ratio-1)/(ratio+1):1);
   return figure(ratio)+' : 1';

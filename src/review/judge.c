@@ -109,6 +109,10 @@ static Figure figure_of(const ProfileLimit *limit, const ReviewCase *c, const Pr
     if (kind == LIMIT_STROKE_RATIO)
         return (Figure){c->stroke_ratio, c->stroke_ratio, c->stroke_ratio};
     if (!limit_kinds[kind].is_contrast) return (Figure){NAN, NAN, NAN};
+    if (limit_kinds[kind].falls)
+        return (Figure){contrast_from_ratio(kind, c->contrast_ratio),
+                        contrast_from_ratio(kind, c->contrast_high),
+                        contrast_from_ratio(kind, c->contrast_low)};
     Figure ratio = contrast_figure(c, profile);
     return (Figure){contrast_from_ratio(kind, ratio.found),
                     contrast_from_ratio(kind, ratio.low),
@@ -120,6 +124,7 @@ static Figure figure_of(const ProfileLimit *limit, const ReviewCase *c, const Pr
 static bool is_asked(const ProfileLimit *limit, const ReviewCase *c)
 {
     if (!limit->ambients[c->ambient]) return false;
+    if (limit_kinds[limit->kind].falls != c->must_not_be_read) return false;
     return !limit->slope.has_slope || !(c->height_arcmin < limit->slope.from_arcmin ||
                                         c->height_arcmin > limit->slope.to_arcmin);
 }
@@ -135,7 +140,7 @@ static double value_at(const ProfileLimit *limit, double height_arcmin)
  * figures. */
 static bool is_unjudged(const ReviewCase *c, bool is_of_light)
 {
-    return !review_is_seen(c->visible_share) || c->panel.is_unusable ||
+    return !case_is_seen(c) || c->panel.is_unusable ||
            (is_of_light && c->without_data_share > UNJUDGED_DATA_SHARE);
 }
 
@@ -151,7 +156,7 @@ static LimitVerdict judge_limit(const ProfileLimit *limit, const ReviewCase *c,
                                 const Profile *profile)
 {
     const LimitKindFacts *kind = &limit_kinds[limit->kind];
-    bool   is_visible = review_is_seen(c->visible_share);
+    bool   is_visible = case_is_seen(c);
     Figure figure = is_visible ? figure_of(limit, c, profile) : (Figure){NAN, NAN, NAN};
     LimitVerdict judged = {
         .name = limit->name, .kind = kind->name, .unit = kind->unit, .source = limit->source,
@@ -183,7 +188,7 @@ static Verdict worse(Verdict one, Verdict other)
 static Unjudged why_unjudged(const ReviewCase *c, int counted)
 {
     if (c->verdict != VERDICT_UNJUDGED) return UNJUDGED_NOT;
-    if (!review_is_seen(c->visible_share)) return UNJUDGED_HIDDEN;
+    if (!case_is_seen(c)) return UNJUDGED_HIDDEN;
     if (c->panel.is_unusable) return UNJUDGED_PANEL;
     if (!counted) return UNJUDGED_LIMIT;
     return c->without_data_share > UNJUDGED_DATA_SHARE ? UNJUDGED_DATA : UNJUDGED_FIGURE;
@@ -230,8 +235,9 @@ typedef struct OpenLimit {
 static OpenLimit open_limit(const ReviewCase *c, const LimitVerdict *limit, double fixed)
 {
     bool   is_above = limit->found > limit->value;
+    bool   falls = limit_kinds[limit_kind_named(limit->kind)].falls;
     double half = is_above ? limit->found - limit->low : limit->high - limit->found;
-    double share = sampling_share(c, limit, is_above);
+    double share = sampling_share(c, limit, is_above != falls);
     return (OpenLimit){.away = fabs(limit->found - limit->value),
                        .error = (1 - fixed) * share * half / NORMAL_QUANTILE,
                        .sun = fixed * share * half,
@@ -280,34 +286,49 @@ void judge_paths(ReviewCase *review_case, double fixed)
     }
 }
 
+/* The limits of a case as they are judged. */
+typedef struct Judging {
+    const Profile *profile;
+    LimitVerdict  *limits;
+    double         greatest; /* of the contrasts that are required: ratio, or security */
+    int            counted;
+} Judging;
+
+static void hold_against(const ProfileLimit *limit, Judging *to, ReviewCase *c)
+{
+    const LimitKindFacts *kind = &limit_kinds[limit->kind];
+    LimitVerdict judged = to->limits[c->limit_count++] = judge_limit(limit, c, to->profile);
+    if (!counts(limit, c)) return;
+    to->counted++;
+    c->verdict = worse(judged.verdict, c->verdict);
+    double asked =
+        kind->falls ? judged.value : ratio_from_contrast(limit->kind, judged.value);
+    if (kind->is_contrast && !limit->is_upper && asked > to->greatest) {
+        to->greatest = asked;
+        c->limit_id = c->limit_count - 1;
+        c->margin = judged.margin;
+    }
+}
+
 void judge_case(ReviewCase *review_case, const Profile *profile, Arena *arena)
 {
-    ReviewCase   *c = review_case;
-    LimitVerdict *limits = ARENA_NEW(arena, LimitVerdict, profile->limit_count);
-    double        greatest = -INFINITY;
-    int           counted = 0;
-    c->limits = limits;
+    ReviewCase *c = review_case;
+    Judging     to = {profile, ARENA_NEW(arena, LimitVerdict, profile->limit_count + 1),
+                      -INFINITY, 0};
+    bool        is_hidden = c->must_not_be_read && c->visible_share <= 0;
+    bool        is_own = c->must_not_be_read && profile->is_security_own;
+    c->limits = to.limits;
     c->limit_count = 0;
     c->limit_id = -1;
     c->margin = NAN;
     c->verdict = VERDICT_PASS;
     c->visibilities = visibility_levels(c, arena);
-    for (int i = 0; i < profile->limit_count; i++) {
-        const ProfileLimit *limit = &profile->limits[i];
-        if (!is_asked(limit, c)) continue;
-        LimitVerdict judged = limits[c->limit_count++] = judge_limit(limit, c, profile);
-        if (!counts(limit, c)) continue;
-        counted++;
-        c->verdict = worse(judged.verdict, c->verdict);
-        double asked = ratio_from_contrast(limit->kind, judged.value);
-        if (limit_kinds[limit->kind].is_contrast && !limit->is_upper && asked > greatest) {
-            greatest = asked;
-            c->limit_id = c->limit_count - 1;
-            c->margin = judged.margin;
-        }
-    }
-    if (!counted || is_unjudged(c, false)) c->verdict = VERDICT_UNJUDGED;
-    c->unjudged = why_unjudged(c, counted);
+    for (int i = 0; i < profile->limit_count && !is_own && !is_hidden; i++)
+        if (is_asked(&profile->limits[i], c)) hold_against(&profile->limits[i], &to, c);
+    if (c->must_not_be_read && !is_hidden && !to.counted)
+        hold_against(&profile->security, &to, c);
+    if (!is_hidden && (!to.counted || is_unjudged(c, false))) c->verdict = VERDICT_UNJUDGED;
+    c->unjudged = why_unjudged(c, to.counted);
     if (c->verdict != VERDICT_TOO_CLOSE) {
         c->open_by = OPEN_NOT;
         c->paths_to_decide = c->decide_times = c->minutes_to_decide = NAN;

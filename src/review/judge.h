@@ -13,6 +13,13 @@
  * data (what hangs on the light: a height that fails fails all the same), and where a figure is
  * NaN.
  *
+ * What must not be read (must_not_be_read) is held against limits of visual security alone
+ * (vision/privacy.h): the profile's that apply in its light, or the assumed one, or the
+ * review's own. It passes where S is surely as high as required, so that it cannot be read; a
+ * contrast that misses a limit of reading is no such thing. The veil in the eye, which hides
+ * more, does not count. Anything that is seen of it is judged; it passes, too, where nothing of
+ * it is.
+ *
  * Memory   lists come from the arena.
  * Threads  pure functions but for the case that is passed in.
  * Fails    never.

@@ -9,6 +9,7 @@
 #include "record/rows.h"
 #include "review/profile_table.h"
 #include "text/nearest_word.h"
+#include "vision/privacy.h"
 
 #define LARGEST 1e9 /* of any number in a profile */
 #define SOURCE(source, was_read)                                                               \
@@ -149,6 +150,9 @@ static bool check_limit(const JsonView *view, void *item, Error *err)
     if (limit->kind == LIMIT_MODULATION && limit->value >= 1)
         return record_fails(view, "value", err, "is %g, required: less than 1: no modulation "
                             "is more", limit->value);
+    if (limit->kind == LIMIT_VISUAL_SECURITY && limit->is_upper)
+        return record_fails(view, "bound", err, "is 'most', required: 'least' of visual "
+                            "security, which limits what must not be read");
     if (!limit->name) limit->name = usual_name(limit, view->arena);
     return true;
 }
@@ -240,6 +244,24 @@ const RecordFormat profile_format = {"profile", sizeof(Profile), PROFILE,
                                      .start = start_profile,
                                      .doc = "assets/schemas/profile.md explains the keys."};
 
+/* ---- what must not be read --------------------------------------------------------------- */
+
+static ProfileLimit security_of(double least, const char *source)
+{
+    return (ProfileLimit){.name = "visual security", .kind = LIMIT_VISUAL_SECURITY,
+                          .ambients = {true, true, true, true}, .value = least,
+                          .source = source};
+}
+
+const Profile *profile_with_security(const Profile *profile, double least, Arena *arena)
+{
+    Profile *own = ARENA_NEW(arena, Profile, 1);
+    *own = *profile;
+    own->security = security_of(least, "the review's own: privacy, security_min_s");
+    own->is_security_own = true;
+    return own;
+}
+
 /* ---- where it stands --------------------------------------------------------------------- */
 
 const char *profile_names(Arena *arena)
@@ -277,6 +299,8 @@ bool profile_load(const char *name_or_path, Arena *arena, const Profile **out, E
     Profile *profile = ARENA_NEW(arena, Profile, 1);
     profile->id = arena_string(arena, name_or_path, strlen(name_or_path));
     profile->file_hash = root.hash;
+    profile->security = security_of(SECURITY_OBSCURED, "assumed: from there on a picture is "
+                                    "usually called obscured; no source of that was read");
     ok = record_read(&root, &profile_format, profile, err);
     json_view_close(&root);
     if (ok) *out = profile;

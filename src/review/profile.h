@@ -56,8 +56,12 @@ typedef struct Profile {
     double      night_below_lx, twilight_below_lx; /* of the display's face */
     const char *ambient_source;
     bool        ambient_read_in_the_standard;
-    const ProfileLimit *limits;
+    const ProfileLimit *limits;  /* those of visual security are for what must not be read,
+                                    all others for all else */
     int         limit_count;     /* 0: it sets none */
+    ProfileLimit security;       /* of what must not be read, where `limits` have none for its
+                                    light, or whatever they have: */
+    bool        is_security_own; /* the review's own (profile_with_security) */
     const ProfileFact *facts;
     int         fact_count;
 } Profile;
@@ -66,6 +70,9 @@ extern const RecordFormat profile_format; /* of a Profile */
 
 /* A name of assets/profiles, or a path, which holds a '/' or ends in ".json". */
 bool profile_load(const char *name_or_path, Arena *arena, const Profile **out, Error *err);
+
+/* The same profile with a review's own least visual security, above 0; it lies in the arena. */
+const Profile *profile_with_security(const Profile *profile, double least, Arena *arena);
 
 /* The names of those inside the program, with commas. */
 const char *profile_names(Arena *arena);

@@ -5,19 +5,21 @@
 #include <string.h>
 
 #include "base/mathd.h"
+#include "vision/privacy.h"
 
 const char *const limit_kind_names[LIMIT_KIND_COUNT + 1] = {
     "contrast_ratio", "luminance_contrast", "modulation", "character_height", "stroke_ratio",
-    "width_ratio", "visibility_level"};
+    "width_ratio", "visibility_level", "visual_security"};
 
 const LimitKindFacts limit_kinds[LIMIT_KIND_COUNT] = {
-    [LIMIT_CONTRAST_RATIO] = {"contrast_ratio", "1", true, true, true},
-    [LIMIT_LUMINANCE_CONTRAST] = {"luminance_contrast", "1", true, true, true},
-    [LIMIT_MODULATION] = {"modulation", "1", true, true, true},
-    [LIMIT_CHARACTER_HEIGHT] = {"character_height", "arcmin", false, true, false},
-    [LIMIT_STROKE_RATIO] = {"stroke_ratio", "1", false, true, false},
-    [LIMIT_WIDTH_RATIO] = {"width_ratio", "1", false, false, false},
-    [LIMIT_VISIBILITY_LEVEL] = {"visibility_level", "1", false, true, true},
+    [LIMIT_CONTRAST_RATIO] = {"contrast_ratio", "1", true, true, true, false},
+    [LIMIT_LUMINANCE_CONTRAST] = {"luminance_contrast", "1", true, true, true, false},
+    [LIMIT_MODULATION] = {"modulation", "1", true, true, true, false},
+    [LIMIT_CHARACTER_HEIGHT] = {"character_height", "arcmin", false, true, false, false},
+    [LIMIT_STROKE_RATIO] = {"stroke_ratio", "1", false, true, false, false},
+    [LIMIT_WIDTH_RATIO] = {"width_ratio", "1", false, false, false, false},
+    [LIMIT_VISIBILITY_LEVEL] = {"visibility_level", "1", false, true, true, false},
+    [LIMIT_VISUAL_SECURITY] = {"visual_security", "1", true, true, true, true},
 };
 
 LimitKind limit_kind_named(const char *name)
@@ -32,6 +34,7 @@ double contrast_from_ratio(LimitKind kind, double ratio)
 {
     if (kind == LIMIT_LUMINANCE_CONTRAST) return ratio - 1;
     if (kind == LIMIT_MODULATION) return isinf(ratio) ? 1 : (ratio - 1) / (ratio + 1);
+    if (kind == LIMIT_VISUAL_SECURITY) return privacy_s_of_contrast(ratio);
     return ratio;
 }
 
@@ -40,13 +43,21 @@ double ratio_from_contrast(LimitKind kind, double contrast)
     if (kind == LIMIT_LUMINANCE_CONTRAST) return contrast + 1;
     if (kind == LIMIT_MODULATION)
         return contrast < 1 ? (1 + contrast) / (1 - contrast) : (double)INFINITY;
+    if (kind == LIMIT_VISUAL_SECURITY) return privacy_contrast_of_s(contrast);
     return contrast;
 }
 
-/* 0 at full wash-out, or of nothing. */
+bool limit_wants_less(const LimitVerdict *limit)
+{
+    LimitKind kind = limit_kind_named(limit->kind);
+    return limit->is_upper != (kind < LIMIT_KIND_COUNT && limit_kinds[kind].falls);
+}
+
+/* 0 at full wash-out, or of nothing; security is a logarithm as it stands, 0 in the dark. */
 static double progress(LimitKind kind, double value)
 {
-    bool is_contrast = kind < LIMIT_KIND_COUNT && limit_kinds[kind].is_contrast;
+    bool is_contrast = kind < LIMIT_KIND_COUNT && limit_kinds[kind].is_contrast &&
+                       !limit_kinds[kind].falls;
     return is_contrast ? log2_d(ratio_from_contrast(kind, value)) : value;
 }
 

@@ -230,6 +230,13 @@ const ReviewCase *review_case_like(const Review *review, const ReviewCase *like)
     return s ? &s->worst : NULL;
 }
 
+bool review_has_privacy(const Review *review)
+{
+    for (int i = 0; i < review_case_count(review); i++)
+        if (review_case_at(review, i)->must_not_be_read) return true;
+    return false;
+}
+
 static void add_places(const ReviewCase *c, ReviewPlaces *list, int *count)
 {
     int i = 0;
@@ -239,7 +246,7 @@ static void add_places(const ReviewCase *c, ReviewPlaces *list, int *count)
         i++;
     double share = 1 - c->eye_failed_share;
     if (i == *count) ++*count;
-    else if (list[i].read_share <= share) return;
+    else if (list[i].passing_share <= share) return;
     list[i] = (ReviewPlaces){c, share};
 }
 

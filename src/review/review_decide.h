@@ -64,14 +64,18 @@ const GazeFinding *review_worst_road(const Review *review);
  * review_case_count pointers, *count of them set. */
 const ReviewCase **review_displays(const Review *review, int *count, Arena *arena);
 
+/* Is there one that must not be read? */
+bool review_has_privacy(const Review *review);
+
 /* The case of the same condition, eye and symbol: a moment's or a sweep's worst; or NULL. */
 const ReviewCase *review_case_like(const Review *review, const ReviewCase *like);
 
-/* The case in which the fewest points of a box or ellipse eye can read a symbol, of moments and
- * the worst of sweeps. */
+/* The case in which the fewest points of a box or ellipse eye pass a symbol, of moments and the
+ * worst of sweeps. */
 typedef struct ReviewPlaces {
     const ReviewCase *at;
-    double            read_share; /* 0..1 of its points */
+    double            passing_share; /* 0..1 of its points: those that can read it; of what
+                                        must not be read those that surely cannot */
 } ReviewPlaces;
 
 /* In the order of the cases; 0: no eye has several places. */

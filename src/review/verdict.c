@@ -12,6 +12,8 @@ const char *const unjudged_names[UNJUDGED_COUNT + 1] = {
     [UNJUDGED_HIDDEN] = "hidden", [UNJUDGED_PANEL] = "panel not usable",
     [UNJUDGED_DATA] = "no optical data", [UNJUDGED_LIMIT] = "no limit",
     [UNJUDGED_FIGURE] = "no figure"};
+const char *const kept_names[KEPT_COUNT + 1] = {[KEPT_HIDDEN] = "hidden",
+                                                [KEPT_SECURITY] = "visual security"};
 const char *const ambient_names[5] = {"night", "twilight", "day", "sun"};
 
 const char *const remedy_kinds[REMEDY_KINDS + 1] = {"brightness", "tilt",  "hood",
@@ -76,6 +78,17 @@ bool case_is_undecidable(const ReviewCase *c)
 bool review_is_seen(double visible_share)
 {
     return visible_share > SEEN_LEAST;
+}
+
+bool case_is_seen(const ReviewCase *c)
+{
+    return c->must_not_be_read ? c->visible_share > 0 : review_is_seen(c->visible_share);
+}
+
+KeptBy case_kept_by(const ReviewCase *c)
+{
+    if (!c->must_not_be_read || c->verdict != VERDICT_PASS) return KEPT_NOT;
+    return case_is_seen(c) ? KEPT_SECURITY : KEPT_HIDDEN;
 }
 
 bool review_case_counts(const ReviewCase *c)

@@ -73,7 +73,8 @@ double luminance_contrast(double one, double other, double added);
  * that stands out, is -1 (-100 %) for every limit and 0 lies on the limit. With the progress
  * p = ln(ratio) of all kinds of contrast, each turned into the contrast ratio that it stands
  * for (judge.h), and p = figure of heights and strokes: p(found) / p(value) - 1, of an upper
- * limit p(value) / p(found) - 1. */
+ * limit p(value) / p(found) - 1. Of visual security p is the figure S itself: -1 is a picture
+ * of which nothing is hidden. */
 typedef struct LimitVerdict {
     const char *name, *kind, *unit, *source;
     double      value;        /* the limit */
@@ -227,6 +228,16 @@ typedef struct CaseVisibility {
     const char *doubts;     /* where the formula is doubtful; NULL: nowhere */
 } CaseVisibility;
 
+/* A place of an eye box or ellipse, and how it sees what must not be read: read by few paths, as
+ * is enough to find the worst of all. */
+typedef struct CasePlace {
+    double  eye_m[3];       /* world */
+    Verdict verdict;
+    double  visible_share;
+    double  contrast_ratio; /* NaN: nothing of it is seen */
+    double  contrast_low, contrast_high;
+} CasePlace;
+
 #define CASE_BATCHES 32
 
 #define DECIDE_TIMES 64 /* --decide's budget: so many times the paths of the precision */
@@ -276,6 +287,9 @@ typedef struct ReviewCase {
     double  origin_m[3];         /* of the scene that it was (scene/scene.h): its rays, view and
                                     rim are in its coordinates */
     bool    is_optional;         /* the request says that this eye need not see it */
+    bool    must_not_be_read;    /* nor may it read it: the verdict is of that (judge.h) */
+    const CasePlace *places;     /* of that, and of an eye box or ellipse: all of its points */
+    int     place_count;
     double  level;               /* at which the display was set, 1: as measured */
     double  glasses_transmittance; /* luminous, of the observer's sunglasses; 1: none. All
                                     luminances are reported without that factor */
@@ -321,6 +335,15 @@ bool limit_is_open(const LimitVerdict *limit);
 
 /* Is it too close, and would no number of paths decide it? */
 bool case_is_undecidable(const ReviewCase *c);
+
+/* Is enough of it seen to judge it? Of what must not be read, anything. */
+bool case_is_seen(const ReviewCase *c);
+
+/* What keeps it from being read, where it must not be read and cannot: nothing of it is seen;
+ * else its contrast is as low as its limit of visual security requires. */
+typedef enum KeptBy { KEPT_NOT, KEPT_HIDDEN, KEPT_SECURITY, KEPT_COUNT } KeptBy;
+extern const char *const kept_names[KEPT_COUNT + 1]; /* NULL, "hidden", "visual security" */
+KeptBy case_kept_by(const ReviewCase *c);
 
 /* A case of which no figure is known: all are NaN, and nothing is seen. */
 ReviewCase review_case_unknown(void);

@@ -2,7 +2,8 @@
 /* bench_verdicts TRIALS REVIEW.json -- how often a verdict is wrong: of each moment the first
  * symbol as the first eye sees it, held against limits that leave its true contrast a margin of
  * -10 to 10 %, TRIALS seeds each, by what decides a review's verdicts. verdicts.py makes the
- * reviews.
+ * reviews. Where the eye must not read the symbol the limit is one of visual security, and the
+ * margins are those of S (review/judge.h), six of them.
  *
  * The truth is the mean of 400 longer readings with seeds of their own; printed are its
  * contrast, the error of that in percent, and what is shown, foreground and background. Then of
@@ -42,7 +43,8 @@ static ReviewCase judged(const Verdicts *v, const Profile *profile, unsigned see
 static double true_contrast(const Verdicts *v, Arena arena)
 {
     ReviewRequest *r = v->request, asked = *r;
-    Profile        open = {.id = "none"};
+    Profile        open = {.id = "none",
+                           .security = {.kind = LIMIT_VISUAL_SECURITY, .value = 1}};
     Trial         *list = ARENA_NEW(&arena, Trial, TRUTH_RUNS);
     CaseLuminances l = {0};
     CaseBox        part = {0};
@@ -65,11 +67,16 @@ static double true_contrast(const Verdicts *v, Arena arena)
     return ratio;
 }
 
+static bool is_private(const Verdicts *v)
+{
+    return review_is_private(v->request, v->symbol->symbol_id, &v->request->eyes[0]);
+}
+
 static void try_margin(const Verdicts *v, double ratio, double percent, unsigned seed)
 {
-    ProfileLimit limit = {.name = "limit", .kind = LIMIT_CONTRAST_RATIO,
-                          .ambients = {true, true, true, true},
-                          .value = ratio / (1 + percent / 100)};
+    LimitKind    kind = is_private(v) ? LIMIT_VISUAL_SECURITY : LIMIT_CONTRAST_RATIO;
+    ProfileLimit limit = {.name = "limit", .kind = kind, .ambients = {true, true, true, true},
+                          .value = contrast_from_ratio(kind, ratio) / (1 + percent / 100)};
     Profile      profile = {.id = "one", .limits = &limit, .limit_count = 1};
     int          count[4] = {0};
     double       paths = 0;
@@ -105,7 +112,9 @@ static void try_moment(ReviewRequest *request, const ReviewCondition *c, int tri
     v.setup = &setup;
     v.symbol = &symbols[0];
     double ratio = true_contrast(&v, arena);
-    for (int i = 0; i < 8; i++) try_margin(&v, ratio, margins[i], (unsigned)(i + 1) << 20);
+    for (int i = 0; i < 8; i++)
+        if (fabs(margins[i]) > 1 || !is_private(&v))
+            try_margin(&v, ratio, margins[i], (unsigned)(i + 1) << 20);
     arena_release(&v.scratch);
     setup_close(&setup);
     arena_release(&arena);

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""verdicts.py BUILD [--trials N] [--rooms open,window,grey,sun,trim] -- how often a verdict is
-wrong whose true margin is -10 to 10 %: a table. BUILD has bench_verdicts.
+"""verdicts.py BUILD [--trials N] [--rooms open,window,grey,sun,trim] [--private] -- how often a
+verdict is wrong whose true margin is -10 to 10 %: a table. BUILD has bench_verdicts. --private:
+of a symbol that must not be read, by its visual security.
 
 Rooms: a display in the open under an even sky, and in a black box that an even sky and a sun
 light through a window, whose truths are closed forms (the panel's BRDF as `panel eval` tells
@@ -150,7 +151,7 @@ def trim():
     return scene, {"type": "constant", "luminance": 200}
 
 
-def write_review(room, folder):
+def write_review(room, folder, is_private):
     scene, light = room()
     scene.write(os.path.join(folder, "room.gltf"))
     shutil.copy(PANEL, os.path.join(folder, "ips.panel"))
@@ -158,7 +159,8 @@ def write_review(room, folder):
     with open(path, "w", encoding="utf-8") as file:
         json.dump({"title": "verdicts", "scene": ["room.gltf"], "profile": "iso-15008",
                    "eyes": {"eye": {"camera": "eye"}}, "precision": {"contrast": 0.01},
-                   "symbols": {"bar": {"display": "screen", "uv": [0.1, 0.1, 0.9, 0.9]}},
+                   "symbols": {"bar": {"display": "screen", "uv": [0.1, 0.1, 0.9, 0.9],
+                                       "must_not_be_read": is_private}},
                    "conditions": [{"name": "moment", "environment": light}]}, file)
     return path
 
@@ -208,13 +210,14 @@ def main():
     parser.add_argument("build")
     parser.add_argument("--trials", type=int, default=2000)
     parser.add_argument("--rooms", default="open,window,grey,sun,trim")
+    parser.add_argument("--private", action="store_true")
     words = parser.parse_args()
     off = 0
     print("| room | true margin | trials | pass | fail | too close | wrong | paths |\n" +
           "| --- " * 8 + "|")
     for name in words.rooms.split(","):
         with tempfile.TemporaryDirectory() as folder:
-            path = write_review(ROOMS[name], folder)
+            path = write_review(ROOMS[name], folder, words.private)
             line = [os.path.join(os.path.abspath(words.build), "bench_verdicts"),
                     f"{words.trials}", path]
             with subprocess.Popen(line, stdout=subprocess.PIPE, text=True) as running:

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A whole review without a command line: a display on a wall under an even sky. */
-#include "fixture.h"
+#include "wall_fixture.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -10,25 +10,8 @@
 #include "review/engine/engine.h"
 #include "review/request/request_read.h"
 #include "review/review_decide.h"
-#include "text/base64.h"
 
 /* ' stands for ". */
-static const char scene_text[] =
-    "{'asset':{'version':'2.0'},'extensionsUsed':['PARHELION_display'],'scene':0,"
-    "'scenes':[{'nodes':[0,1]}],'nodes':[{'mesh':0},{'name':'eye','camera':0,"
-    "'translation':[0.05,0.02,0.7]}],"
-    "'cameras':[{'name':'eye','type':'perspective','perspective':{'yfov':0.5,'znear':0.01}}],"
-    "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':1},'indices':2,"
-    "'material':0}]}],"
-    "'materials':[{'name':'cluster','extensions':{'PARHELION_display':{'panel':'p.panel'}}}],"
-    "'accessors':[{'bufferView':0,'componentType':5126,'count':4,'type':'VEC3',"
-    "'min':[-0.15,-0.05,0],'max':[0.15,0.05,0]},"
-    "{'bufferView':1,'componentType':5126,'count':4,'type':'VEC2'},"
-    "{'bufferView':2,'componentType':5123,'count':6,'type':'SCALAR'}],"
-    "'bufferViews':[{'buffer':0,'byteLength':48},{'buffer':0,'byteOffset':48,'byteLength':32},"
-    "{'buffer':0,'byteOffset':80,'byteLength':12}],"
-    "'buffers':[{'byteLength':92,'uri':'data:application/octet-stream;base64,%s'}]}";
-
 static const char request_text[] =
     "{'title':'Small','scene':['a.gltf'],'forward':[0,0,-1],"
     "'eyes':{'driver':{'camera':'eye'}},"
@@ -39,39 +22,6 @@ static const char request_text[] =
     "'variants':{'brighter':{'brightness':{'*':2}}},"
     "'conditions':[{'name':'grey','environment':{'type':'constant','luminance':500}},"
     "{'name':'bright','environment':{'type':'constant','luminance':90000}}]}";
-
-static void copy(const char *from, const char *name, Arena arena)
-{
-    FileBytes bytes;
-    assert_done(file_read(from, 1 << 24, &arena, &bytes, &err));
-    write_bytes(in_folder(name), bytes.data, bytes.size);
-}
-
-static void write_quoted(const char *name, const char *text, Arena arena)
-{
-    char *quoted = arena_string(&arena, text, strlen(text));
-    for (char *c = quoted; *c; c++)
-        if (*c == '\'') *c = '"';
-    write_text(in_folder(name), quoted);
-}
-
-static void write_files(Arena arena)
-{
-    static const struct {
-        float    at[12], uv[8];
-        uint16_t corners[6];
-    } quad = {{-0.15f, -0.05f, 0, 0.15f, -0.05f, 0, 0.15f, 0.05f, 0, -0.15f, 0.05f, 0},
-              {0, 1, 1, 1, 1, 0, 0, 0}, {0, 1, 2, 0, 2, 3}};
-    Text digits = {.arena = &arena};
-    base64_encode(&digits, &quad, sizeof quad);
-    size_t room = sizeof scene_text + digits.size;
-    char  *scene = ARENA_NEW(&arena, char, room);
-    snprintf(scene, room, scene_text, digits.data);
-    write_quoted("a.gltf", scene, arena);
-    write_quoted("r.json", request_text, arena);
-    copy(PROJECT_DIR "/assets/panels/ips_cluster.panel", "p.panel", arena);
-    copy(PROJECT_DIR "/assets/content/cluster.png", "c.png", arena);
-}
 
 typedef struct Heard {
     int  conditions, scenes, steps;
@@ -131,7 +81,7 @@ ARENA_TEST(a_review_is_a_call)
 {
     ReviewOutcome outcome;
     Heard         heard = {0};
-    write_files(arena);
+    wall_write_files(request_text, arena);
     assert_done(run_request(&heard, NULL, &arena, &outcome, &err));
     const Review *review = &outcome.review;
     assert_int_equal(heard.conditions, 2);
@@ -152,7 +102,7 @@ ARENA_TEST(a_listener_ends_it)
 {
     ReviewOutcome outcome;
     Heard         heard = {.refuses = true};
-    write_files(arena);
+    wall_write_files(request_text, arena);
     assert_fails_as(run_request(&heard, NULL, &arena, &outcome, &err), ERROR_OUTPUT,
                     "the disk is full");
     assert_int_equal(heard.steps, 1);
@@ -205,7 +155,7 @@ ARENA_TEST(answers_with_any_bytes_do_no_harm)
     ReviewOutcome first, again;
     FileBytes     file;
     int           count, kept;
-    write_files(arena);
+    wall_write_files(request_text, arena);
     assert_done(run_kept(&arena, &first, &count, &err));
     assert_true(count > 4);
     assert_done(file_read(in_folder("journal"), 1 << 26, &arena, &file, &err));

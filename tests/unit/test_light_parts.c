@@ -223,4 +223,30 @@ ARENA_TEST(what_is_known_needs_no_samples)
     assert_int_equal(light_parts_choose(&cells.parts, none, known, arena), LIGHT_PARTS_ALL);
 }
 
+/* Of what must not be read the part that gets least is worst: in the shade, where direct light
+ * falls on the left third alone. */
+ARENA_TEST(the_least_may_be_the_worst)
+{
+    Cells       cells;
+    double      means[CELLS], least = INFINITY;
+    TargetLight none[CELLS] = {{0, 0, 0}};
+    int         column, row;
+    see(&cells, NULL);
+    for (int i = 0; i < CELLS; i++) cells.values[i] = i % COLUMNS < 4 ? 100 : 1;
+    int lit = light_parts_choose(&cells.parts, none, cells.values, arena);
+    cells.parts.takes_least = true;
+    int shade = light_parts_choose(&cells.parts, none, cells.values, arena);
+    light_parts_place(&cells.parts, lit, &column, &row);
+    assert_true(column + WIDE <= 4);
+    light_parts_place(&cells.parts, shade, &column, &row);
+    assert_true(column >= 4);
+    for (uint32_t i = 0; i < CELLS; i++) cells.values[i] = (double)number(i, 7);
+    int found = light_parts_worst(&cells.parts, cells.values, means, NULL, arena);
+    for (int i = 0; i < light_parts_count(&cells.parts); i++) least = fmin(least, means[i]);
+    assert_near(means[found], least, 0);
+    for (int i = 0; i < CELLS; i++) cells.values[i] = 5;
+    assert_int_equal(light_parts_choose(&cells.parts, none, cells.values, arena),
+                     LIGHT_PARTS_ALL);
+}
+
 TEST_PROGRAM(make_arena, drop_arena)

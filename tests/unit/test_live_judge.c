@@ -34,8 +34,8 @@ static void add_number(Text *to, double value)
 static void add_case(Text *to, int i, Arena scratch)
 {
     static const LimitKind KINDS[] = {LIMIT_CONTRAST_RATIO, LIMIT_LUMINANCE_CONTRAST,
-                                      LIMIT_MODULATION};
-    LimitKind    kind = KINDS[i % 3];
+                                      LIMIT_MODULATION, LIMIT_VISUAL_SECURITY};
+    LimitKind    kind = KINDS[i % 4];
     double       foreground = i % 5 ? random_between(0.01, 1000) : 0, level = 1;
     double       background = i % 7 ? random_between(0.01, 1000) : 0;
     double       reflected = i % 11 ? random_between(1e-3, 1e5) : 0;
@@ -45,7 +45,8 @@ static void add_case(Text *to, int i, Arena scratch)
     if (i % 2) level = random_between(0.05, 4);
     ReviewCase c = {.luminance_cd_m2 = {foreground * level, background * level, reflected,
                                         reflected, 0, 0},
-                    .height_arcmin = 20, .stroke_ratio = 0.15, .visible_share = 1};
+                    .height_arcmin = 20, .stroke_ratio = 0.15, .visible_share = 1,
+                    .must_not_be_read = kind == LIMIT_VISUAL_SECURITY};
     judge_contrasts(&c, (MeanInterval){reflected, reflected});
     judge_case(&c, &profile, &scratch);
     text_add(to, "[");

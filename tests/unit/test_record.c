@@ -85,6 +85,8 @@ static json_t *of_another_kind(const RecordRow *row)
                    (row->kind == RECORD_CONST && row->words);
     bool takes_number = row->schema && (strstr(row->schema, "number") ||
                                         strstr(row->schema, "integer"));
+    for (const RecordRow *form = row->forms; form && form->key; form++)
+        if (form->kind == RECORD_FLAG) return json_integer(7);
     if (row->kind == RECORD_EITHER) return json_true();
     if (takes_number) return json_object();
     return is_text ? json_integer(7) : json_string("seven");

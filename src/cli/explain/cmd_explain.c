@@ -241,8 +241,8 @@ static void print_text(const Explained *explained, Arena *arena)
     print_where(&explained->of);
     if (explained->of.hider_count)
         print("hidden     %s\n", words_hiders(&explained->of, arena));
-    if (!review_is_seen(explained->of.visible_share)) {
-        print("%s\n", words_unjudged(&explained->of, arena));
+    if (!case_is_seen(&explained->of)) {
+        print("%s\n", words_reason(&explained->of, arena));
         return;
     }
     print_light(explained, *arena);
@@ -531,10 +531,13 @@ static bool review_question(const ExplainWords *words, Arena *arena, Explained *
                              err))
         return false;
     const Lines files = review_request_files(&request, arena);
-    return outputs_spare(&outputs, files.list, files.count, err) &&
-           (profile_load(request.profile, arena, &options.profile, err) ||
-            error_in_file(err, request.file)) &&
-           explain_review(&request, &options, arena, out, err);
+    if (!outputs_spare(&outputs, files.list, files.count, err)) return false;
+    if (!profile_load(request.profile, arena, &options.profile, err))
+        return error_in_file(err, request.file);
+    if (request.privacy.is_given)
+        options.profile = profile_with_security(options.profile, request.privacy.security_min,
+                                                arena);
+    return explain_review(&request, &options, arena, out, err);
 }
 
 static bool write_outlook(const ExplainWords *words, const Explained *explained, Arena *arena,

@@ -459,6 +459,8 @@ static Outcome review(const ReviewWords *words, Arena *arena, Error *err)
         review_watch_add(words->watch, files.list[i]);
     if (!profile_load(words->profile ? words->profile : request.profile, arena, &profile, err))
         return words->profile ? OUTCOME_FAILED : error_in_file(err, request.file);
+    if (request.privacy.is_given)
+        profile = profile_with_security(profile, request.privacy.security_min, arena);
     request.decide_times = words->decide_times ? words->decide_times
                            : words->decides    ? DECIDE_TIMES
                                                : 0;

@@ -47,13 +47,13 @@ static void print_case(const ReviewCase *c, Arena scratch)
 {
     print("%-16s %s, %s, %s", verdict_names[c->verdict], c->condition, c->eye, c->symbol);
     print_judged(c, &scratch);
-    if (review_is_seen(c->visible_share))
+    if (case_is_seen(c))
         print(", reflected %s cd/m2",
               interval_text(c->luminance_cd_m2.reflected, c->reflected_range.low,
                             c->reflected_range.high, &scratch));
     print_whole(c, &scratch);
     print_levels(c, &scratch);
-    if (c->hider_count && review_is_seen(c->visible_share))
+    if (c->hider_count && case_is_seen(c))
         print("; %s", words_hiders(c, &scratch));
     print("%s%s\n", words_precision(c, &scratch), words_decide(c, &scratch));
 }

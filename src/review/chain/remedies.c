@@ -180,7 +180,7 @@ static bool keeps_limit(const Remedying *m, const ReviewCase *then)
 static double doubt_of(const Remedying *m)
 {
     double half = 0.5 * (m->c->reflected_range.high - m->c->reflected_range.low);
-    return m->c->limits[m->limit].is_upper ? -half : half;
+    return limit_wants_less(&m->c->limits[m->limit]) ? -half : half;
 }
 
 /* Nothing that leaves the figure within its interval. */
@@ -233,7 +233,8 @@ static double ratio_needed(const Remedying *m)
 static double veil_of(const Remedying *m)
 {
     double veil = m->c->luminance_cd_m2.veil;
-    return m->ask->profile->uses_veil && veil > 0 ? veil : 0;
+    bool   counts = m->ask->profile->uses_veil && !m->c->must_not_be_read;
+    return counts && veil > 0 ? veil : 0;
 }
 
 /* ---- what no closed form gives ----------------------------------------------------------- */
@@ -299,28 +300,32 @@ static double brighter_for(const CaseLuminances *l, double own, double other, do
     return gain > 0 ? other * (needed - 1) / gain : (double)NAN;
 }
 
+#define DIMMEST 0.01 /* of what must not be read: who may read it does so no more */
 #define TRIES 40
 #define TRY_STEP 1.05 /* the panel's errors are in the interval, too */
 
 /* The least with which the limit is judged to be kept. */
 static void add_brightness(Remedying *m)
 {
-    bool   is_upper = m->c->limits[m->limit].is_upper;
+    bool   is_private = m->c->must_not_be_read;
+    bool   wants_less = limit_wants_less(&m->c->limits[m->limit]);
     double own = own_light(m), other = m->c->luminance_cd_m2.reflected - own;
     double veil = veil_of(m), grows = veil > 0 ? m->c->veil_displays : 0;
-    double doubt = doubt_of(m), most = fmax(other + veil - grows + 2 * doubt, 0);
-    double end = is_upper ? 1 / BRIGHTER_MOST : BRIGHTER_MOST;
+    double most = fmax(other + veil - grows + 2 * doubt_of(m), 0);
+    double end = wants_less ? 1 / BRIGHTER_MOST : BRIGHTER_MOST;
     double x = is_of_level(m) ? factor_by(m, judged_brighter, end)
                               : brighter_for(&m->c->luminance_cd_m2, own + grows, most,
                                              ratio_needed(m));
     for (int i = 0; i < TRIES && x > 0 && x < BRIGHTER_MOST; i++) {
         double     factor = rounded_out(x);
         ReviewCase sure = judged_brighter(m, factor);
-        x *= is_upper ? 1 / TRY_STEP : TRY_STEP;
+        x *= wants_less ? 1 / TRY_STEP : TRY_STEP;
+        if (is_private && factor < DIMMEST) return;
         if (!keeps_limit(m, &sure)) continue;
         ReviewCase then = judged_with(m, (Remedied){factor, other});
         add(m, REMEDY_BRIGHTNESS,
-            arena_format(m->arena, "the display %.3g times as bright", factor), &then);
+            arena_format(m->arena, "the display %.3g times as bright%s", factor,
+                         is_private ? " towards this eye" : ""), &then);
         return;
     }
 }
@@ -513,7 +518,7 @@ static void add_panel(Remedying *m)
 {
     const CaseLuminances *l = &m->c->luminance_cd_m2;
     double doubt = doubt_of(m), share;
-    if (m->c->limits[m->limit].is_upper) return;
+    if (limit_wants_less(&m->c->limits[m->limit])) return;
     if (is_of_level(m)) share = factor_by(m, judged_reflecting, PANEL_LEAST);
     else
         share = (reflected_at(l, ratio_needed(m)) - veil_of(m)) / (l->reflected + 2 * doubt);

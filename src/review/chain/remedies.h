@@ -51,6 +51,8 @@ CaseLeast case_least_level(const Profile *profile, const ReviewCase *c, Arena sc
 /* Sets the case's remedies, and whether it is an empty seat that washes it out. They are for
  * the contrast limit that is missed by most, and judged as the case was; where none is missed,
  * or the case cannot be judged, there are none, nor is anything listed that leaves the figure
- * within the interval it has. A brightness, and a panel, is that with which the limit is judged
- * to be kept although as much more is reflected as the interval is wide. */
+ * within the interval it has. Of what must not be read only what shows less of it to that eye
+ * is: dimmer, not below a hundredth, and tilted. A brightness, and a panel, is that with which
+ * the limit is judged to be kept although as much more (or less, where less contrast is
+ * required) is reflected as the interval is wide. */
 void case_remedies(const RemedyAsk *ask, const CauseFacts *facts, ReviewCase *c, Arena *arena);

@@ -122,6 +122,8 @@ bool review_csv_write(const Review *review, const char *path, Error *err)
 {
     json_t *document = review_json(review);
     set_ages(document, review);
+    page_set_flag(document, "has_private", review_has_privacy(review));
+    page_set(document, "must_not_be_read", NULL); /* of cases without it */
     return page_write_values("cases.csv", document, NULL, path, err);
 }
 

@@ -392,7 +392,8 @@ static ReviewMap empty_map(const ReviewSweep *sweep, ReviewAxis azimuth, ReviewA
 
 static void put_worst(const SweepTable *table, int sun, MapCells *cells, size_t at)
 {
-    if (table->figures.contrast[sun] >= cells->contrast[at]) return;
+    float found = table->figures.contrast[sun], before = cells->contrast[at]; /* NaN: none */
+    if (table->figures.is_private ? found <= before : found >= before) return;
     cells->contrast[at] = table->figures.contrast[sun];
     cells->margin[at] = table->figures.margin[sun];
     cells->verdict[at] = table->figures.verdict[sun];

@@ -340,8 +340,9 @@ static const float *ask_suns(const DistantProbe *probe, const ReadingTools *with
     const LightParts *parts = probe->parts;
     const ProbeAim   *aim = parts ? &parts->aim : &probe->aim;
     if (!with->journal) return sun_parts_worst(aim, parts, options, suns, arena);
+    int      wide = !parts ? 0 : parts->takes_least ? -parts->wide : parts->wide;
     double   numbers[] = {options->paths, (double)suns->radius, suns->by_mirror,
-                          parts ? light_parts_count(parts) : 0, parts ? parts->wide : 0};
+                          parts ? light_parts_count(parts) : 0, wide};
     Question question = {.base = with->base, .kind = "suns", .numbers = numbers,
                          .number_count = COUNT_OF(numbers), .towards = suns->towards,
                          .towards_count = suns->count};

@@ -69,10 +69,16 @@ static int off_middle(const LightParts *parts, int part)
            abs(2 * row + parts->high - parts->rows);
 }
 
+/* Values that are the greater the worse. */
+static double sign_of(const LightParts *parts)
+{
+    return parts->takes_least ? -1 : 1;
+}
+
 /* Is part a worse than b? */
 static bool is_worse(const LightParts *parts, const double *means, int a, int b)
 {
-    double apart = means[a] - means[b];
+    double apart = sign_of(parts) * (means[a] - means[b]);
     if (fabs(apart) > EQUAL * fmax(fabs(means[a]), fabs(means[b]))) return apart > 0;
     return off_middle(parts, a) < off_middle(parts, b);
 }
@@ -255,7 +261,8 @@ int light_parts_choose(const LightParts *parts, const TargetLight *sampled,
     double  even = mean_of(known, targets), light = 0;
     int     by_known = light_parts_worst(parts, known, means, NULL, scratch);
     for (int i = 0; i < targets; i++) light += known[i] + beside(&sampled[i], known[i]);
-    if (by_known >= 0 && !(means[by_known] - even > EVEN * light / targets))
+    if (by_known >= 0 &&
+        !(sign_of(parts) * (means[by_known] - even) > EVEN * light / targets))
         by_known = LIGHT_PARTS_ALL;
     PartsSaid said = samples_say(parts, sampled, known, &scratch);
     for (int i = 0; i < count; i++) with[i] = means[i] + said_of(parts, &said, i);
@@ -263,5 +270,5 @@ int light_parts_choose(const LightParts *parts, const TargetLight *sampled,
     if (worst < 0) return LIGHT_PARTS_ALL;
     double without = (by_known < 0 ? even : means[by_known]) + said_of(parts, &said, by_known);
     double error = error_between(parts, &said, worst, by_known);
-    return with[worst] - without > SURE * error ? worst : by_known;
+    return sign_of(parts) * (with[worst] - without) > SURE * error ? worst : by_known;
 }

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* light_parts.h -- which part of what an eye looks at sends it most light.
+/* light_parts.h -- which part of what an eye looks at sends it most light, or least.
  *
  * What is looked at lies in equal cells, a target each; a part is a window of some columns and
  * rows of them, slid over all in steps of one. Cells that the eye does not see do not count,
  * nor do windows of which clearly less is seen than of others.
  *
- * Units    of the values that are passed in; the worst part has the greatest mean.
+ * Units    of the values that are passed in; the worst part has the greatest mean, or the
+ *          least (takes_least).
  * Threads  pure functions.
  */
 #pragma once
@@ -16,6 +17,7 @@ typedef struct LightParts {
     const int *cell_of; /* [target] row by row */
     int columns, rows;  /* of cells */
     int wide, high;     /* cells of a window; no more than there are */
+    bool takes_least;   /* of what must not be read: least light hides it least */
 } LightParts;
 
 int light_parts_count(const LightParts *parts);

@@ -40,8 +40,11 @@ static const CaseVisibility *level_like(const ReviewCase *c, const CaseVisibilit
  * noise. */
 static DiffKind contrast_change(const ReviewCase *before, const ReviewCase *after)
 {
-    if (after->contrast_high < before->contrast_low) return DIFF_WORSE;
-    if (after->contrast_low > before->contrast_high) return DIFF_BETTER;
+    bool is_private = after->must_not_be_read; /* the less contrast, the better */
+    if (after->contrast_high < before->contrast_low)
+        return is_private ? DIFF_BETTER : DIFF_WORSE;
+    if (after->contrast_low > before->contrast_high)
+        return is_private ? DIFF_WORSE : DIFF_BETTER;
     return DIFF_SAME;
 }
 

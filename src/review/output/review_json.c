@@ -7,6 +7,7 @@
 #include "base/count.h"
 #include "record/record_write.h"
 #include "review/output/review_facts.h"
+#include "review/output/review_privacy.h"
 #include "review/review_decide.h"
 #include "review/road_verdict.h"
 #include "text/json_text.h"
@@ -153,6 +154,32 @@ TABLE(glare_json, CaseGlare,
     LATER("dgi_interval", RANGE, Type, glare.dgi_range),                                       \
     PART("glare", 0, Type, glare, glare_json)
 
+TABLE(place_json, CasePlace,
+    {"position_m", RECORD_NUMBERS, MUST, RECORD_AT(CasePlace, eye_m),
+     RECORD_RANGE(-HUGE_VAL, HUGE_VAL), RECORD_COUNT(3, 3)},
+    OWN(VERDICT, CasePlace, verdict), OWN(FIGURE, CasePlace, visible_share),
+    OWN(FIGURE, CasePlace, contrast_ratio), AS("interval", RANGE, CasePlace, contrast_low));
+
+TABLE(private_json, ReviewCase, LIST("places", 0, ReviewCase, places, place_count, place_json));
+
+static json_t *write_privacy(const void *item)
+{
+    const ReviewCase *c = item;
+    json_t           *out = privacy_json(c);
+    if (out && c->place_count)
+        json_object_set_new(out, "places",
+                            record_write_list(&place_json, c->places, c->place_count));
+    return out;
+}
+
+/* Its figures follow from the contrast's, which are read, too. */
+static bool read_privacy(const JsonView *view, const RecordRow *row, void *item, Error *err)
+{
+    RecordRow places = {.key = row->key, .kind = RECORD_OBJECT, .of = &private_json};
+    ((ReviewCase *)item)->must_not_be_read = true;
+    return record_read_kind(view, &places, item, err);
+}
+
 /* Of a case, and of a false sun. */
 typedef struct SunAt {
     double azimuth_deg, elevation_deg;
@@ -226,6 +253,8 @@ TABLE(case_json, ReviewCase,
     OWN(FIGURE, ReviewCase, margin), OWN(VERDICT, ReviewCase, verdict),
     LATER("reason", REASON, ReviewCase, unjudged),
     LATER("optional", FLAG, ReviewCase, is_optional),
+    {"must_not_be_read", RECORD_OWN, RECORD_BRIEF, .read = read_privacy,
+     .write = write_privacy},
     PART("panel", 0, ReviewCase, panel, panel_json),
     LIST("causes", MUST, ReviewCase, causes, cause_count, cause_json),
     {"cause_groups", RECORD_OBJECT, RECORD_WRITTEN, .of = &groups_json},
@@ -245,6 +274,7 @@ FOLLOWS(ReviewFalseSun, sun_elevation_deg, sun_azimuth_deg);
 FOLLOWS(LimitVerdict, high, low);
 FOLLOWS(CaseVisibility, high, low);
 FOLLOWS(CaseCause, high, low);
+FOLLOWS(CasePlace, contrast_high, contrast_low);
 
 TABLE(sweep_json, ReviewSweep,
     OWN(TEXT, ReviewSweep, condition), OWN(TEXT, ReviewSweep, eye),
@@ -496,11 +526,16 @@ static json_t *write_places(const void *review)
     int           count;
     ReviewPlaces *places = review_places(review, &count, &scratch);
     json_t       *list = json_array();
-    for (int i = 0; i < count; i++)
-        json_array_append_new(
-            list, json_pack("{s:o, s:o, s:f, s:o}", "eye", text(places[i].at->eye), "symbol",
-                            text(places[i].at->symbol), "read_share", places[i].read_share,
-                            "condition", text(places[i].at->condition)));
+    for (int i = 0; i < count; i++) {
+        const ReviewCase *at = places[i].at;
+        double passing = places[i].passing_share;
+        double read = at->must_not_be_read ? 1 - passing : passing;
+        json_t *place = json_pack("{s:o, s:o, s:f, s:o}", "eye", text(at->eye), "symbol",
+                                  text(at->symbol), "read_share", read, "condition",
+                                  text(at->condition));
+        if (at->must_not_be_read) set(place, "must_not_be_read", json_true());
+        json_array_append_new(list, place);
+    }
     arena_release(&scratch);
     return list;
 }

@@ -305,6 +305,7 @@ json_t *review_map_values(const ReviewMap *map, Arena scratch, Error *err)
                                   "hidden", holds(map, VERDICT_UNJUDGED), "gap",
                                   holds(map, GAP)));
     page_set_flag(to, "is_of_vehicle", map->is_of_vehicle);
+    page_set_flag(to, "hides", map->of->worst.must_not_be_read);
     page_set_flag(to, "is_between_steps", map->is_between_steps);
     page_set_flag(to, "has_paths", map->path_count > 0);
     return to;
@@ -474,8 +475,8 @@ static const char *mark_words(const LimitVerdict *limit, Arena *arena)
     const char *value = words_limit(limit, arena);
     if (limit_kind_named(limit->kind) != LIMIT_CONTRAST_RATIO)
         value = arena_format(arena, "%s %s", words_kind(limit), value);
-    return arena_format(arena, limit->is_upper ? "%s allows this much" : "%s needs this much",
-                        value);
+    return arena_format(arena, "%s %s this much", value,
+                        limit_wants_less(limit) ? "allows" : "needs");
 }
 
 static Bars make_bars(const ReviewCase *c, Arena *arena)

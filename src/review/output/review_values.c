@@ -14,6 +14,7 @@
 #include "review/output/ray_file.h"
 #include "review/output/review_levels.h"
 #include "review/output/review_road.h"
+#include "review/output/review_privacy.h"
 #include "review/output/review_words.h"
 #include "review/quantity.h"
 #include "review/review_decide.h"
@@ -210,6 +211,20 @@ static void set_levels(json_t *to, const ReviewCase *c, Arena *arena)
     }
 }
 
+/* Of what must not be read. */
+static void set_privacy(json_t *to, const ReviewCase *c, Arena *arena)
+{
+    PrivacyFigures of = privacy_figures(c);
+    page_set_flag(to, "is_private", c->must_not_be_read);
+    page_set(to, "places_drawn", privacy_places_drawn(c, arena));
+    page_set(to, "security",
+             !c->must_not_be_read || isnan(of.v)
+                 ? NULL
+                 : arena_format(arena, "V %s, S %s",
+                                words_within(of.v, of.v_low, of.v_high, arena),
+                                words_within(of.s, of.s_low, of.s_high, arena)));
+}
+
 /* Figures made for rooms. */
 static void set_glare(json_t *to, const CaseGlare *g, Arena *arena)
 {
@@ -309,6 +324,7 @@ static bool add_case(const PageValues *v, json_t *to, const ReviewCase *c, Error
     page_set_flag(to, "is_worst", review_sweep_of(v->review, c) != NULL);
     set_contrast(to, c, arena);
     set_levels(to, c, arena);
+    set_privacy(to, c, arena);
     set_glare(to, &c->glare, arena);
     set_limits(to, c, arena);
     set_causes(to, c, arena);
@@ -318,6 +334,7 @@ static bool add_case(const PageValues *v, json_t *to, const ReviewCase *c, Error
 
 bool values_add_cases(const PageValues *v, Error *err)
 {
+    page_set_flag(v->doc, "has_private", review_has_privacy(v->review));
     for (int i = 0; i < review_case_count(v->review); i++) {
         const ReviewCase *c = review_case_at(v->review, i);
         if (!add_case(v, values_of_case(v, c), c, err)) return false;

@@ -437,10 +437,20 @@ static void add_mends(const PageValues *v)
     }
 }
 
+/* Those of what must not be read say so. */
+static bool add_places(const PageValues *v)
+{
+    json_t *places = json_object_get(v->doc, "eye_places"), *place;
+    size_t  i;
+    json_array_foreach(places, i, place)
+        page_set_flag(place, "is_private", json_object_get(place, "must_not_be_read") != NULL);
+    return json_array_size(places) > 0;
+}
+
 bool values_add_variants(const PageValues *v, Error *err)
 {
     const Review *review = v->review;
-    bool has_places = json_array_size(json_object_get(v->doc, "eye_places")) > 0;
+    bool has_places = add_places(v);
     page_set_flag(v->doc, "has_places", has_places);
     page_set_flag(v->doc, "has_what_if", review->variant_count || review->sensitivity_count ||
                                              review->mend_count);

@@ -157,7 +157,8 @@ const char *words_kind(const LimitVerdict *limit)
         [LIMIT_CONTRAST_RATIO] = "contrast", [LIMIT_LUMINANCE_CONTRAST] = "luminance contrast",
         [LIMIT_MODULATION] = "modulation", [LIMIT_CHARACTER_HEIGHT] = "height",
         [LIMIT_STROKE_RATIO] = "stroke ratio", [LIMIT_WIDTH_RATIO] = "width ratio",
-        [LIMIT_VISIBILITY_LEVEL] = "visibility level"};
+        [LIMIT_VISIBILITY_LEVEL] = "visibility level",
+        [LIMIT_VISUAL_SECURITY] = "visual security S"};
     LimitKind kind = limit_kind_named(limit->kind);
     if (kind < LIMIT_KIND_COUNT) return WORDS[kind];
     return limit->name ? limit->name : "";
@@ -191,6 +192,7 @@ const char *words_ratio_as(const ReviewCase *c, double ratio, Arena *arena)
 const char *words_judged(const ReviewCase *c, Arena *arena)
 {
     const LimitVerdict *limit = case_worst_limit(c);
+    if (case_kept_by(c) == KEPT_HIDDEN) return "hidden";
     if (c->unjudged == UNJUDGED_HIDDEN && c->visible_share > 0) return "mostly hidden";
     if (c->unjudged) return unjudged_names[c->unjudged];
     return limit ? words_quantity(limit, arena) : words_contrast(c, arena);
@@ -375,6 +377,9 @@ const char *words_precision(const ReviewCase *c, Arena *arena)
 
 static const char *words_seen(const ReviewCase *c, Arena *arena)
 {
+    if (!(c->visible_share > 0) && c->must_not_be_read)
+        return "the middle of the eye's places sees nothing of it, but others do, and a sweep "
+               "counts by its middle";
     if (!(c->visible_share > 0)) return "nothing of it is seen";
     return arena_format(arena, "%s of it is seen, more than %s is required",
                         words_share(c->visible_share, arena), words_share(SEEN_LEAST, arena));
@@ -466,9 +471,12 @@ const char *words_whole(const ReviewCase *c, Arena *arena)
                         is_edged ? "; " : "", lit);
 }
 
-const char *words_reason(const ReviewCase *c, Arena *arena)
+static const char *reason_of(const ReviewCase *c, Arena *arena)
 {
     const LimitVerdict *limit = case_worst_limit(c);
+    if (case_kept_by(c) == KEPT_HIDDEN)
+        return arena_format(arena, "nothing of it is seen%s%s", c->hider_count ? ": " : "",
+                            words_hiders(c, arena));
     if (c->verdict == VERDICT_UNJUDGED) return words_unjudged(c, arena);
     if (!limit) return "no limit applies to it";
     const char *name = name_of(limit, arena);
@@ -482,6 +490,23 @@ const char *words_reason(const ReviewCase *c, Arena *arena)
                             required, words_precision(c, arena), words_decide(c, arena));
     return arena_format(arena, "%s %s, required %s%s", name, found, required,
                         words_precision(c, arena));
+}
+
+/* Of what must not be read, before the reason. */
+static const char *const FORBIDDEN[4] = {
+    [VERDICT_PASS] = "must not be read, and surely cannot be",
+    [VERDICT_FAIL] = "must not be read, but can be",
+    [VERDICT_TOO_CLOSE] = "must not be read, and perhaps can be",
+    [VERDICT_UNJUDGED] = "must not be read"};
+
+const char *words_reason(const ReviewCase *c, Arena *arena)
+{
+    const char *reason = reason_of(c, arena);
+    if (!c->must_not_be_read) return reason;
+    bool has_contrast = !isnan(c->contrast_ratio);
+    return arena_format(arena, "%s: %s%s%s", FORBIDDEN[c->verdict], reason,
+                        has_contrast ? "; contrast " : "",
+                        has_contrast ? words_contrast(c, arena) : "");
 }
 
 const char *words_headline(const ReviewCase *c, Arena *arena)

@@ -163,6 +163,22 @@ bool review_road_is_in(const ReviewRoad *road, const char *condition)
     return !road->condition_count;
 }
 
+bool review_is_private(const ReviewRequest *request, int symbol_id, const ReviewEye *eye)
+{
+    const bool *private_for = request->symbols[symbol_id].private_for;
+    for (int i = 0; i < request->eye_count; i++)
+        if (private_for && !strcmp(request->eyes[i].name, eye->name)) return private_for[i];
+    return false;
+}
+
+bool review_has_private(const ReviewRequest *request)
+{
+    for (int i = 0; i < request->symbol_count; i++)
+        for (int k = 0; k < request->eye_count; k++)
+            if (review_is_private(request, i, &request->eyes[k])) return true;
+    return false;
+}
+
 int review_look_count(const ReviewRequest *request)
 {
     int count = 0;

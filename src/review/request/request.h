@@ -156,7 +156,14 @@ typedef struct ReviewSymbol {
     ReviewPolarity polarity;
     const int     *optional_for; /* [eye_count]: 1: that eye need not see it; what it does see
                                     of it is judged all the same. NULL: all 0 */
+    const bool    *private_for;  /* [eye_count]: that eye must not read it. NULL: none */
 } ReviewSymbol;
+
+/* Of what must not be read. */
+typedef struct ReviewPrivacy {
+    bool   is_given;
+    double security_min; /* S (vision/privacy.h), above 0 */
+} ReviewPrivacy;
 
 /* More files of a scene: occupants. */
 typedef struct ReviewWith {
@@ -344,6 +351,7 @@ typedef struct ReviewRequest {
     int              with_count;
     ReviewSymbol    *symbols;
     int              symbol_count;
+    ReviewPrivacy    privacy;
     const char      *profile;    /* a name of assets/profiles */
     ReviewLevel     *levels;
     int              level_count;
@@ -395,6 +403,10 @@ double review_brightness(const ReviewRequest *request, ReviewDisplayName display
 
 /* Need that eye not see the symbol? */
 bool review_is_optional(const ReviewRequest *request, int symbol_id, const ReviewEye *eye);
+
+/* Must that eye not read the symbol? And is there any that must not be read? */
+bool review_is_private(const ReviewRequest *request, int symbol_id, const ReviewEye *eye);
+bool review_has_private(const ReviewRequest *request);
 
 /* NULL: there is none. */
 const ReviewCondition *review_condition_named(const ReviewRequest *request, const char *name);

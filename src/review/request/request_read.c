@@ -69,6 +69,21 @@ static const RecordFormat glare_format = {
 
 #undef OWNER
 
+/* ---- what must not be read --------------------------------------------------------------- */
+
+#define OWNER ReviewPrivacy
+
+static const RecordRow PRIVACY[] = {
+    NUMBER("security_min_s", MUST | RECORD_ABOVE, security_min, 0, 10,
+           "The least visual security S of what must not be read."),
+    {0}};
+
+static const RecordFormat privacy_format = {
+    "privacy", sizeof(OWNER), PRIVACY,
+    .doc = "In place of the profile's limits of visual security; where neither has one, an S "
+           "of 1 is assumed."};
+#undef OWNER
+
 /* ---- how well it is read ----------------------------------------------------------------- */
 
 #define OWNER ReviewRequest
@@ -138,6 +153,8 @@ static const RecordRow REVIEW[] = {
     MAP("levels", 0, levels, level_count, 1000, review_level_format,
         "How bright displays are set, 1 as measured: by display (* all others), or all by a "
         "sensor. None above max_level."),
+    {"privacy", RECORD_OBJECT, RECORD_AT(OWNER, privacy), .of = &privacy_format,
+     .count = offsetof(OWNER, privacy.is_given)},
     {"precision", RECORD_OBJECT, .of = &precision_format},
     OBJECT("glare", 0, glare, glare_format, "How discomfort is read: UGR, DGP, DGI."),
     OBJECT("frames", 0, frames, frames_format, NULL),

@@ -41,6 +41,32 @@ static bool read_visible(const JsonView *view, const RecordRow *row, void *item,
     return request_read_words(view, row, optional, err);
 }
 
+typedef struct Forbidden {
+    bool       for_all;
+    const int *eyes;
+    int        count;
+} Forbidden;
+
+static const RecordRow    READER = {.kind = RECORD_REFER, .among = &review_eye_names};
+static const RecordFormat reader_format = {"reader", sizeof(int), .value = &READER};
+static const RecordRow    FORBIDDEN[] = {
+    {"true", RECORD_FLAG, RECORD_AT(Forbidden, for_all), .doc = "For every eye."},
+    {"eyes' names", RECORD_LIST, RECORD_MANY(Forbidden, eyes, count), RECORD_COUNT(1, 256),
+     .of = &reader_format, .doc = "For these."},
+    {0}};
+
+static bool read_forbidden(const JsonView *view, const RecordRow *row, void *item, Error *err)
+{
+    Forbidden said = {.for_all = false};
+    int       eyes = ((ReviewRequest *)view->whole)->eye_count;
+    bool     *private_for = ARENA_NEW(view->arena, bool, eyes);
+    if (!record_read_kind(view, row, &said, err)) return false;
+    for (int i = 0; i < eyes; i++) private_for[i] = said.for_all;
+    for (int i = 0; i < said.count; i++) private_for[said.eyes[i]] = true;
+    ((ReviewSymbol *)item)->private_for = private_for;
+    return true;
+}
+
 static const char *const FOUND[] = {"text", NULL};
 
 #define OWNER ReviewSymbol
@@ -59,6 +85,8 @@ static const RecordRow SYMBOL[] = {
     {"visible", RECORD_EITHER, .forms = VISIBLE_FORMS, .read = read_visible,
      .doc = "Whether it must be seen. What is optional and hidden does not count; what is seen "
             "of it is judged."},
+    {"must_not_be_read", RECORD_EITHER, .forms = FORBIDDEN, .read = read_forbidden,
+     .doc = "No eye, or none of these, may be able to read it: the verdict is of that."},
     {0}};
 
 static void start_symbol(void *item)

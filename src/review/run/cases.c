@@ -176,6 +176,9 @@ static const char *name_of(const VerdictAsk *ask, Arena *arena)
         const CaseVisibility *v = &ask->of->visibilities[i];
         text_format(&text, "%.17g %.17g\n", v->age_years, v->glance_s);
     }
+    if (ask->of->must_not_be_read)
+        text_format(&text, "security %d %.17g\n", profile->is_security_own,
+                    profile->security.value);
     for (int i = 0; i < profile->limit_count; i++) {
         const ProfileLimit *limit = &profile->limits[i];
         const LimitSlope   *slope = &limit->slope;
@@ -322,7 +325,7 @@ static Reading read_part(const CaseLook *look, WorstPart *part, ReviewCase *c,
     const Setup *setup = ask->tools->setup;
     ask->direct = direct_sun(setup, &part->aim, *arena);
     Reading reading = read_symbol(look, &part->aim, ask, *arena);
-    if (worst_part_is_better(&part->whole, reading.interval)) {
+    if (worst_part_is_better(&part->whole, reading.interval, c->must_not_be_read)) {
         worst_part_take_all(look->symbol, part, arena);
         ask->direct = direct_sun(setup, &part->aim, *arena);
         reading = read_symbol(look, &part->aim, ask, *arena);
@@ -358,7 +361,7 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
         symbol_visibility(&symbol->surface, &setup->context, look->eye, NULL);
     c->visible_share = seen.visible_share;
     start_look(tools, look, c, arena);
-    if (!review_is_seen(seen.visible_share)) return (ProbeAim){.target_count = 0};
+    if (!case_is_seen(c)) return (ProbeAim){.target_count = 0};
     SymbolLook shown = {&symbol->surface, &symbol->split, look->eye, setup->tools.threads};
     SymbolEmission emission = symbol_emission(&shown, c->level);
     set_shown(&c->luminance_cd_m2, &emission, seen.transmittance);
@@ -366,7 +369,7 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
                     .seed = review_seed(setup->request,
                                         look->is_coarse ? COARSE_SEED : EYE_SEED)};
     symbol_put_on_glasses(setup, symbol, &aim, c, arena);
-    PartAsk   in = {symbol, &aim, look->is_coarse};
+    PartAsk   in = {symbol, &aim, look->is_coarse, c->must_not_be_read};
     WorstPart part = worst_part_find(setup, &in, arena);
     bool wants_veil = !look->is_bare || tools->profile->uses_veil ||
                       profile_has(tools->profile, LIMIT_VISIBILITY_LEVEL);
@@ -402,6 +405,7 @@ static ReviewCase start_case(const CaseTools *tools, const ReviewEye *eye,
     c.level = setup_level(setup, symbol->display.display_id);
     c.panel = symbol->panel;
     c.is_optional = review_is_optional(setup->request, symbol->symbol_id, eye);
+    c.must_not_be_read = review_is_private(setup->request, symbol->symbol_id, eye);
     memcpy(c.origin_m, setup->scene->origin, sizeof c.origin_m);
     if (setup_sun(setup, &towards, bands)) {
         SunAngles angles = setup_angles(setup, towards);
@@ -458,24 +462,56 @@ static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewC
     return aim;
 }
 
-/* The index of an eye's worst point; sets the share of points that fail. */
-static int worst_point(const CaseTools *tools, const CaseLook *look, const Vec3 *points,
-                       int count, ReviewCase *c, Arena scratch)
+/* The points of an eye; places: NULL, or [count] to be filled. */
+typedef struct EyePlaces {
+    const Vec3 *points;
+    int         count;
+    CasePlace  *places;
+} EyePlaces;
+
+static CasePlace place_of(const Setup *setup, Vec3 eye, const ReviewCase *seen)
+{
+    CasePlace place = {.verdict = seen->verdict, .visible_share = seen->visible_share,
+                       .contrast_ratio = seen->contrast_ratio,
+                       .contrast_low = seen->contrast_low,
+                       .contrast_high = seen->contrast_high};
+    world_from_scene(setup->scene->origin, eye, place.eye_m);
+    return place;
+}
+
+/* The index of an eye's worst point; sets the share of points that fail, and of what must not
+ * be read how each sees it: [count] in `places`. */
+static int worst_point(const CaseTools *tools, const CaseLook *look, const EyePlaces *of,
+                       ReviewCase *c, Arena scratch)
 {
     ReviewCase start = *c, worst;
     int        at = 0, failed = 0;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < of->count; i++) {
         Arena      room = scratch;
-        CaseLook   one = {look->symbol, points[i], true, true};
+        CaseLook   one = {look->symbol, of->points[i], true, true};
         ReviewCase seen = start;
         judge_look(tools, &one, &seen, &room);
         failed += seen.verdict == VERDICT_FAIL || seen.verdict == VERDICT_UNJUDGED;
+        if (of->places) of->places[i] = place_of(tools->setup, of->points[i], &seen);
         if (i && !is_worse(&seen, &worst)) continue;
         worst = seen;
         at = i;
     }
-    c->eye_failed_share = (double)failed / count;
+    c->eye_failed_share = (double)failed / of->count;
     return at;
+}
+
+/* The worst of an eye's points, which all of them are read for where there are several. */
+static Vec3 worst_place(const CaseTools *tools, const CaseLook *look, EyePlaces of,
+                        ReviewCase *c, Arena *arena)
+{
+    if (of.count == 1) return of.points[0];
+    if (c->must_not_be_read) {
+        of.places = ARENA_NEW(arena, CasePlace, of.count);
+        c->places = of.places;
+        c->place_count = of.count;
+    }
+    return of.points[worst_point(tools, look, &of, c, *arena)];
 }
 
 static RemedyAsk remedies_of(const CaseTools *tools, const SetupSymbol *symbol,
@@ -499,8 +535,7 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
     if (!points || !review_goes_on(tools->setup->tools.journal, err)) return false;
     c.display_lux = ask->face_lux;
     c.eye_failed_share = (double)NAN;
-    look.eye =
-        points[count > 1 ? worst_point(tools, &look, points, count, &c, *arena) : 0];
+    look.eye = worst_place(tools, &look, (EyePlaces){points, count, NULL}, &c, arena);
     ProbeAim aim = judge_look(tools, &look, &c, arena);
     world_from_scene(tools->setup->scene->origin, look.eye, c.eye_m);
     c.panel = symbol_panel(ask->symbol, arena);

@@ -141,7 +141,7 @@ static bool explain_on(Setup *setup, const ExplainOptions *options, Arena *scrat
         return false;
     tools.symbols = symbols;
     if (!explain_symbol(&tools, symbol, eye, arena, out, err)) return false;
-    out->has_outlook = options->with_outlook && review_is_seen(out->of.visible_share);
+    out->has_outlook = options->with_outlook && case_is_seen(&out->of);
     Vec3 from = scene_from_world(setup->scene->origin, out->of.eye_m);
     if (out->has_outlook) out->outlook = setup_outlook(setup, symbol, from, arena);
     return true;

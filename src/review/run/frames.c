@@ -262,7 +262,7 @@ static Candidate candidate_of(ReviewOutcome *outcome, const ReviewCase *c)
     for (int i = 0; i < review->case_count; i++)
         if (c == &review->cases[i])
             return (Candidate){
-                review_is_seen(c->visible_share) ? &review->cases[i] : NULL, NULL};
+                case_is_seen(c) ? &review->cases[i] : NULL, NULL};
     for (int i = 0; i < outcome->table_count; i++) {
         const SweepTable *table = &outcome->tables[i];
         ReviewCase       *worst = &review->sweeps[table->sweep_id].worst;

@@ -99,6 +99,7 @@ typedef struct SunFigures {
     float *margin, *reflected, *mirror, *level, *lux;
     unsigned char *verdict, *ambient;
     int    worst; /* sun; -1: none */
+    bool   is_private; /* it must not be read: more contrast is worse */
 } SunFigures;
 
 /* A sweep's results under each of its suns: one symbol, one eye. */

@@ -411,9 +411,38 @@ static void add_glasses_notes(const ReviewRequest *request, Review *review,
     }
 }
 
-static void add_notes(const ReviewRequest *request, Review *review, Arena *arena)
+static bool has_private_night(const Review *review)
 {
-    const char **notes = ARENA_NEW(arena, const char *, 3 * request->weather_count + 4 +
+    for (int i = 0; i < review_case_count(review); i++) {
+        const ReviewCase *c = review_case_at(review, i);
+        if (c->must_not_be_read && c->ambient == AMBIENT_NIGHT) return true;
+    }
+    return false;
+}
+
+/* By what it is judged, and whether its worst light was among the conditions. */
+static void add_privacy_notes(const ReviewRun *run, Review *review, const char ***notes,
+                              Arena *arena)
+{
+    const ProfileLimit *limit = &run->profile->security;
+    if (!review_has_private(run->request)) return;
+    add_note(review, notes, arena_format(arena,
+             "What must not be read is judged by its visual security S = log10 V, "
+             "V = (Y + R)/(Y - K) (US 11,106,103 B2): Y and K are its brighter and its darker "
+             "part's own light to that eye, R what the display reflects in the part of the "
+             "symbol that reflects least. The eye's veil does not count, and it passes by no "
+             "size: who leans forward reads smaller letters. Where the profile limits nothing "
+             "S is to be at least %.4g (%s).", limit->value, limit->source));
+    if (!has_private_night(review))
+        add_note(review, notes,
+                 "What must not be read is read best in a dark night: no case of it is by "
+                 "night, so that its worst light was not reviewed.");
+}
+
+static void add_notes(const ReviewRun *run, Review *review, Arena *arena)
+{
+    const ReviewRequest *request = run->request;
+    const char **notes = ARENA_NEW(arena, const char *, 3 * request->weather_count + 6 +
                                                         request->condition_count);
     if (has_sweeps(request)) {
         add_note(review, &notes,
@@ -432,6 +461,7 @@ static void add_notes(const ReviewRequest *request, Review *review, Arena *arena
     for (int i = 0; i < request->weather_count; i++)
         add_weather_notes(request, i, review, &notes, arena);
     add_glasses_notes(request, review, &notes, arena);
+    add_privacy_notes(run, review, &notes, arena);
 }
 
 /* ---- all of it --------------------------------------------------------------------------- */
@@ -468,7 +498,7 @@ bool review_run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *ou
     bool ok = run_conditions(&with, arena, out, err);
     sun_searches_end(&searches);
     if (!ok || run->share.count) return ok;
-    if (!run->base) add_notes(run->request, &out->review, arena);
+    if (!run->base) add_notes(run, &out->review, arena);
     review_decide(&out->review);
     return true;
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/parallel.h"
+#include "review/chain/causes.h"
 #include "review/judge.h"
 #include "review/run/case_visibility.h"
 #include "review/suns/sweep_suns.h"
@@ -31,6 +32,7 @@ static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const DistantT
     ReviewCase c = {.level = level, .limit_id = -1, .visible_share = sight->seen.visible_share,
                     .height_arcmin = sight->height_arcmin,
                     .stroke_ratio = symbol_stroke_ratio(sight->symbol),
+                    .must_not_be_read = sight->is_private,
                     .panel = sight->symbol->panel};
     c.display_lux = sight->face->lux[sun] + sight->face->own.lamps +
                     level * sight->face->own.displays;
@@ -46,6 +48,44 @@ static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const DistantT
     return c;
 }
 
+/* ---- what is hidden ---------------------------------------------------------------------- */
+
+/* The share of an eye's places that see anything of it; 1 where they are not known. */
+static double seeing_share(const Sweep *sweep, const Sight *sight, Arena scratch)
+{
+    Error ignored;
+    int   count, seeing = 0;
+    const Vec3 *points =
+        setup_eye_points(sweep->setup, sight->eye, &count, &scratch, &ignored);
+    for (int i = 0; points && i < count; i++)
+        seeing += symbol_visibility(&sight->symbol->surface, &sweep->setup->context, points[i],
+                                    NULL).visible_share > 0;
+    return points ? (double)seeing / count : 1;
+}
+
+ReviewCase sun_figures_unread(const Sweep *sweep, const Sight *sight, Arena *arena)
+{
+    ReviewCase c = review_case_unknown();
+    c.condition = sweep->setup->condition->name;
+    c.eye = sight->eye->name;
+    c.display = sight->symbol->display_name;
+    c.panel = symbol_panel(sight->symbol, arena);
+    c.is_optional = review_is_optional(sweep->run->request, sight->symbol->symbol_id,
+                                       sight->eye);
+    c.must_not_be_read = sight->is_private;
+    if (review_eye_is_wide(sight->eye)) c.eye_failed_share = 1;
+    if (sight_is_seen(sight)) return c;
+    c.visible_share = sight->seen.visible_share;
+    case_hiders(&sight->symbol->surface, &sweep->setup->context, sight->from, &c, arena);
+    if (!sight->is_private) return c;
+    double seeing = seeing_share(sweep, sight, *arena);
+    if (review_eye_is_wide(sight->eye)) c.eye_failed_share = seeing;
+    if (seeing > 0) return c;
+    c.verdict = VERDICT_PASS;
+    c.unjudged = UNJUDGED_NOT;
+    return c;
+}
+
 /* ---- all suns ---------------------------------------------------------------------------- */
 
 SunFigures sun_figures_start(int count, Arena *arena)
@@ -55,7 +95,7 @@ SunFigures sun_figures_start(int count, Arena *arena)
                         numbers + 4 * count, numbers + 5 * count, numbers + 6 * count,
                         numbers + 7 * count,
                         ARENA_NEW(arena, unsigned char, count),
-                        ARENA_NEW(arena, unsigned char, count), -1};
+                        ARENA_NEW(arena, unsigned char, count), -1, false};
 }
 
 /* Worse: by its verdict, then by its margin, then by its contrast. */
@@ -67,7 +107,8 @@ static bool is_worse(const SunFigures *figures, int sun, int than)
     if (rank != other) return rank > other;
     float margin = figures->margin[sun], before = figures->margin[than];
     if (!isnan(margin) && !isnan(before) && margin != before) return margin < before;
-    return figures->contrast[sun] < figures->contrast[than];
+    float one = figures->contrast[sun], two = figures->contrast[than];
+    return figures->is_private ? one > two : one < two;
 }
 
 int sun_figures_next(const SunFigures *figures, const SweepSuns *suns, FarSteps of,
@@ -89,7 +130,8 @@ const LimitVerdict *const *sun_figures_limits(const Sight *sight, const Profile 
     const LimitVerdict **asked = ARENA_NEW(arena, const LimitVerdict *, AMBIENT_COUNT);
     for (int ambient = 0; ambient < AMBIENT_COUNT; ambient++) {
         ReviewCase c = {.ambient = (Ambient)ambient, .visible_share = sight->seen.visible_share,
-                        .height_arcmin = sight->height_arcmin};
+                        .height_arcmin = sight->height_arcmin,
+                        .must_not_be_read = sight->is_private};
         judge_case(&c, profile, arena);
         asked[ambient] = c.limit_id >= 0 ? &c.limits[c.limit_id] : NULL;
     }
@@ -136,6 +178,7 @@ void sun_figures_judge(const Sweep *sweep, const Sight *sight, const DistantTool
                        SunFigures *figures, Arena room)
 {
     int      count = sweep->suns.count, threads = sweep->run->means.threads;
+    figures->is_private = sight->is_private;
     JudgeWork work = {sweep, sight, tools, figures, NULL};
     work.scratch = ARENA_NEW(&room, Arena, threads);
     for (int i = 0; i < threads; i++) work.scratch[i] = arena_reserve(JUDGE_BYTES);

@@ -10,6 +10,11 @@
 
 SunFigures sun_figures_start(int count, Arena *arena);
 
+/* Before any sun was read: names, and what hides it from the eye, of a box or ellipse from its
+ * middle, which counts for every place. What must not be read passes where none of them sees
+ * anything of it. */
+ReviewCase sun_figures_unread(const Sweep *sweep, const Sight *sight, Arena *arena);
+
 /* Judges the case under each of the sweep's suns, of which the sight was sampled. */
 void sun_figures_judge(const Sweep *sweep, const Sight *sight, const DistantTools *tools,
                        SunFigures *figures, Arena room);

@@ -225,26 +225,6 @@ static void set_when(const SweepReport *to, const SweepSun *sun, ReviewCase *c)
                                                     to->arena));
 }
 
-/* Of an eye box or ellipse the middle counts for every place. */
-static ReviewCase hidden_case(const SweepReport *to, const Sight *sight,
-                              const ReviewSweep *sweep)
-{
-    const Sweep *of = to->sweep;
-    ReviewCase   c = review_case_unknown();
-    c.condition = sweep->condition;
-    c.eye = sweep->eye;
-    c.symbol = sweep->symbol;
-    c.display = sight->symbol->display_name;
-    c.panel = symbol_panel(sight->symbol, to->arena);
-    c.is_optional = review_is_optional(of->run->request, sight->symbol->symbol_id, sight->eye);
-    if (review_eye_is_wide(sight->eye)) c.eye_failed_share = 1;
-    if (!review_is_seen(sight->seen.visible_share)) {
-        c.visible_share = sight->seen.visible_share;
-        case_hiders(&sight->symbol->surface, &of->setup->context, sight->from, &c, to->arena);
-    }
-    return c;
-}
-
 static ReviewSweep sweep_of(const SweepReport *to, const Sight *sight)
 {
     const char *symbol = sight->symbol->name;
@@ -253,7 +233,8 @@ static ReviewSweep sweep_of(const SweepReport *to, const Sight *sight)
                          .symbol = arena_string(to->arena, symbol, strlen(symbol)),
                          .longest_failure_minutes = to->suns->has_time ? 0 : (double)NAN,
                          .middle_contrast = (double)NAN};
-    sweep.worst = hidden_case(to, sight, &sweep);
+    sweep.worst = sun_figures_unread(to->sweep, sight, to->arena);
+    sweep.worst.symbol = sweep.symbol;
     return sweep;
 }
 

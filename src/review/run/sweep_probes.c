@@ -241,6 +241,12 @@ static void place_meters(Sweep *sweep, Arena *arena)
     }
 }
 
+bool sight_is_seen(const Sight *sight)
+{
+    double share = sight->seen.visible_share;
+    return sight->is_private ? share > 0 : review_is_seen(share);
+}
+
 static void aim_sight(Sweep *sweep, Sight *sight, Arena *arena)
 {
     const Setup         *setup = sweep->setup;
@@ -255,11 +261,12 @@ static void aim_sight(Sweep *sweep, Sight *sight, Arena *arena)
     sight->probe.aim =
         (ProbeAim){.context = &setup->context, .eye = sight->from,
                    .seed = review_seed(setup->request, EYE_SEED)};
-    if (review_is_seen(sight->seen.visible_share))
+    if (sight_is_seen(sight))
         symbol_aim(surface, is_visible, arena, &sight->probe.aim);
     if (!sight->probe.aim.target_count) return;
     LightParts *parts = ARENA_NEW(arena, LightParts, 1);
     *parts = symbol_parts(sight->symbol, &sight->probe.aim, SUN_PATHS, arena);
+    parts->takes_least = sight->is_private;
     if (parts->aim.target_count) sight->probe.parts = parts;
 }
 
@@ -270,7 +277,8 @@ static void find_twin(Sweep *sweep, Sight *sight)
     sight->twin = NO_ID;
     for (int i = same; i < id && sight->twin == NO_ID; i += sweep->symbol_count) {
         Sight *other = &sweep->sights[i];
-        if (other->is_left || memcmp(&other->from, &sight->from, sizeof sight->from) != 0)
+        if (other->is_left || other->is_private != sight->is_private ||
+            memcmp(&other->from, &sight->from, sizeof sight->from) != 0)
             continue;
         sight->twin = i;
         other->has_twin = true;
@@ -289,6 +297,8 @@ static bool place_sights(Sweep *sweep, Arena *arena, Error *err)
             Sight *sight = &sweep->sights[sweep->sight_count++];
             *sight = (Sight){.eye = &request->eyes[e], .symbol = &sweep->symbols[s],
                              .from = from, .face = &sweep->faces[s], .twin = NO_ID};
+            sight->is_private = review_is_private(request, sweep->symbols[s].symbol_id,
+                                                  &request->eyes[e]);
             aim_sight(sweep, sight, arena);
         }
     }

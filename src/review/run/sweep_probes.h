@@ -63,8 +63,12 @@ typedef struct Sight {
                                    eye is: what is sampled there holds for both; NO_ID: none */
     bool               has_twin; /* a later one has this for its twin */
     bool               is_left; /* as a meter */
+    bool               is_private; /* the eye must not read it */
     const DistantReading *read;    /* [sun], where several need them; else NULL */
 } Sight;
+
+/* Is enough of it seen to judge it (case_is_seen)? */
+bool sight_is_seen(const Sight *sight);
 
 /* The setup under the sun for which it was lit last: eyes that share a symbol often share its
  * worst. */

@@ -446,6 +446,7 @@ WorstPart worst_part_find(const Setup *setup, const PartAsk *ask, Arena *arena)
     Arena     scratch = arena_reserve((size_t)1 << 28);
     double    uv[4];
     LightParts parts = symbol_parts(ask->symbol, ask->aim, CELLS_MOST, &scratch);
+    parts.takes_least = ask->is_private;
     memcpy(uv, all->uv, sizeof uv);
     if (parts.aim.target_count) {
         int part = ask->is_coarse ? part_by_sun(setup, &parts, scratch)
@@ -460,9 +461,10 @@ WorstPart worst_part_find(const Setup *setup, const PartAsk *ask, Arena *arena)
 
 /* ---- the mean in its place --------------------------------------------------------------- */
 
-bool worst_part_is_better(const CaseWhole *whole, MeanInterval reading)
+bool worst_part_is_better(const CaseWhole *whole, MeanInterval reading, bool is_private)
 {
-    return reading.high < whole->reflected_range.low; /* not where the mean is not known */
+    MeanInterval mean = whole->reflected_range; /* NaN where it is not known */
+    return is_private ? reading.low > mean.high : reading.high < mean.low;
 }
 
 void worst_part_take_all(const SetupSymbol *symbol, WorstPart *part, Arena *arena)

@@ -57,7 +57,8 @@ void symbol_put_on_glasses(const Setup *setup, const SetupSymbol *symbol, ProbeA
                            ReviewCase *c, Arena *arena);
 
 /* The part of a symbol that an eye sees worst: the window, as wide as a stroke
- * and one character high (symbols.h), from which most light is reflected.
+ * and one character high (symbols.h), from which most light is reflected; of what must not be
+ * read the one from which least is.
  *
  * It is found by the direct sun, which is known for every place, and by paths to all of the
  * symbol, whose mean is the symbol's. That is a selection: who judges the part reads it by
@@ -74,6 +75,7 @@ typedef struct PartAsk {
     const ProbeAim    *aim;  /* without targets; all of the symbol is read by a seed of its
                                 own */
     bool     is_coarse;      /* by the direct sun alone: no mean */
+    bool     is_private;     /* it must not be read: the part from which least is reflected */
 } PartAsk;
 
 typedef struct WorstPart {
@@ -83,8 +85,9 @@ typedef struct WorstPart {
 
 WorstPart worst_part_find(const Setup *setup, const PartAsk *ask, Arena *arena);
 
-/* Does a part of that reading reflect less than the mean, beyond both intervals? */
-bool worst_part_is_better(const CaseWhole *whole, MeanInterval reading);
+/* Does a part of that reading reflect less than the mean, beyond both intervals? Or more, where
+ * the least was sought? */
+bool worst_part_is_better(const CaseWhole *whole, MeanInterval reading, bool is_private);
 
 /* From now on all of the symbol that is seen is the part. */
 void worst_part_take_all(const SetupSymbol *symbol, WorstPart *part, Arena *arena);

@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "review/output/review_privacy.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "review/output/review_words.h"
+#include "text/json_text.h"
+#include "text/text.h"
+#include "vision/privacy.h"
+
+PrivacyFigures privacy_figures(const ReviewCase *c)
+{
+    const CaseLuminances *l = &c->luminance_cd_m2;
+    double white = fmax(l->foreground, l->background);
+    double black = fmin(l->foreground, l->background);
+    double v = privacy_security(white, black, l->reflected);
+    return (PrivacyFigures){v, privacy_security_of_contrast(c->contrast_high),
+                            privacy_security_of_contrast(c->contrast_low), privacy_s(v),
+                            privacy_s_of_contrast(c->contrast_high),
+                            privacy_s_of_contrast(c->contrast_low)};
+}
+
+/* ---- from where -------------------------------------------------------------------------- */
+
+#define PLANS_MOST 9
+#define PLAN 120.0      /* pixels, of each */
+#define PLAN_ROOM 88.0  /* of that, for its points */
+#define SAME_M 1e-4     /* heights that differ by less are one */
+
+typedef struct Plans {
+    double height_m[PLANS_MOST + 1]; /* from the top on; one more: too many */
+    int    count;
+    double low[2], scale;            /* of x and z */
+} Plans;
+
+static int plan_of(const Plans *plans, double height_m)
+{
+    int i = 0;
+    while (i < plans->count && fabs(plans->height_m[i] - height_m) > SAME_M) i++;
+    return i;
+}
+
+static int compare_down(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x < y) - (x > y);
+}
+
+static Plans make_plans(const ReviewCase *c)
+{
+    Plans  plans = {.low = {INFINITY, INFINITY}};
+    double high[2] = {-INFINITY, -INFINITY};
+    for (int i = 0; i < c->place_count; i++) {
+        const double *at = c->places[i].eye_m;
+        for (int k = 0; k < 2; k++) {
+            plans.low[k] = fmin(plans.low[k], at[2 * k]);
+            high[k] = fmax(high[k], at[2 * k]);
+        }
+        if (plans.count > PLANS_MOST || plan_of(&plans, at[1]) < plans.count) continue;
+        plans.height_m[plans.count++] = at[1];
+    }
+    qsort(plans.height_m, (size_t)plans.count, sizeof *plans.height_m, compare_down);
+    if (plans.count > PLANS_MOST) plans.count = 1;
+    double widest = fmax(high[0] - plans.low[0], high[1] - plans.low[1]);
+    plans.scale = widest > 0 ? PLAN_ROOM / widest : 0;
+    return plans;
+}
+
+static void add_place(Text *svg, const Plans *plans, const CasePlace *p, Arena *arena)
+{
+    static const char *const FILLS[4] = {[VERDICT_PASS] = "good", [VERDICT_FAIL] = "bad",
+                                         [VERDICT_TOO_CLOSE] = "close",
+                                         [VERDICT_UNJUDGED] = "hidden"};
+    int    plan = plans->count > 1 ? plan_of(plans, p->eye_m[1]) : 0;
+    double x = PLAN * plan + 16 + plans->scale * (p->eye_m[0] - plans->low[0]);
+    double y = 30 + plans->scale * (p->eye_m[2] - plans->low[1]);
+    text_format(svg, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"6\" style=\"fill:var(--%s)\">"
+                "<title>%.2f, %.2f, %.2f m: %s", x, y, FILLS[p->verdict], p->eye_m[0], p->eye_m[1],
+                p->eye_m[2], verdict_names[p->verdict]);
+    if (p->visible_share > 0)
+        text_format(svg, ", S %s", words_within(privacy_s_of_contrast(p->contrast_ratio),
+                                                privacy_s_of_contrast(p->contrast_high),
+                                                privacy_s_of_contrast(p->contrast_low),
+                                                arena));
+    text_add(svg, p->visible_share > 0 ? "</title></circle>" : ", hidden</title></circle>");
+}
+
+const char *privacy_places_drawn(const ReviewCase *c, Arena *arena)
+{
+    Text  svg = {.arena = arena};
+    Plans plans = make_plans(c);
+    if (!c->place_count) return NULL;
+    text_format(&svg, "<svg width=\"%.0f\" height=\"%.0f\" role=\"img\" aria-label=\"from "
+                "which of the eye's places it can be read\">", PLAN * plans.count, PLAN + 8);
+    for (int i = 0; i < plans.count && plans.count > 1; i++)
+        text_format(&svg, "<text x=\"%.0f\" y=\"14\" "
+                    "style=\"font-size:11px;fill:currentColor\">y %.3g m</text>", PLAN * i + 10, plans.height_m[i]);
+    for (int rank = 0; rank <= verdict_rank(VERDICT_FAIL); rank++)
+        for (int i = 0; i < c->place_count; i++)
+            if (verdict_rank(c->places[i].verdict) == rank)
+                add_place(&svg, &plans, &c->places[i], arena);
+    text_add(&svg, "</svg>");
+    return svg.data;
+}
+
+/* ---- as JSON ----------------------------------------------------------------------------- */
+
+static void set_figure(json_t *to, const char *key, double value)
+{
+    json_object_set_new(to, key, json_figure(value));
+}
+
+static void set_interval(json_t *to, const char *key, double low, double high)
+{
+    json_object_set_new(to, key, json_pack("[o,o]", json_figure(low), json_figure(high)));
+}
+
+json_t *privacy_json(const ReviewCase *c)
+{
+    PrivacyFigures of = privacy_figures(c);
+    const char    *by = kept_names[case_kept_by(c)];
+    if (!c->must_not_be_read) return NULL;
+    json_t *out = json_pack("{s:o}", "kept_by", by ? json_text(by) : json_null());
+    set_figure(out, "visual_security", of.v);
+    set_interval(out, "visual_security_interval", of.v_low, of.v_high);
+    set_figure(out, "s", of.s);
+    set_interval(out, "s_interval", of.s_low, of.s_high);
+    return out;
+}
