@@ -7,6 +7,7 @@
 
 #include "base/count.h"
 #include "print/utf8.h"
+#include "review/pane_verdict.h"
 #include "review/quantity.h"
 
 Verdict sweep_verdict(const ReviewSweep *sweep)
@@ -39,6 +40,11 @@ ReviewCounts review_count(const Review *review)
         const ReviewCase *c = review_case_at(review, i);
         if (review_case_counts(c)) counts.of[c->verdict]++;
         else counts.not_asked++;
+    }
+    for (int i = 0; i < review->pane_image_count; i++) {
+        if (!pane_counts(&review->pane_images[i])) continue;
+        counts.of[review->pane_images[i].limit.verdict]++;
+        counts.total++;
     }
     return counts;
 }

@@ -12,7 +12,7 @@
  * and no material is without data. */
 bool review_decide(Review *review);
 
-/* Cases and sweeps by their verdict. */
+/* Cases, sweeps and images in panes by their verdict. */
 typedef struct ReviewCounts {
     int of[4];     /* by Verdict, those that count */
     int not_asked; /* those that do not */
