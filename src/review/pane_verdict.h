@@ -25,6 +25,8 @@ typedef struct PaneFinding {
     double      width_deg, height_deg; /* of what is shown of it */
     const double *outline_deg;    /* right, up of the corners of its convex outline, in turn */
     int         outline_count;    /* numbers: two a corner */
+    const Vec3 *corners;          /* the same corners, unit, world: to draw over a frame; NULL:
+                                     of a review that was read from a file */
     double      image;            /* the display's own light by the pane, its mean */
     MeanInterval image_range;     /* 95 % */
     double      behind;           /* what comes through the pane there */

@@ -24,3 +24,5 @@ bool review_csv_write(const Review *review, const char *path, Error *err);
 bool review_csv_write_false_suns(const Review *review, const char *path, Error *err);
 /* Eyes that look elsewhere than at symbols. */
 bool review_csv_write_gazes(const Review *review, const char *path, Error *err);
+/* Displays in glass. */
+bool review_csv_write_pane_images(const Review *review, const char *path, Error *err);
