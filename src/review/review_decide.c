@@ -7,6 +7,7 @@
 
 #include "base/count.h"
 #include "print/utf8.h"
+#include "review/pane_verdict.h"
 #include "review/quantity.h"
 #include "review/road_verdict.h"
 
@@ -44,6 +45,11 @@ ReviewCounts review_count(const Review *review)
     for (int i = 0; i < review->gaze_count; i++) {
         if (!gaze_counts(&review->gazes[i])) continue;
         counts.of[review->gazes[i].road->verdict]++;
+        counts.total++;
+    }
+    for (int i = 0; i < review->pane_image_count; i++) {
+        if (!pane_counts(&review->pane_images[i])) continue;
+        counts.of[review->pane_images[i].limit.verdict]++;
         counts.total++;
     }
     return counts;

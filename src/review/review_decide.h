@@ -12,7 +12,7 @@
  * review is strict none is too close either, and no material is without data. */
 bool review_decide(Review *review);
 
-/* Cases, sweeps and gazes at roads by their verdict. */
+/* Cases, sweeps, gazes at roads and images in panes by their verdict. */
 typedef struct ReviewCounts {
     int of[4];     /* by Verdict, those that count */
     int not_asked; /* those that do not */

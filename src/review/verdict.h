@@ -539,6 +539,8 @@ struct Review {
     int             response_count;
     ReviewFalseSun *false_suns;   /* by condition and eye, the worst first */
     int             false_sun_count;
+    struct PaneFinding *pane_images; /* pane_verdict.h; of a request that names them */
+    int             pane_image_count;
     ReviewVariantFound *variants; /* in the request's order */
     int             variant_count;
     ReviewSensitivity *sensitivities;

@@ -11,6 +11,7 @@
 #include "review/output/review_json.h"
 #include "review/output/review_levels.h"
 #include "review/output/review_road.h"
+#include "review/output/review_panes.h"
 #include "review/output/review_variants.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
@@ -105,6 +106,26 @@ static void print_road(const GazeFinding *g, Arena scratch)
     for (int i = 0; i < count; i++) print("%-16s %s\n", "no level", windows[i]);
 }
 
+/* A display in glass that is held against a limit. */
+static void print_pane(const PaneFinding *f, Arena scratch)
+{
+    if (!pane_counts(f)) return;
+    print("%-16s %s, %s, %s\n", verdict_names[f->limit.verdict], f->condition, f->eye,
+          review_pane_words(f, &scratch));
+}
+
+/* Those, and how many there are in all. */
+static void print_panes(const Review *review, Arena scratch)
+{
+    int shown = 0;
+    for (int i = 0; i < review->pane_image_count; i++) {
+        shown += !review->pane_images[i].none;
+        print_pane(&review->pane_images[i], scratch);
+    }
+    if (review->pane_image_count)
+        print("%-16s %d image%s of displays in glass\n", "panes", shown, shown == 1 ? "" : "s");
+}
+
 static void print_variant(const ReviewVariantFound *v, Arena scratch)
 {
     print("%-16s variant %s: %s\n", verdict_names[review_verdict(v->review)], v->name,
@@ -140,6 +161,7 @@ static void print_review(const Review *review, Arena scratch)
     for (int i = 0; i < review->sweep_count; i++) print_sweep(&review->sweeps[i], scratch);
     for (int i = 0; i < review->gaze_count; i++) print_gaze(&review->gazes[i], scratch);
     for (int i = 0; i < review->gaze_count; i++) print_road(&review->gazes[i], scratch);
+    print_panes(review, scratch);
     const ReviewCase *worst = review_worst(review, scratch);
     for (int i = 0; i < review->variant_count; i++)
         print_variant(&review->variants[i], scratch);

@@ -4,14 +4,6 @@
 
 /* ---- polarised light (path/polarised.h) -------------------------------------------------- */
 
-/* Light counts by how it is polarised. */
-typedef struct PolarisedRows {
-    PathCollector       base;
-    const PolarisedEye *eye;
-    Polarised           light;
-    float              *stokes; /* S0 to S3 that analysers find besides, added to; NULL: none */
-} PolarisedRows;
-
 static Polarised *light_of(PathCollector *c)
 {
     return &((PolarisedRows *)c)->light;
@@ -156,7 +148,7 @@ static void count(PathCollector *c, PathState *path, PathFound *found)
     found->radiance *= polarised_seen(light, 0, found->way, from);
 }
 
-static PolarisedRows polarised_rows(const PolarisedEye *eye, float *stokes, PathCollector *next)
+PolarisedRows polarised_rows(const PolarisedEye *eye, float *stokes, PathCollector *next)
 {
     static const CollectorKind kind = {
         .size = sizeof(PolarisedRows),

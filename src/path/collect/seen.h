@@ -27,6 +27,17 @@ typedef struct SeenLight {
 /* start: without collectors. The path does not depend on what is requested. */
 void path_seen(const PathStart *start, Ray ray, const SeenRequest *request, SeenLight *out);
 
+/* Light counts by how it is polarised (path/polarised.h). path_seen has it. */
+typedef struct PolarisedRows {
+    PathCollector       base;
+    const PolarisedEye *eye;
+    Polarised           light;
+    float              *stokes; /* S0 to S3 that analysers find besides, added to; NULL: none */
+} PolarisedRows;
+
+/* Before the collectors that take light, which is weighed then. */
+PolarisedRows polarised_rows(const PolarisedEye *eye, float *stokes, PathCollector *next);
+
 /* The footprint of a pixel along a frame's ray (path/footprint.h), until that scatters: for
  * displays with sub-pixels. path_seen has it. */
 typedef struct PixelRay {

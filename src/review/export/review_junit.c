@@ -5,6 +5,7 @@
 #include "review/output/review_json.h"
 #include "review/output/review_levels.h"
 #include "review/output/review_road.h"
+#include "review/output/review_panes.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
 
@@ -62,6 +63,23 @@ static void add_road(json_t *list, const Review *review, const GazeFinding *gaze
     json_object_set_new(to, "causes", json_array());
 }
 
+/* A display in glass that the request has a limit for. */
+static void add_pane(json_t *list, const Review *review, const PaneFinding *f, Arena scratch)
+{
+    Verdict verdict = f->limit.verdict;
+    json_t *to = page_add(list);
+    bool    is_error = verdict == VERDICT_UNJUDGED, fails = is_failure(review, verdict);
+    page_set(to, "name", review_pane_name(f, &scratch));
+    page_set(to, "verdict", verdict_names[verdict]);
+    page_set(to, "outcome", words_verdict(verdict));
+    page_set(to, "reason", review_pane_words(f, &scratch));
+    page_set(to, "sun", "");
+    page_set_flag(to, "is_error", is_error);
+    page_set_flag(to, "is_failure", fails);
+    page_set_flag(to, "is_skipped", !is_error && !fails && verdict != VERDICT_PASS);
+    json_object_set_new(to, "causes", json_array());
+}
+
 static const char *sweep_name(const ReviewSweep *s, Arena *arena)
 {
     return arena_format(arena, "%s (worst of %ld, %s %s fails%s)", words_case(&s->worst, arena),
@@ -93,6 +111,9 @@ bool review_junit_write(const Review *review, const char *path, Error *err)
     }
     for (int i = 0; i < review->gaze_count; i++)
         if (gaze_counts(&review->gazes[i])) add_road(tests, review, &review->gazes[i], own);
+    for (int i = 0; i < review->pane_image_count; i++)
+        if (pane_counts(&review->pane_images[i]))
+            add_pane(tests, review, &review->pane_images[i], own);
     bool ok = page_write_values("review_junit.xml", values, NULL, path, err);
     arena_release(&own);
     return ok;
@@ -144,4 +165,9 @@ bool review_csv_write_dimming(const Review *review, const char *path, Error *err
     json_t *document = review_json(review);
     road_add_columns(document, review);
     return page_write_values("dimming.csv", document, NULL, path, err);
+}
+
+bool review_csv_write_pane_images(const Review *review, const char *path, Error *err)
+{
+    return page_write_values("pane_images.csv", review_json(review), NULL, path, err);
 }

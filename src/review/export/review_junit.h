@@ -27,3 +27,6 @@ bool review_csv_write_gazes(const Review *review, const char *path, Error *err);
 
 /* How bright displays may be: one row a gaze at a road, display, age and road. */
 bool review_csv_write_dimming(const Review *review, const char *path, Error *err);
+
+/* Displays in glass. */
+bool review_csv_write_pane_images(const Review *review, const char *path, Error *err);

@@ -26,8 +26,8 @@
 #define LIST_BYTES ((size_t)1 << 24)
 
 const char *const review_files_fixed[REVIEW_FILES_FIXED] = {
-    "review.json", "index.html", "cases.csv", "gazes.csv", "dimming.csv",
-    "false_suns.csv", "junit.xml",   "diff.json",  "run.json",
+    "review.json",    "index.html",      "cases.csv", "gazes.csv", "dimming.csv",
+    "false_suns.csv", "pane_images.csv", "junit.xml", "diff.json", "run.json",
     "live.js",        REVIEW_PAGE_BESIDE, LIST};
 
 /* Behind a frame's name. */

@@ -8,6 +8,7 @@
 #include "record/record_write.h"
 #include "review/output/review_facts.h"
 #include "review/output/review_privacy.h"
+#include "review/pane_verdict.h"
 #include "review/review_decide.h"
 #include "review/road_verdict.h"
 #include "text/json_text.h"
@@ -361,6 +362,38 @@ TABLE(false_sun_json, ReviewFalseSun,
     OWN(FIGURE, ReviewFalseSun, lux), OWN(TEXT, ReviewFalseSun, gaze),
     OWN(FIGURE, ReviewFalseSun, angle_deg), OWN(FIGURE, ReviewFalseSun, veil_cd_m2));
 
+static json_t *write_outline(const void *item)
+{
+    const PaneFinding *f = item;
+    json_t            *out = json_array();
+    for (int i = 0; i < f->outline_count; i++)
+        json_array_append_new(out, json_figure(f->outline_deg[i]));
+    return out;
+}
+
+TABLE(pane_image_json, PaneFinding,
+    OWN(TEXT, PaneFinding, condition), OWN(TEXT, PaneFinding, eye),
+    OWN(TEXT, PaneFinding, display), OWN(TEXT, PaneFinding, pane),
+    AS("no_image_because", TEXT, PaneFinding, none), OWN(FIGURE, PaneFinding, shown_share),
+    AS("pane_ends_share", FIGURE, PaneFinding, ends_share),
+    AS("turned_away_share", FIGURE, PaneFinding, away_share),
+    OWN(FIGURE, PaneFinding, covered_share), OWN(TEXT, PaneFinding, covered_by),
+    OWN(FIGURE, PaneFinding, right_deg), OWN(FIGURE, PaneFinding, up_deg),
+    OWN(FIGURE, PaneFinding, width_deg), OWN(FIGURE, PaneFinding, height_deg),
+    {"outline_deg", RECORD_FIGURES, MUST, RECORD_MANY(PaneFinding, outline_deg, outline_count),
+     RECORD_RANGE(-HUGE_VAL, HUGE_VAL), .write = write_outline},
+    AS("image_cd_m2", FIGURE, PaneFinding, image),
+    AS("image_interval", RANGE, PaneFinding, image_range),
+    AS("behind_cd_m2", FIGURE, PaneFinding, behind),
+    AS("behind_interval", RANGE, PaneFinding, behind_range),
+    AS("against_cd_m2", FIGURE, PaneFinding, against),
+    AS("against_interval", RANGE, PaneFinding, against_range),
+    OWN(FIGURE, PaneFinding, contrast),
+    AS("contrast_interval", RANGE, PaneFinding, contrast_range),
+    OWN(TEXT, PaneFinding, area), OWN(FIGURE, PaneFinding, off_deg),
+    {"limit", RECORD_OBJECT, MUST | RECORD_NULL, RECORD_AT(PaneFinding, limit),
+     .count = offsetof(PaneFinding, has_limit), .of = &limit_json});
+
 TABLE(rest_json, ReviewRest,
     {"kind", RECORD_CHOICE, MUST, RECORD_AT(ReviewRest, kind), .words = rest_kinds},
     {"basis", RECORD_CHOICE, MUST, RECORD_AT(ReviewRest, basis), .words = rest_bases},
@@ -581,6 +614,7 @@ TABLE(whole_json, Review,
     LIST("sweeps", MUST, Review, sweeps, sweep_count, sweep_json),
     LIST("gazes", MUST, Review, gazes, gaze_count, gaze_json),
     LIST("false_suns", MUST, Review, false_suns, false_sun_count, false_sun_json),
+    LIST("pane_images", RECORD_BRIEF, Review, pane_images, pane_image_count, pane_image_json),
     TOLD("variants", RECORD_BRIEF, write_variants),
     LIST("sensitivity", RECORD_WRITTEN | RECORD_BRIEF, Review, sensitivities, sensitivity_count,
          sensitivity_json),

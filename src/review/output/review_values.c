@@ -15,6 +15,7 @@
 #include "review/output/review_levels.h"
 #include "review/output/review_road.h"
 #include "review/output/review_privacy.h"
+#include "review/output/review_panes.h"
 #include "review/output/review_words.h"
 #include "review/quantity.h"
 #include "review/review_decide.h"
@@ -282,6 +283,15 @@ bool values_add_picture(json_t *to, const ReviewPicture *p, Arena scratch, Error
     return data && !json_object_set_new(to, "data", data);
 }
 
+/* The causes' rays, and displays in glass. */
+static const char *drawn_over(const Review *review, const ReviewCase *c, const char *card,
+                              Arena *arena)
+{
+    const char *rays = review_rays_drawn(c, card, arena);
+    const char *panes = review_panes_drawn(review, c, arena);
+    return rays && panes ? arena_format(arena, "%s%s", rays, panes) : panes ? panes : rays;
+}
+
 static bool set_pictures(const PageValues *v, json_t *to, const ReviewCase *c, Error *err)
 {
     json_t *list = values_list(to, "pictures");
@@ -292,7 +302,7 @@ static bool set_pictures(const PageValues *v, json_t *to, const ReviewCase *c, E
         if (p->of != c) continue;
         json_t *picture = page_add(list);
         page_set_flag(picture, "is_frame", p->is_frame);
-        page_set(picture, "rays", p->view ? review_rays_drawn(c, card, &scratch) : NULL);
+        page_set(picture, "rays", p->view ? drawn_over(v->review, c, card, &scratch) : NULL);
         if (!values_add_picture(picture, p, scratch, err)) return false;
     }
     page_set_flag(to, "has_pictures", json_array_size(list) > 0);

@@ -310,6 +310,25 @@ typedef struct ReviewDisplay {
     int        part_count; /* at least 1 */
 } ReviewDisplay;
 
+/* ---- displays in glass ------------------------------------------------------------------- */
+
+/* A part of the view that images of displays in glass are kept out of: a cone. */
+typedef struct ReviewPaneArea {
+    const char *name;
+    double      direction[3];  /* unit: its axis */
+    double      within_deg;    /* half its width */
+    double      contrast_most; /* that an image in it may have; NaN: no limit */
+} ReviewPaneArea;
+
+typedef struct ReviewPaneImages {
+    double          within_deg;    /* of areas that say none, and about each gaze that has a
+                                      direction; without either about `forward` */
+    double          contrast_most; /* of areas that say none, and of those; NaN: no limit */
+    double          against_cd_m2; /* what images are seen against has at least this */
+    ReviewPaneArea *areas;
+    int             area_count;
+} ReviewPaneImages;
+
 /* ---- all of it --------------------------------------------------------------------------- */
 
 typedef struct ReviewFrames {
@@ -369,6 +388,7 @@ typedef struct ReviewRequest {
     uint32_t         seed;    /* random seed: another one takes other paths of the same light;
                                  0 as a rule */
     ReviewFrames     frames;
+    const ReviewPaneImages *pane_images; /* NULL: displays in glass are not looked for */
     ReviewVariant   *variants;
     int              variant_count;
     ReviewParameter *parameters; /* "sensitivity" in the file */

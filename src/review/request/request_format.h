@@ -14,6 +14,7 @@ extern const RecordFormat review_eye_format, review_gaze_format, review_symbol_f
 extern const RecordFormat review_with_format, review_level_format, review_condition_format;
 extern const RecordFormat review_glasses_format, review_variant_format;
 extern const RecordFormat review_parameter_format;
+extern const RecordFormat review_panes_format;
 extern const RecordFormat review_content_format; /* of a ReviewContent: a file by display */
 
 /* What names of them are looked for in. */

@@ -158,6 +158,8 @@ static const RecordRow REVIEW[] = {
     {"precision", RECORD_OBJECT, .of = &precision_format},
     OBJECT("glare", 0, glare, glare_format, "How discomfort is read: UGR, DGP, DGI."),
     OBJECT("frames", 0, frames, frames_format, NULL),
+    OBJECT("pane_images", RECORD_APART, pane_images, review_panes_format,
+           "Displays as glass shows them to each eye, in moments: where, how bright."),
     LIST("conditions", MUST, conditions, condition_count, 1, 10000, review_condition_format,
          NULL),
     MAP("variants", 0, variants, variant_count, 100, review_variant_format,

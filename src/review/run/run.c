@@ -12,6 +12,7 @@
 #include "review/run/cases.h"
 #include "review/run/false_sun_times.h"
 #include "review/run/gazes.h"
+#include "review/run/pane_findings.h"
 #include "review/run/rests.h"
 #include "review/run/sweep.h"
 #include "review/run/sweep_probes.h"
@@ -130,7 +131,9 @@ static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena
     if (!setup_gazes(&looks, arena, gazes, err)) return false;
     work_add(run->work, WORK_LOOK, plan.of[WORK_LOOK]);
     review->gaze_count += review_look_count(run->request);
-    return true;
+    /* The merge looks for images in panes: they are needed once. */
+    return !run->request->pane_images || run->share.count > 0 ||
+           setup_pane_images(setup, arena, review, err);
 }
 
 /* Do two conditions have one scene? */

@@ -1,0 +1,389 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "review/eye/pane_images.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/parallel.h"
+#include "mirror/image_point.h"
+#include "scene/point/ray_ends.h"
+
+#define CELLS 512          /* of a display, or one a triangle if it has more */
+#define SIDE_MOST 16       /* cells along a triangle's side */
+#define LATTICE ((SIDE_MOST + 1) * (SIDE_MOST + 2) / 2)
+#define HIDES_BELOW 0.01f  /* of the light that passes */
+
+/* ---- what hides -------------------------------------------------------------------------- */
+
+typedef struct PaneLook {
+    const PathContext *context;
+    const Wavelengths *wavelengths;
+    Vec3     direction;
+    Spectrum passed;
+} PaneLook;
+
+static bool passes(void *user, const Hit *hit)
+{
+    PaneLook          *look = user;
+    const PathContext *context = look->context;
+    look->passed *= surface_pass(context->scene, context->tables, hit, look->direction,
+                                 look->wavelengths);
+    float all = spectrum_sum(look->wavelengths->xyz[1]);
+    return spectrum_sum(look->passed * look->wavelengths->xyz[1]) >= HIDES_BELOW * all;
+}
+
+/* The first part that hides what lies at the ray's end; NO_ID: nothing does. */
+static int hiding_part(const PathContext *context, const Wavelengths *wavelengths, Ray ray)
+{
+    const Scene *scene = context->scene;
+    PaneLook     look = {context, wavelengths, ray.direction, spectrum_all(1)};
+    int          part = NO_ID;
+    Hit          hit;
+    if (!bvh_occluded(context->bvh, ray, passes, &look)) return NO_ID;
+    look.passed = spectrum_all(1);
+    while (bvh_intersect(context->bvh, ray, 0, &hit)) {
+        part = (int)scene->triangles[hit.triangle].part_id;
+        if (hit.triangle < scene->opaque_count || !passes(&look, &hit)) break;
+        ray = ray_behind(scene, ray, &hit);
+    }
+    return part;
+}
+
+/* ---- a point of a display, in a pane ----------------------------------------------------- */
+
+typedef struct PaneSearch {
+    const PathContext *context;
+    const Wavelengths *wavelengths;
+    Vec3         eye;
+    const int   *panes, *displays; /* parts */
+    int          display_count;
+    PaneImage   *images;           /* [pane][display] */
+    double      *covered;          /* [pane][display][part] */
+} PaneSearch;
+
+/* Where the pane turns the eye's ray. */
+typedef struct PanePoint {
+    bool     is_there;
+    uint32_t triangle;
+    float    u, v;
+    Vec3     towards; /* unit, from the eye */
+} PanePoint;
+
+static MirrorTriangle mirror_of(const Scene *scene, const Part *part, uint32_t triangle)
+{
+    MirrorTriangle out;
+    for (int k = 0; k < 3; k++) out.position[k] = scene_corner(scene, triangle, k);
+    Vec3 flat = vec3_cross(vec3_sub(out.position[1], out.position[0]),
+                           vec3_sub(out.position[2], out.position[0]));
+    for (int k = 0; k < 3; k++) {
+        uint32_t vertex = scene->triangles[triangle].vertex[k] - part->first_vertex;
+        out.normal[k] = part->normals ? part->normals[vertex] : flat;
+    }
+    return out;
+}
+
+/* Of a solid the far face shows what its near one lets in. */
+static bool faces_eye(const MirrorTriangle *m, Vec3 eye)
+{
+    Vec3 flat = vec3_cross(vec3_sub(m->position[1], m->position[0]),
+                           vec3_sub(m->position[2], m->position[0]));
+    return vec3_dot(flat, vec3_sub(eye, m->position[0])) > 0;
+}
+
+static bool point_in(const PaneSearch *search, const Part *part, uint32_t triangle, Vec3 source,
+                     PanePoint *out)
+{
+    const Scene   *scene = search->context->scene;
+    MirrorTriangle mirror = mirror_of(scene, part, triangle);
+    ImagePoint     at;
+    if (scene->materials[part->material_id].is_solid && !faces_eye(&mirror, search->eye))
+        return false;
+    if (!image_point_find(&mirror, search->eye, source, &at)) return false;
+    Vec3 towards = vec3_normalize(vec3_sub(at.position, search->eye));
+    *out = (PanePoint){true, triangle, at.u, at.v, towards};
+    return true;
+}
+
+/* hint: the triangle that is tried first. */
+static PanePoint point_of(const PaneSearch *search, const Part *part, Vec3 source,
+                          uint32_t *hint)
+{
+    PanePoint found = {.is_there = false};
+    if (point_in(search, part, *hint, source, &found)) return found;
+    for (uint32_t i = 0; i < part->triangle_count && !found.is_there; i++)
+        if (point_in(search, part, part->first_triangle + i, source, &found))
+            *hint = found.triangle;
+    return found;
+}
+
+/* ---- a display's cells ------------------------------------------------------------------- */
+
+/* A triangle of a display: its corners in the pane, and where its cells are to go. */
+typedef struct PaneLattice {
+    const PaneSearch *search;
+    const Part *pane;
+    uint32_t    triangle;
+    int         side;       /* cells along its sides */
+    double      area;       /* of a cell, as a share of the display's */
+    double     *covered;    /* [part] */
+    uint32_t    hint;
+    PanePoint   at[LATTICE];
+} PaneLattice;
+
+static int lattice_index(int side, int i, int j)
+{
+    return j * (side + 1) - j * (j - 1) / 2 + i;
+}
+
+static void fill_lattice(PaneLattice *lattice)
+{
+    const Scene *scene = lattice->search->context->scene;
+    int          side = lattice->side;
+    for (int j = 0; j <= side; j++)
+        for (int i = 0; i + j <= side; i++) {
+            Vec3 p = triangle_position(scene, lattice->triangle, (float)i / (float)side,
+                                       (float)j / (float)side);
+            lattice->at[lattice_index(side, i, j)] =
+                point_of(lattice->search, lattice->pane, p, &lattice->hint);
+        }
+}
+
+/* By Van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125-126. */
+static double solid_angle(const Vec3 p[3])
+{
+    double volume = (double)vec3_dot(p[0], vec3_cross(p[1], p[2]));
+    double below = 1 + (double)(vec3_dot(p[0], p[1]) + vec3_dot(p[1], p[2]) +
+                                vec3_dot(p[2], p[0]));
+    return 2 * atan2(fabs(volume), below);
+}
+
+static void add_cell(PaneLattice *lattice, const int corner[3], TrianglePoint middle,
+                     PaneImage *out)
+{
+    const PaneSearch *search = lattice->search;
+    const Scene      *scene = search->context->scene;
+    PanePoint at = point_of(search, lattice->pane, middle.position, &lattice->hint);
+    bool      is_there = at.is_there;
+    PaneCell  cell;
+    for (int k = 0; k < 3; k++) {
+        is_there &= lattice->at[corner[k]].is_there;
+        cell.corner[k] = lattice->at[corner[k]].towards;
+    }
+    if (!is_there) {
+        out->share.ends += lattice->area;
+        return;
+    }
+    TrianglePoint pane = triangle_point(scene, at.triangle, at.u, at.v);
+    Vec3          way = vec3_sub(middle.position, pane.position);
+    if (!(vec3_dot(way, middle.ng) < 0)) {
+        out->share.away += lattice->area;
+        return;
+    }
+    int by = hiding_part(search->context, search->wavelengths,
+                         ray_to(search->eye, &pane, vec3_sub(search->eye, pane.position)));
+    if (by == NO_ID)
+        by = hiding_part(search->context, search->wavelengths,
+                         ray_to(ray_start(&pane, way), &middle, vec3_neg(way)));
+    if (by != NO_ID) {
+        out->share.covered += lattice->area;
+        lattice->covered[by] += lattice->area;
+        return;
+    }
+    cell.sr = solid_angle(cell.corner);
+    out->share.shown += lattice->area;
+    out->cells[out->cell_count++] = cell;
+}
+
+static void add_triangle(PaneLattice *lattice, PaneImage *out)
+{
+    const Scene *scene = lattice->search->context->scene;
+    int          side = lattice->side;
+    float        third = 1 / (3 * (float)side);
+    fill_lattice(lattice);
+    for (int j = 0; j < side; j++)
+        for (int i = 0; i + j < side; i++) {
+            int   a = lattice_index(side, i, j), b = lattice_index(side, i + 1, j);
+            int   c = lattice_index(side, i, j + 1);
+            float u = (float)(3 * i + 1) * third, v = (float)(3 * j + 1) * third;
+            add_cell(lattice, (int[]){a, b, c},
+                     triangle_point(scene, lattice->triangle, u, v), out);
+            if (i + j + 1 == side) continue;
+            int d = lattice_index(side, i + 1, j + 1);
+            add_cell(lattice, (int[]){b, d, c},
+                     triangle_point(scene, lattice->triangle, u + third, v + third), out);
+        }
+}
+
+/* ---- the outline ------------------------------------------------------------------------- */
+
+static int by_place(const void *a, const void *b)
+{
+    const Vec2 *p = a, *q = b;
+    if (p->x != q->x) return p->x < q->x ? -1 : 1;
+    return (p->y > q->y) - (p->y < q->y);
+}
+
+static double turn(Vec2 a, Vec2 b, Vec2 c)
+{
+    return ((double)b.x - (double)a.x) * ((double)c.y - (double)a.y) -
+           ((double)b.y - (double)a.y) * ((double)c.x - (double)a.x);
+}
+
+/* Andrew's monotone chain (Inf. Process. Lett. 9 (1979) 216-219): points in order of place
+ * become their convex hull, anticlockwise. out: of twice as many. */
+static int hull_of(const Vec2 *points, int count, Vec2 *out)
+{
+    int n = 0;
+    for (int pass = 0; pass < 2; pass++) {
+        int least = n + 1;
+        for (int i = 0; i < count; i++) {
+            Vec2 p = points[pass ? count - 1 - i : i];
+            while (n > least && turn(out[n - 2], out[n - 1], p) <= 0) n--;
+            out[n++] = p;
+        }
+        n--; /* the next pass begins with it */
+    }
+    return n;
+}
+
+#define SLIGHT 1e-4 /* of the outline's area: what a corner may take of it and be left out */
+
+/* Leaves out the corners that matter least. */
+static int thin_out(Vec2 *hull, int count)
+{
+    double all = 0;
+    for (int i = 2; i < count; i++) all += turn(hull[0], hull[i - 1], hull[i]);
+    while (count > 3) {
+        int    least = 0;
+        double area = INFINITY;
+        for (int i = 0; i < count; i++) {
+            double a = turn(hull[(i + count - 1) % count], hull[i], hull[(i + 1) % count]);
+            if (a < area) least = i;
+            area = fmin(area, a);
+        }
+        if (count <= PANE_OUTLINE && area > SLIGHT * all) break;
+        memmove(&hull[least], &hull[least + 1], sizeof *hull * (size_t)(count - 1 - least));
+        count--;
+    }
+    return count;
+}
+
+/* In the plane across its middle. */
+static void set_outline(PaneImage *image, Arena *arena)
+{
+    Arena scratch = *arena;
+    Frame frame = frame_from_z(image->towards);
+    int   count = 0, most = 3 * image->cell_count;
+    Vec2 *points = ARENA_NEW(&scratch, Vec2, most), *hull = ARENA_NEW(&scratch, Vec2, 2 * most);
+    for (int i = 0; i < most; i++) {
+        Vec3 local = frame_to_local(&frame, image->cells[i / 3].corner[i % 3]);
+        if (local.z > 0) points[count++] = (Vec2){local.x / local.z, local.y / local.z};
+    }
+    qsort(points, (size_t)count, sizeof *points, by_place);
+    Vec2 kept[PANE_OUTLINE];
+    count = thin_out(hull, hull_of(points, count, hull));
+    memcpy(kept, hull, sizeof *hull * (size_t)count);
+    image->outline = ARENA_NEW(arena, Vec3, count);
+    image->outline_count = count;
+    for (int i = 0; i < count; i++) {
+        Vec3 local = vec3_normalize(vec3(kept[i].x, kept[i].y, 1));
+        image->outline[i] = frame_to_world(&frame, local);
+    }
+}
+
+/* ---- all of them ------------------------------------------------------------------------- */
+
+static double area_of(const Scene *scene, uint32_t triangle)
+{
+    Vec3 a = scene_corner(scene, triangle, 0);
+    Vec3 e1 = vec3_sub(scene_corner(scene, triangle, 1), a);
+    Vec3 e2 = vec3_sub(scene_corner(scene, triangle, 2), a);
+    return 0.5 * (double)vec3_length(vec3_cross(e1, e2));
+}
+
+static int side_of(const Part *part)
+{
+    int each = CELLS / (int)part->triangle_count, side = 1;
+    while (side < SIDE_MOST && (side + 1) * (side + 1) <= each) side++;
+    return side;
+}
+
+static void set_middle(PaneImage *image)
+{
+    Vec3 sum = vec3(0, 0, 0);
+    for (int i = 0; i < image->cell_count; i++) {
+        const PaneCell *cell = &image->cells[i];
+        Vec3 middle = vec3_add(vec3_add(cell->corner[0], cell->corner[1]), cell->corner[2]);
+        image->sr += cell->sr;
+        sum = vec3_along(sum, middle, (float)cell->sr);
+    }
+    image->towards = vec3_normalize(sum);
+}
+
+static void find_one(void *user, int item, int worker)
+{
+    (void)worker;
+    const PaneSearch *search = user;
+    const Scene      *scene = search->context->scene;
+    PaneImage        *image = &search->images[item];
+    const Part  *part = &scene->parts[image->part_id], *pane = &scene->parts[image->pane_id];
+    double      *covered = search->covered + (size_t)item * (size_t)scene->part_count;
+    double       area = 0;
+    PaneLattice  lattice = {.search = search, .pane = pane, .side = side_of(part),
+                            .covered = covered, .hint = pane->first_triangle};
+    for (uint32_t t = 0; t < part->triangle_count; t++)
+        area += area_of(scene, part->first_triangle + t);
+    for (uint32_t t = 0; t < part->triangle_count; t++) {
+        lattice.triangle = part->first_triangle + t;
+        lattice.area = area_of(scene, lattice.triangle) / area / (lattice.side * lattice.side);
+        add_triangle(&lattice, image);
+    }
+    for (int i = 0; i < scene->part_count; i++)
+        if (covered[i] > (image->covered_by == NO_ID ? 0 : covered[image->covered_by]))
+            image->covered_by = i;
+    set_middle(image);
+}
+
+/* Parts that let light through, or that are displays. */
+static int list_parts(const Scene *scene, bool displays, int *out)
+{
+    int count = 0;
+    for (int i = 0; i < scene->part_count; i++) {
+        const Part     *part = &scene->parts[i];
+        const Material *m = &scene->materials[part->material_id];
+        bool is_listed = displays ? m->display_id != NO_ID
+                                  : m->transmission > 0 && m->display_id == NO_ID;
+        if (is_listed && part->triangle_count) out[count++] = i;
+    }
+    return count;
+}
+
+PaneImage *pane_images_find(const Setup *setup, Vec3 eye, int *count, Arena *arena)
+{
+    const Scene *scene = setup->scene;
+    Wavelengths  wavelengths;
+    int         *panes = ARENA_NEW(arena, int, scene->part_count);
+    int         *displays = ARENA_NEW(arena, int, scene->part_count);
+    PaneSearch   search = {.context = &setup->context, .wavelengths = &wavelengths, .eye = eye,
+                           .panes = panes, .displays = displays};
+    int pane_count = list_parts(scene, false, panes);
+    search.display_count = list_parts(scene, true, displays);
+    *count = pane_count * search.display_count;
+    search.images = ARENA_NEW(arena, PaneImage, *count);
+    wavelengths_sample(0.5f, &wavelengths);
+    for (int i = 0; i < *count; i++) {
+        int part_id = displays[i % search.display_count];
+        int side = side_of(&scene->parts[part_id]);
+        int cells = side * side * (int)scene->parts[part_id].triangle_count;
+        search.images[i] = (PaneImage){.pane_id = panes[i / search.display_count],
+                                       .part_id = part_id, .covered_by = NO_ID,
+                                       .cells = ARENA_NEW(arena, PaneCell, cells)};
+    }
+    Arena scratch = *arena;
+    search.covered = ARENA_NEW(&scratch, double, *count * scene->part_count);
+    parallel_for(setup->tools.threads, *count, find_one, &search);
+    for (int i = 0; i < *count; i++)
+        if (search.images[i].cell_count) set_outline(&search.images[i], arena);
+    return search.images;
+}

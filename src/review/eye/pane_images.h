@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* pane_images.h -- where an eye sees displays in glass: the passenger's screen in the
+ * windscreen, by night above all.
+ *
+ * Each display is cut into small cells. The middle and the corners of each are looked for in
+ * each pane by the point that turns the eye's ray to them (mirror/image_point.h): no path is
+ * traced and no chance is in it. A cell is shown where the pane has such points, where the cell
+ * faces it, and where nothing stands between: neither before the pane nor behind it. Windows
+ * and holes hide nothing, unless less than a hundredth of the light passes them.
+ *
+ * Panes        parts of the scene that let light through: glass. Of one with a thickness of its
+ *              own (a solid) the face that is turned to the eye counts; of a laminated sheet
+ *              the face that is met. The ghost by the other face stands beside by as much as
+ *              the pane's thickness and wedge put it, some minutes of arc: paths that read the
+ *              image (pane_image_reading.h) have it.
+ * Approximate  a cell that is shown in part counts as its middle does; 512 of them are a
+ *              display. An image by two panes, one after the other, is none of these.
+ * Units        metres, scene; directions unit, world; sr.
+ * Memory       lists live in the arena. Threads: starts its own; the same for any count.
+ */
+#pragma once
+#include "review/light/setup.h"
+
+/* A triangle of the field of view. */
+typedef struct PaneCell {
+    Vec3   corner[3];
+    double sr;
+} PaneCell;
+
+/* Of the display's area: they add up to 1. */
+typedef struct PaneShares {
+    double shown;
+    double ends;    /* the pane ends before it */
+    double away;    /* its back is turned to the pane */
+    double covered; /* something stands between */
+} PaneShares;
+
+typedef struct PaneImage {
+    int        pane_id, part_id; /* scene parts: the pane's, the display's */
+    PaneShares share;
+    int        covered_by;       /* scene part that covers most of it; NO_ID: nothing does */
+    PaneCell  *cells;            /* that are shown; 0: there is no image */
+    int        cell_count;
+    double     sr;               /* of all */
+    Vec3       towards;          /* their middle, by solid angle; 0 where there is none */
+    Vec3      *outline;          /* convex, once around them; at most PANE_OUTLINE */
+    int        outline_count;
+} PaneImage;
+
+#define PANE_OUTLINE 16
+
+/* Of every display in every pane of the setup's scene, by panes, in the scene's order: also
+ * those that have no image, whose shares say why. */
+PaneImage *pane_images_find(const Setup *setup, Vec3 eye, int *count, Arena *arena);
