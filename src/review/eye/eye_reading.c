@@ -545,9 +545,8 @@ static EyeReading read_eye(const Setup *setup, const EyeLook *look, Arena scratc
     int      count = look->rounds * PATHS;
     EyePaths paths = {.setup = setup, .count = count, .gaze = vec3_normalize(look->towards),
                       .whose = setup->request->observer,
-                      .images = look->images,
-                      .close_deg = look->is_close ? EYE_CLOSE_DEG : 0,
                       .images = look->images, .road = look->road,
+                      .close_deg = look->is_close ? EYE_CLOSE_DEG : 0,
                       .targets = ARENA_NEW(&scratch, Vec3, count),
                       .solid_angles = ARENA_NEW(&scratch, double, count),
                       .found = ARENA_NEW(&scratch, EyePath, count)};
