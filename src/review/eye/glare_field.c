@@ -283,7 +283,6 @@ static void find_edges(LookedAt *field, Arena *scratch)
     }
     mark_small(field, *scratch);
     mark_found(field);
-    field->others = ARENA_NEW(scratch, FieldRay, total * RAYS);
 }
 
 /* Pixels [first, end) of the list have been looked at again. */
@@ -299,10 +298,12 @@ static void set_classes(LookedAt *field, int first, int end)
     }
 }
 
-static void look_at_edges(LookedAt *field)
+/* Rays have room as pixels are found: all that there may be would be 64 times the field's. */
+static void look_at_edges(LookedAt *field, Arena *scratch)
 {
     for (int round = 0; round < 2 && field->seen_again < field->again_count; round++) {
         int first = field->seen_again, end = field->again_count;
+        field->others = ARENA_GROW(scratch, FieldRay, field->others, first * RAYS, end * RAYS);
         parallel_for(field->ask->setup->tools.threads, end - first, look_again, field);
         field->seen_again = end;
         set_classes(field, first, end);
@@ -400,7 +401,7 @@ void glare_field_add(const GlareFieldAsk *ask, GlareTable *table, GlareBackgroun
     set_aim(&field);
     parallel_for(threads, (total + PIXELS_A_CHUNK - 1) / PIXELS_A_CHUNK, look_chunk, &field);
     find_edges(&field, &scratch);
-    look_at_edges(&field);
+    look_at_edges(&field, &scratch);
     add_all(&field, table, background, arena, scratch);
     arena_release(&scratch);
 }
