@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "review/output/review_words.h"
-#include "review/quantity.h"
 #include "text/text.h"
 #include "vision/visibility.h"
 
@@ -48,13 +47,4 @@ const char *words_target(const CaseVisibility *v, Arena *arena)
                         "adapted to %s cd/m²: background, reflected light and veil",
                         words_figure(v->size_arcmin, arena), glance,
                         words_figure(v->adapted_cd_m2, arena));
-}
-
-const char *level_doubted(const ReviewCase *c)
-{
-    const LimitVerdict *limit = case_worst_limit(c);
-    if (!limit || limit_kind_named(limit->kind) != LIMIT_VISIBILITY_LEVEL) return NULL;
-    for (int i = 0; i < c->visibility_count; i++)
-        if (isnan(c->visibilities[i].level)) return c->visibilities[i].doubts;
-    return NULL;
 }

@@ -20,7 +20,3 @@ const char *words_level(const CaseVisibility *v, Arena *arena);
 /* What it is of: "one of its strokes, 2.3 arc minutes wide, looked at in a glance of 0.2 s; the
  * eye adapted to 3.4 cd/m²: ...". */
 const char *words_target(const CaseVisibility *v, Arena *arena);
-
-/* Of a case whose verdict hangs on a level that is not known: why there is none; NULL: it hangs
- * on something else, or nobody knows. */
-const char *level_doubted(const ReviewCase *c);

@@ -345,8 +345,10 @@ static bool add_case(const PageValues *v, json_t *to, const ReviewCase *c, Error
 bool values_add_cases(const PageValues *v, Error *err)
 {
     page_set_flag(v->doc, "has_private", review_has_privacy(v->review));
+    page_set_flag(v->doc, "has_levels", false);
     for (int i = 0; i < review_case_count(v->review); i++) {
         const ReviewCase *c = review_case_at(v->review, i);
+        if (c->visibility_count) page_set_flag(v->doc, "has_levels", true);
         if (!add_case(v, values_of_case(v, c), c, err)) return false;
     }
     return true;

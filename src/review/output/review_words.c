@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "plot/draw/ticks.h"
-#include "review/output/review_levels.h"
 #include "review/quantity.h"
 #include "review/review_decide.h"
 #include "text/interval_text.h"
@@ -383,6 +382,17 @@ static const char *words_seen(const ReviewCase *c, Arena *arena)
     if (!(c->visible_share > 0)) return "nothing of it is seen";
     return arena_format(arena, "%s of it is seen, more than %s is required",
                         words_share(c->visible_share, arena), words_share(SEEN_LEAST, arena));
+}
+
+/* Of a case whose verdict hangs on a visibility level that is not known: why there is none;
+ * NULL: it hangs on something else, or nobody knows. */
+static const char *level_doubted(const ReviewCase *c)
+{
+    const LimitVerdict *limit = case_worst_limit(c);
+    if (!limit || limit_kind_named(limit->kind) != LIMIT_VISIBILITY_LEVEL) return NULL;
+    for (int i = 0; i < c->visibility_count; i++)
+        if (isnan(c->visibilities[i].level)) return c->visibilities[i].doubts;
+    return NULL;
 }
 
 const char *words_unjudged(const ReviewCase *c, Arena *arena)

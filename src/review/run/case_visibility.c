@@ -13,11 +13,6 @@ double symbol_stroke_deg(const SymbolSplit *split, double height_arcmin)
     return height_arcmin / 60 * split->stroke_px / height_px;
 }
 
-bool case_has_visibility(const ReviewRequest *request, const Profile *profile)
-{
-    return request->visibility.is_asked || profile_has(profile, LIMIT_VISIBILITY_LEVEL);
-}
-
 void case_visibility_start(const ReviewRequest *request, const SymbolSplit *split,
                            ReviewCase *c, Arena *arena)
 {

@@ -12,15 +12,11 @@
  */
 #pragma once
 #include "review/eye/eye_reading.h"
-#include "review/profile.h"
 #include "review/symbol/symbol.h"
 #include "review/verdict.h"
 
 /* The width of a symbol's strokes where its foreground is so high. */
 double symbol_stroke_deg(const SymbolSplit *split, double height_arcmin);
-
-/* Does the request have its key, or the profile a limit of them? */
-bool case_has_visibility(const ReviewRequest *request, const Profile *profile);
 
 /* Levels that nobody knows yet, of a symbol whose height the case has. */
 void case_visibility_start(const ReviewRequest *request, const SymbolSplit *split,

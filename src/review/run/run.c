@@ -445,7 +445,7 @@ static void add_privacy_notes(const ReviewRun *run, Review *review, const char *
 static void add_notes(const ReviewRun *run, Review *review, Arena *arena)
 {
     const ReviewRequest *request = run->request;
-    const char **notes = ARENA_NEW(arena, const char *, 3 * request->weather_count + 6 +
+    const char **notes = ARENA_NEW(arena, const char *, 3 * request->weather_count + 7 +
                                                         request->condition_count);
     if (has_sweeps(request)) {
         add_note(review, &notes,
@@ -454,6 +454,10 @@ static void add_notes(const ReviewRun *run, Review *review, Arena *arena)
                  "among it, is a mean over about 3 degrees of the sun's place. Of a symbol's "
                  "parts the direct sun tells the worst; all other light of a step is the "
                  "symbol's mean. The worst case of each sweep is traced by itself.");
+        if (profile_has(run->profile, LIMIT_VISIBILITY_LEVEL))
+            add_note(review, &notes,
+                     "Sweeps: the steps' visibility levels are without the veil in the eye; "
+                     "the worst case has it.");
         if (has_boxes(request))
             add_note(review, &notes, "Sweeps: an eye box or ellipse counts by its middle.");
         if (review_look_count(request))
@@ -502,6 +506,7 @@ bool review_run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *ou
     sun_searches_end(&searches);
     if (!ok || run->share.count) return ok;
     if (!run->base) add_notes(run, &out->review, arena);
+    if (!run->base) add_notes(run->request, run->profile, &out->review, arena);
     review_decide(&out->review);
     return true;
 }
