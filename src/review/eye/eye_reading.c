@@ -361,7 +361,7 @@ static void add_pupils(const EyePaths *paths, const PupilSums *pupils, EyeSums *
 
 /* More light samples than the eye's own veil has: a road's weighs a small lamp near the gaze by
  * far more than its share of the light, by which samples find it. */
-#define ROAD_TIMES 16
+#define ROAD_TIMES 8
 #define ROAD_SEED (SEED + 2)
 
 typedef struct RoadPupil {

@@ -175,6 +175,15 @@ const char **road_empty_windows(const GazeFinding *gaze, int *count, Arena *aren
 #define LEVEL_SEEN 10.0 /* beyond that nobody asks */
 #define LEVEL_LEAST 1e-4
 
+/* In the drawing itself, so that pages without a road keep their bytes. */
+static const char STYLE[] =
+    "<style>.dimming{width:420px;max-width:100%;font:11px sans-serif}"
+    ".dimming text{fill:currentColor}.dimming .end{text-anchor:end}"
+    ".dimming .mid{text-anchor:middle}"
+    ".dimming path{fill:none;stroke:currentColor;stroke-width:1.8}"
+    ".dimming .tick{opacity:.2;stroke-width:1}.dimming .least{stroke-dasharray:7 4}"
+    ".dimming .now{stroke-dasharray:1.5 3}</style>";
+
 /* Both axes are of logarithms. */
 typedef struct ChartAxes {
     double road_low, road_high, level_low, level_high;
@@ -285,6 +294,7 @@ static const char *chart_of(const GazeRoad *road, const char *display, Arena *ar
     if (!chart_axes(road, display, &axes)) return "";
     text_format(&svg, "<svg class=\"dimming\" viewBox=\"0 0 %.0f %.0f\" role=\"img\" "
                 "aria-label=\"levels over the road's luminance\">", WIDTH, HEIGHT);
+    text_add(&svg, STYLE);
     add_grid(&svg, &axes, road, display);
     for (int i = 0; i < road->dimming_count; i++) {
         const RoadDimming *row = &road->dimming[i];
