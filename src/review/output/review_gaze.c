@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "page/page.h"
+#include "review/output/review_panes.h"
 #include "review/output/review_words.h"
 
 /* ---- the worst first --------------------------------------------------------------------- */
@@ -114,4 +115,5 @@ void values_add_gazes(const PageValues *v)
     if (review->gaze_count)
         json_object_set(v->doc, "worst_gaze", json_array_get(all, 0));
     add_false_suns(v);
+    values_add_panes(v);
 }
