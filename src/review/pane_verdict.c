@@ -10,8 +10,8 @@ static double over(double image, double against)
     return image > 0 ? image / against : 0;
 }
 
-/* Of a quotient of two figures: what moving each to an end of its interval moves it by, together
- * as if by chance (Zou and Donner, Stat. Med. 27 (2008) 1693-1702). */
+/* Of a quotient of two figures: what moving each to an end of its interval moves it by,
+ * together as if by chance (Zou and Donner, Stat. Med. 27 (2008) 1693-1702). */
 void pane_set_contrast(PaneFinding *f)
 {
     double c = f->contrast = over(f->image, f->against);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* pane_verdict.h -- displays as glass shows them to an eye: where, how bright, against what; and
- * whether that is too much where the request says that the eye must see past them.
+/* pane_verdict.h -- displays as glass shows them to an eye: where, how bright, against what;
+ * and whether that is too much where the request says that the eye must see past them.
  *
  * Contrast   c = image / against: by how much the image brightens what is seen there, Weber's
  *            contrast of the image to its surroundings (CIE S 017, "luminance contrast"). Of

@@ -1,44 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Displays in glass: what is said of them agrees in every figure, and decides the review. */
 #include "review/export/review_junit.h"
+#include "review/output/pane_outlines.h"
 #include "review/output/review_json.h"
 #include "review/output/review_page.h"
 #include "review/output/review_panes.h"
 #include "review/review_decide.h"
+#include "pane_fixture.h"
 #include "review_page_fixture.h"
-
-/* Seen; 1 +- 0.1 against 4 +- 0.4 cd/m2. */
-static PaneFinding finding(const char *display)
-{
-    static const double OUTLINE[] = {-12, 8, -6, 8.5, -6, 11};
-    PaneFinding f = {.condition = "night", .eye = "driver", .display = display,
-                     .pane = "windscreen (glass)", .shown_share = 0.75, .covered_share = 0.25,
-                     .covered_by = "hood (leather)", .right_deg = -8, .up_deg = 9,
-                     .width_deg = 6, .height_deg = 3, .outline_deg = OUTLINE,
-                     .outline_count = 6, .image = 1, .image_range = {0.9, 1.1}, .behind = 3,
-                     .behind_range = {2.8, 3.2}, .against = 4, .against_range = {3.6, 4.4},
-                     .area = "road", .off_deg = 6.5};
-    pane_set_contrast(&f);
-    return f;
-}
-
-static PaneFinding hidden(void)
-{
-    const double nan = (double)NAN;
-    const MeanInterval none = {nan, nan};
-    return (PaneFinding){.condition = "night", .eye = "driver", .display = "centre (centre)",
-                         .pane = "side <glass>", .none = "the pane ends before it",
-                         .ends_share = 1, .right_deg = nan, .up_deg = nan, .width_deg = nan,
-                         .height_deg = nan, .image = nan, .image_range = none, .behind = nan,
-                         .behind_range = none, .against = nan, .against_range = none,
-                         .contrast = nan, .contrast_range = none, .off_deg = nan};
-}
 
 /* ---- figures ----------------------------------------------------------------------------- */
 
 TEST(contrast_is_the_quotient_and_its_ends_are_both_doubts)
 {
-    PaneFinding f = finding("a");
+    PaneFinding f = fixture_pane("a");
     assert_close(f.contrast, 0.25, 1e-12);
     double low = hypot(0.25 - 0.9 / 4, 0.25 - 1 / 4.4);
     double high = hypot(1.1 / 4 - 0.25, 1 / 3.6 - 0.25);
@@ -53,7 +28,7 @@ TEST(a_verdict_follows_from_interval_and_limit)
     static const Verdict WANTED[] = {VERDICT_FAIL, VERDICT_TOO_CLOSE, VERDICT_TOO_CLOSE,
                                      VERDICT_PASS};
     for (int i = 0; i < 4; i++) {
-        PaneFinding f = finding("a");
+        PaneFinding f = fixture_pane("a");
         assert_false(pane_counts(&f));
         pane_judge(&f, "road", LIMITS[i]);
         assert_true(pane_counts(&f));
@@ -64,7 +39,7 @@ TEST(a_verdict_follows_from_interval_and_limit)
 
 TEST(an_image_before_nothing_fails_any_limit)
 {
-    PaneFinding f = finding("a");
+    PaneFinding f = fixture_pane("a");
     f.against = 0;
     f.against_range = (MeanInterval){0, 0};
     pane_set_contrast(&f);
@@ -103,7 +78,7 @@ static Review review_of(PaneFinding *list, int count)
 
 TEST(what_counts_decides_the_review)
 {
-    PaneFinding list[] = {hidden(), finding("near"), finding("far")};
+    PaneFinding list[] = {fixture_pane_hidden(), fixture_pane("near"), fixture_pane("far")};
     Review      review = review_of(list, 3);
     assert_true(review.pass && !review_worst_pane(&review));
     assert_int_equal(review_count(&review).total, 1);
@@ -139,7 +114,7 @@ static void assert_same_finding(const PaneFinding *a, const PaneFinding *b)
 
 TEST(review_json_keeps_them_and_others_have_no_such_key)
 {
-    PaneFinding list[] = {hidden(), finding("near")};
+    PaneFinding list[] = {fixture_pane_hidden(), fixture_pane("near")};
     const char *path = fresh_name(".json");
     Review      review = review_of(list, 2), again;
     pane_judge(&list[1], "road", 0.1);
@@ -154,7 +129,7 @@ TEST(review_json_keeps_them_and_others_have_no_such_key)
 
 TEST(every_output_has_the_same_figures)
 {
-    PaneFinding list[] = {hidden(), finding("near \"screen\"")};
+    PaneFinding list[] = {fixture_pane_hidden(), fixture_pane("near \"screen\"")};
     Review      review = review_of(list, 2);
     pane_judge(&list[1], "road", 0.1);
     review_decide(&review);
@@ -186,7 +161,7 @@ TEST(outlines_lie_over_a_frame_where_its_view_has_them)
     CaseView    view = {.right = {1, 0, 0}, .up = {0, 1, 0}, .forward = {0, 0, -1},
                         .is_perspective = true, .half_width = 1, .half_height = 0.5,
                         .width = 200, .height = 100};
-    PaneFinding list[] = {hidden(), finding("near")};
+    PaneFinding list[] = {fixture_pane_hidden(), fixture_pane("near")};
     Review      review = review_of(list, 2);
     list[1].corners = CORNERS;
     assert_null(review_panes_drawn(&review, &review.cases[0], &arena));

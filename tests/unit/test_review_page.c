@@ -7,6 +7,7 @@
 #include "review/output/review_json.h"
 #include "review/output/review_link.h"
 #include "review/output/review_words.h"
+#include "pane_fixture.h"
 #include "review_page_fixture.h"
 #include "road_fixture.h"
 
@@ -208,6 +209,10 @@ static json_t *all_values(json_t *own)
     review->sensitivities = &sensitivity;
     review->mends = &mend;
     review->variant_count = review->sensitivity_count = review->mend_count = 1;
+    PaneFinding panes[] = {fixture_pane("near"), fixture_pane_hidden()};
+    pane_judge(&panes[0], "road", 0.1);
+    review->pane_images = panes;
+    review->pane_image_count = 2;
     review->to_come = "more";
     review->gazes[2].road = fixture_road(&arena, 30, 1);
     fixture_dimming(review->gazes[2].road);

@@ -4,9 +4,9 @@
  *
  * Means over the image's solid angle, by paths as a frame's from anywhere in it: both faces of
  * the pane, its coatings, its ghost, the display's content, level and emission at that angle
- * are in them. The rays carry how light is polarised, as frames with --polarised do: an LCD's light
- * is, and glass mirrors one direction of it many times as much as the other. The eye is a naked
- * one.
+ * are in them. The rays carry how light is polarised, as frames with --polarised do: an LCD's
+ * light is, and glass mirrors one direction of it many times as much as the other. The eye is
+ * a naked one.
  *
  *   image    the display's own light via a reflection at that pane, by mirrors and panes alone
  *   through  what comes past all panes: what lies behind the glass

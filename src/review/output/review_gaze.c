@@ -6,6 +6,7 @@
 
 #include "page/page.h"
 #include "review/output/review_road.h"
+#include "review/output/review_panes.h"
 #include "review/output/review_words.h"
 
 /* ---- the worst first --------------------------------------------------------------------- */
@@ -116,4 +117,5 @@ void values_add_gazes(const PageValues *v)
         json_object_set(v->doc, "worst_gaze", json_array_get(all, 0));
     add_false_suns(v);
     road_add_values(v->doc, v->review, v->arena);
+    values_add_panes(v);
 }

@@ -7,6 +7,7 @@
 #pragma once
 #include "review/output/review_values.h"
 
+/* Displays in glass, too (review_panes.h). */
 void values_add_gazes(const PageValues *v);
 
 /* cd m^-2 that glass mirrors over the gaze, and that the eye's own veil lays over it, with no

@@ -8,7 +8,6 @@
 #include "review/output/review_values.h"
 #include "review/output/review_facts.h"
 #include "review/output/review_gaze.h"
-#include "review/output/review_panes.h"
 #include "review/output/review_json.h"
 #include "review/output/review_link.h"
 #include "review/output/review_variants.h"
@@ -506,7 +505,6 @@ static bool set_all(const PageValues *v, int most, Error *err)
     values_add_limits(v);
     values_add_diff(v);
     values_add_gazes(v);
-    values_add_panes(v);
     set_provenance(v);
     return values_add_variants(v, err) && set_live(v, err);
 }

@@ -2,7 +2,6 @@
 #include "review/output/review_panes.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "page/page.h"
@@ -11,7 +10,7 @@
 
 /* ---- words ------------------------------------------------------------------------------- */
 
-const char *review_pane_where(const PaneFinding *f, Arena *arena)
+static const char *where_of(const PaneFinding *f, Arena *arena)
 {
     return arena_format(arena, "%.1f° %s, %.1f° %s", fabs(f->up_deg),
                         f->up_deg < 0 ? "down" : "up", fabs(f->right_deg),
@@ -34,7 +33,7 @@ const char *review_pane_words(const PaneFinding *f, Arena *arena)
         return arena_format(arena, "%s in %s: no image, %s", f->display, f->pane, f->none);
     const char *light = arena_format(
         arena, "%s in %s, %s: %s cd/m² against %s, contrast %s (%s)", f->display, f->pane,
-        review_pane_where(f, arena), figure(f->image, f->image_range, arena),
+        where_of(f, arena), figure(f->image, f->image_range, arena),
         figure(f->against, f->against_range, arena),
         figure(f->contrast, f->contrast_range, arena), range_words(f->contrast_range, arena));
     if (!f->has_limit) return light;
@@ -91,61 +90,6 @@ static bool is_on_map(const PaneFinding *f)
     return fabs(f->right_deg) < MAP_RIGHT && fabs(f->up_deg) < MAP_UP;
 }
 
-/* ---- over a frame ------------------------------------------------------------------------ */
-
-#define PATH_BYTES 1024  /* of an outline's corners */
-#define BEFORE_EYE 0.05f /* along the view's axis, of a unit direction */
-
-/* A direction's place in the picture, pixels. */
-static bool in_view(const CaseView *view, Vec3 towards, double at[2])
-{
-    float ahead = vec3_dot(towards, view->forward);
-    if (ahead < BEFORE_EYE) return false;
-    at[0] = (double)(vec3_dot(towards, view->right) / ahead) / view->half_width;
-    at[1] = (double)(vec3_dot(towards, view->up) / ahead) / view->half_height;
-    at[0] = 0.5 * (1 + at[0]) * view->width;
-    at[1] = 0.5 * (1 - at[1]) * view->height;
-    return true;
-}
-
-/* As a closed path; false: some of it is not before the eye. */
-static bool path_of(const CaseView *view, const PaneFinding *f, Text *out)
-{
-    for (int i = 0; 2 * i < f->outline_count; i++) {
-        double at[2];
-        if (!in_view(view, f->corners[i], at)) return false;
-        text_format(out, "%c%.1f %.1f", i ? 'L' : 'M', at[0], at[1]);
-    }
-    text_add(out, "Z");
-    return true;
-}
-
-static bool is_seen_in(const PaneFinding *f, const ReviewCase *c)
-{
-    return !f->none && f->corners && !c->when && c->eye && c->condition &&
-           !strcmp(f->eye, c->eye) && !strcmp(f->condition, c->condition);
-}
-
-const char *review_panes_drawn(const Review *review, const ReviewCase *c, Arena *arena)
-{
-    Text all = {.arena = arena};
-    if (!c->view || !c->view->is_perspective) return NULL;
-    for (int i = 0; i < review->pane_image_count; i++) {
-        const PaneFinding *f = &review->pane_images[i];
-        char  buffer[PATH_BYTES];
-        Arena own = *arena;
-        Text  path = {.arena = &own};
-        if (!is_seen_in(f, c) || !path_of(c->view, f, &path)) continue;
-        snprintf(buffer, sizeof buffer, "%s", path.data);
-        text_format(&all, "<g class=\"rim\"><path class=\"under\" d=\"%s\"/>"
-                    "<path d=\"%s\"/></g>", buffer, buffer);
-    }
-    if (!all.data) return NULL;
-    return arena_format(arena, "<svg class=\"rim\" viewBox=\"0 0 %d %d\" "
-                        "aria-hidden=\"true\" preserveAspectRatio=\"xMidYMid slice\">%s</svg>",
-                        c->view->width, c->view->height, all.data);
-}
-
 /* ---- values ------------------------------------------------------------------------------ */
 
 /* An eye in a condition. */
@@ -157,7 +101,7 @@ static bool is_of_view(const PaneFinding *f, const PaneFinding *first)
 static void set_image(json_t *to, const PaneFinding *f, int number, Arena *arena)
 {
     page_set_count(to, "number", number);
-    page_set(to, "where", review_pane_where(f, arena));
+    page_set(to, "where", where_of(f, arena));
     page_set(to, "size", arena_format(arena, "%.1f° × %.1f°", f->width_deg, f->height_deg));
     page_set(to, "image_words", figure(f->image, f->image_range, arena));
     page_set(to, "image_range", range_words(f->image_range, arena));

@@ -10,15 +10,8 @@
 /* Nothing of a review without any. */
 void values_add_panes(const PageValues *v);
 
-/* <svg class="rim"> of the frame's size: the images that the case's eye has then, in outline;
- * NULL: none lies before it. */
-const char *review_panes_drawn(const Review *review, const ReviewCase *c, Arena *arena);
-
-/* "12.5° up, 6.3° left" */
-const char *review_pane_where(const PaneFinding *f, Arena *arena);
-
-/* "centre (centre) in windscreen (glass), ...: 0.116 cd/m2 against 0.140, contrast 0.83 (0.80 to
- * 0.85), at most 0.1 towards road" */
+/* "centre (centre) in windscreen (glass), 14.2° up, 16.6° right: 0.116 cd/m² against 0.140,
+ * contrast 0.83 (0.80 to 0.85), at most 0.1 towards road" */
 const char *review_pane_words(const PaneFinding *f, Arena *arena);
 
 /* "centre (centre) in windscreen (glass), seen by driver, night": the name of its test. */

@@ -8,7 +8,7 @@
 #define WITHIN_DEG 20 /* about a gaze */
 #define CONTRAST_DOC "Of the image over all else that is seen there: at most. Your own limit."
 
-/* ---- areas --------------------------------------------------------------------------------- */
+/* ---- areas ------------------------------------------------------------------------------- */
 
 #define OWNER ReviewPaneArea
 
@@ -31,14 +31,14 @@ static const RecordFormat area_format = {"pane_area", sizeof(OWNER), AREA, .star
 
 #undef OWNER
 
-/* ---- all of it ----------------------------------------------------------------------------- */
+/* ---- all of it --------------------------------------------------------------------------- */
 
 #define OWNER ReviewPaneImages
 
 static const RecordRow PANES[] = {
     NUMBER("within_deg", RECORD_ABOVE, within_deg, 0, 180,
-           "Half the width of the cone about each gaze that has a direction; without such gazes "
-           "and areas about 'forward'."),
+           "Half the width of the cone about each gaze that has a direction; without such "
+           "gazes and areas about 'forward'."),
     NUMBER("contrast_max", RECORD_OPEN | RECORD_ABOVE, contrast_most, 0, 1e6, CONTRAST_DOC),
     NUMBER("against_cd_m2", 0, against_cd_m2, 0, 1e9,
            "As it comes to the eye: what images are seen against has at least this, such as a "

@@ -12,7 +12,7 @@
 #define PATHS_MOST 32768
 #define SEARCH_BYTES ((size_t)1 << 34) /* of address space */
 
-/* ---- where --------------------------------------------------------------------------------- */
+/* ---- where ------------------------------------------------------------------------------- */
 
 /* Axes of the directions that are told: the vehicle's. */
 static Frame frame_of(const ReviewRequest *request)
@@ -73,7 +73,7 @@ static double degrees_off(const PaneImage *image, const double direction[3])
     return degrees_from_radians(least);
 }
 
-/* ---- what is to be kept free --------------------------------------------------------------- */
+/* ---- what is to be kept free ------------------------------------------------------------- */
 
 /* Those of an eye: its gazes and the areas; straight ahead where there is neither. */
 static ReviewPaneArea *areas_of(const ReviewRequest *request, int eye, int *count, Arena *arena)
@@ -116,7 +116,7 @@ static void set_area(const PaneImage *image, const ReviewPaneArea *areas, int co
     if (isfinite(most)) pane_judge(out, out->area, most);
 }
 
-/* ---- one display in one pane --------------------------------------------------------------- */
+/* ---- one display in one pane ------------------------------------------------------------- */
 
 static const char *why_none(const PaneFinding *f, Arena *arena)
 {
@@ -187,7 +187,7 @@ static PaneFinding finding_of(const PaneEye *eye, const PaneImage *image, Arena 
     return out;
 }
 
-/* ---- all of them --------------------------------------------------------------------------- */
+/* ---- all of them ------------------------------------------------------------------------- */
 
 static void add_eye(const PaneEye *eye, Arena *arena, Review *review)
 {
