@@ -139,7 +139,7 @@ TEST(map_is_the_sum_within_a_percent)
             double place[2] = {fmod(0.618034 * k, 1), fmod(0.7548777 * k, 1)};
             float  seen[2] = {(float)place[0], (float)place[1]};
             double sum = backlight_sum(shapes(i), light->drive, place);
-            assert_near(backlight_at(light, seen), sum, 0.01 * sum + 3e-5);
+            assert_near(backlight_at(light, seen), sum, 0.01 * sum + 1e-4);
         }
     }
 }
@@ -152,7 +152,7 @@ TEST(light_of_the_zones_is_kept)
         const Backlight *light = made(shapes(i), &corner);
         double sum = 0, n = light->width * light->height;
         for (int k = 0; k < light->width * light->height; k++)
-            sum += exp((double)light->log_light[k]);
+            sum += light->is_log ? exp((double)light->light[k]) : (double)light->light[k];
         assert_close(sum / n, light->mean_drive, i == 1 ? 0.02 : 0.003);
     }
 }

@@ -82,13 +82,14 @@ typedef struct MapWork {
     const double       *drive;
     int                 fine[2]; /* samples in a zone */
     int                 size[2]; /* of the map */
-    float              *out;     /* ln b */
+    float              *out;     /* Backlight.light */
 } MapWork;
 
 static void keep(MapWork *work, int x, int y, double light)
 {
-    float log = log_f((float)fmax(light, (double)BACKLIGHT_DARK));
-    work->out[(size_t)y * (size_t)work->size[0] + x] = light > 1 - 1e-6 ? 0 : log;
+    float *out = work->out + (size_t)y * (size_t)work->size[0] + x;
+    float  b = light > 1 - 1e-6 ? 1 : (float)fmax(light, (double)BACKLIGHT_DARK);
+    *out = work->zones->sigma_mm > 0 ? log_f(b) : b;
 }
 
 /* The shares of a row's zones at each sample along axis k: [sample][zone], adding up to 1. A
@@ -208,7 +209,8 @@ const Backlight *backlight_make(const DimmingZones *zones, const LevelShares *le
     int        count = zones->count[0] * zones->count[1];
     choose_fineness(&work);
     work.out = ARENA_NEW(arena, float, (size_t)work.size[0] * (size_t)work.size[1]);
-    *out = (Backlight){.width = work.size[0], .height = work.size[1], .log_light = work.out,
+    *out = (Backlight){.width = work.size[0], .height = work.size[1], .light = work.out,
+                       .is_log = zones->sigma_mm > 0,
                        .compensates = zones->compensates, .zones = zones, .drive = drive,
                        .log_share = log_shares(levels, arena)};
     for (int i = 0; i < count; i++) out->mean_drive += drive[i] / count;

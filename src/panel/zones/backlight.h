@@ -46,7 +46,8 @@ typedef struct ShownPicture {
 
 typedef struct Backlight {
     int          width, height; /* samples, evenly over the active area */
-    const float *log_light;     /* ln b at the middles of width x height cells, from the top */
+    const float *light;         /* at the middles of width x height cells, from the top */
+    bool         is_log;        /* light is ln b, of a Gaussian spread; else b */
     bool         compensates;
     const float (*log_share)[256]; /* ln of LevelShares, of compensation; [0] is unused */
     const DimmingZones *zones;
@@ -68,8 +69,8 @@ double backlight_drives(const DimmingZones *zones, const LevelShares *levels,
 /* b at a place by the sum as it stands: slow, for tests and figures at single places. */
 double backlight_sum(const DimmingZones *zones, const double *drive, const double place[2]);
 
-/* Makes the map: fine enough that ln b, bilinear between its samples, is the sum within 1 % of
- * it and 0.00003 of full (of Gaussians, and of tables where zones are few enough that the map
- * may be as fine). drive is kept. */
+/* Makes the map: fine enough that bilinear between its samples (of a Gaussian's ln b, of a
+ * table's b) it is the sum within 1 % of it and 0.0001 of full, unless a wide table over many
+ * zones would take too long: then it is coarser. drive is kept. */
 const Backlight *backlight_make(const DimmingZones *zones, const LevelShares *levels,
                                 const double *drive, Arena *arena);

@@ -20,10 +20,11 @@ float backlight_at(const Backlight *backlight, const float place[2])
     float s, t;
     int   x = sample_of(place[0], backlight->width, &right, &s);
     int   y = sample_of(place[1], backlight->height, &below, &t);
-    const float *top = backlight->log_light + (size_t)y * (size_t)backlight->width;
-    const float *low = backlight->log_light + (size_t)below * (size_t)backlight->width;
-    float log = lerpf(lerpf(top[x], top[right], s), lerpf(low[x], low[right], s), t);
-    return log < 0 ? exp_f(log) : 1;
+    const float *top = backlight->light + (size_t)y * (size_t)backlight->width;
+    const float *low = backlight->light + (size_t)below * (size_t)backlight->width;
+    float light = lerpf(lerpf(top[x], top[right], s), lerpf(low[x], low[right], s), t);
+    if (backlight->is_log) light = light < 0 ? exp_f(light) : 1;
+    return clampf(light, BACKLIGHT_DARK, 1);
 }
 
 /* ln of a primary's share at a code above 0: linear over ln code between whole ones, a power
