@@ -144,7 +144,8 @@ TEST(map_is_the_sum_within_a_percent)
     }
 }
 
-/* Walls give back what would leave over an edge: the mean of the backlight is the mean drive. */
+/* Walls give back what would leave over an edge: the mean of the backlight is the mean drive.
+ */
 TEST(light_of_the_zones_is_kept)
 {
     const Patch corner = {{0, 0}, {0.2f, 0.34f}, 230, 15};

@@ -16,7 +16,7 @@ static int folded(long i, int count)
 }
 
 #define GAUSSIAN_REACH 6.0 /* sigmas: beyond, 2e-8 of the middle */
-#define FINE_SAMPLES 12.0  /* in a sigma, or in a table's half width */
+#define FINE_SAMPLES 12.0  /* in a sigma; of a table twice as many in its half width */
 #define SAMPLES_MOST 4000000.0
 #define WORK_MOST 4e8      /* products of a table's spread */
 
@@ -177,7 +177,7 @@ static void map_table(MapWork *work, Arena scratch)
 static void choose_fineness(MapWork *work)
 {
     const DimmingZones *zones = work->zones;
-    double width = zones->sigma_mm > 0 ? zones->sigma_mm : half_width(zones);
+    double width = zones->sigma_mm > 0 ? zones->sigma_mm : 0.5 * half_width(zones);
     double most = SAMPLES_MOST;
     if (!(zones->sigma_mm > 0))
         most = fmin(most, WORK_MOST / ((2.0 * reach(zones, 0) + 1) *

@@ -30,7 +30,7 @@ typedef struct DimmingZones {
     int       count[2];    /* columns and rows; 0: the backlight is one, always full */
     double    size_mm[2];  /* of the active area */
     double    sigma_mm;    /* of the Gaussian of a zone's light; 0: `spread` says it */
-    ZoneTable spread;      /* distance from the zone's middle, mm; relative light, 0 behind it */
+    ZoneTable spread;      /* mm from the zone's middle; relative light, 0 behind it */
     ZoneRule  rule;
     ZoneTable drive;       /* code to drive; no rows: the drive is the light of the code */
     double    least;       /* drive of any zone */
