@@ -42,12 +42,12 @@ static const char *zones_fault(const DimmingZones *zones)
 {
     for (int k = 0; k < 2; k++) {
         if (zones->count[k] < 1 || zones->count[k] > ZONES_SIDE_MAX)
-            return "are required to be 1 to 512 columns and as many rows";
+            return "has too many, required: 1 to 512 columns and 1 to 512 rows";
         if (!(zones->size_mm[k] >= 1 && zones->size_mm[k] <= 1e5))
-            return "need the active area's size, 1 to 100000 mm";
+            return "has no size of the active area, required: 1 to 100000 mm";
     }
-    return zones->count[0] * zones->count[1] > ZONES_MOST ? "are required to be at most 65536"
-                                                          : NULL;
+    return zones->count[0] * zones->count[1] > ZONES_MOST
+               ? "has too many, required: at most 65536 in all" : NULL;
 }
 
 static const char *spread_fault(const DimmingZones *zones)
@@ -60,29 +60,29 @@ static const char *spread_fault(const DimmingZones *zones)
         return zones->sigma_mm >= ZONE_SIGMA_LEAST * fmax(wide, high) &&
                        zones->sigma_mm <= 1e6
                    ? NULL
-                   : "'s sigma_mm is required to be an eighth of a zone's longer side at "
-                     "least, or it would be dark between zones";
+                   : "has a sigma_mm that leaves it dark between zones, required: an eighth of "
+                     "a zone's longer side at least";
     if (!is_table(&zones->spread, 1e9) || zones->spread.at[0] != 0)
-        return " is required to be 'sigma_mm', or 2 to 64 values at as many radii that rise "
-               "from 0";
+        return "has no spread, required: 'sigma_mm', or 2 to 64 values from 0 on at as many "
+               "radii that rise from 0";
     double reach = zones->spread.at[zones->spread.rows - 1];
     if (!(dimming_zones_spread(zones, 0.5 * sqrt(wide * wide + high * high)) > 0))
-        return "'s table is required to have light at a zone's corner, or it would be dark "
-               "between zones";
+        return "has a table that leaves it dark between zones, required: light at half a "
+               "zone's diagonal";
     return reach <= ZONE_REACH_MAX * fmin(wide, high)
-               ? NULL : "'s table is required to reach over at most 64 zones";
+               ? NULL : "has a table that reaches too far, required: at most over 64 zones";
 }
 
 static const char *drive_fault(const DimmingZones *zones)
 {
     const ZoneTable *drive = &zones->drive;
     if (!(zones->least >= 0 && zones->least <= 1))
-        return "'s least is required to be from 0 to 1";
+        return "has a least drive that is none, required: 0 to 1";
     if (zones->rule != ZONES_MAXIMUM && zones->rule != ZONES_MEAN)
-        return "'s rule is required to be maximum or mean";
+        return "has an unknown rule, required: maximum or mean";
     if (!drive->rows && !drive->values) return NULL;
     if (!is_table(drive, 1) || drive->at[0] < 0 || drive->at[drive->rows - 1] > 255)
-        return "'s table is required to be 2 to 64 drives from 0 to 1 at as many codes that "
+        return "has a wrong table, required: 2 to 64 drives from 0 to 1 at as many codes that "
                "rise, 0 to 255";
     return NULL;
 }

@@ -31,14 +31,14 @@ typedef struct DimmingZones {
     double    size_mm[2];  /* of the active area */
     double    sigma_mm;    /* of the Gaussian of a zone's light; 0: `spread` says it */
     ZoneTable spread;      /* mm from the zone's middle; relative light, 0 behind it */
-    ZoneRule  rule;
+    int       rule;        /* ZoneRule */
     ZoneTable drive;       /* code to drive; no rows: the drive is the light of the code */
     double    least;       /* drive of any zone */
     bool      compensates; /* the controller opens pixels as their backlight falls */
 } DimmingZones;
 
-/* Why a backlight cannot be so, in words that follow the name of the key: ": has ..."; NULL: it
- * can. *key: the one of "zones", "spread", "drive" that is wrong. */
+/* Why a backlight cannot be so, in words that follow the place: "has ..., required: ..."; NULL:
+ * it can. *key: the one of "zones", "spread", "drive" that is wrong. */
 const char *dimming_zones_fault(const DimmingZones *zones, const char **key);
 
 /* Of a table with rows: straight lines between them, held outside. */
