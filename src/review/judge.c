@@ -6,6 +6,7 @@
 #include "base/confidence.h"
 #include "base/count.h"
 #include "base/mathd.h"
+#include "review/visibility_figure.h"
 
 #define ROOT_HALF 0.70710678118654752
 #define UNDECIDED_SHARE 0.1
@@ -93,8 +94,16 @@ static Figure contrast_figure(const ReviewCase *c, const Profile *profile)
                     below_veil(c, c->contrast_high)};
 }
 
-static Figure figure_of(LimitKind kind, const ReviewCase *c, const Profile *profile)
+static Figure level_figure(const CaseVisibility *of)
 {
+    return of ? (Figure){of->level, of->low, of->high} : (Figure){NAN, NAN, NAN};
+}
+
+static Figure figure_of(const ProfileLimit *limit, const ReviewCase *c, const Profile *profile)
+{
+    LimitKind kind = limit->kind;
+    if (kind == LIMIT_VISIBILITY_LEVEL)
+        return level_figure(visibility_decisive(c, limit->is_upper));
     if (kind == LIMIT_CHARACTER_HEIGHT)
         return (Figure){c->height_arcmin, c->height_arcmin, c->height_arcmin};
     if (kind == LIMIT_STROKE_RATIO)
@@ -122,11 +131,20 @@ static double value_at(const ProfileLimit *limit, double height_arcmin)
     return limit->value + s->per_arcmin * (s->reference_arcmin - height_arcmin);
 }
 
-/* Nothing, or not a contrast, of the case can be judged, whatever its figures. */
-static bool is_unjudged(const ReviewCase *c, bool is_contrast)
+/* Nothing, or nothing that hangs on the light, of the case can be judged, whatever its
+ * figures. */
+static bool is_unjudged(const ReviewCase *c, bool is_of_light)
 {
     return !review_is_seen(c->visible_share) || c->panel.is_unusable ||
-           (is_contrast && c->without_data_share > UNJUDGED_DATA_SHARE);
+           (is_of_light && c->without_data_share > UNJUDGED_DATA_SHARE);
+}
+
+/* Whose level it is; 0: the limit is about nobody's. */
+static double age_of(const ProfileLimit *limit, const ReviewCase *c)
+{
+    if (limit->kind != LIMIT_VISIBILITY_LEVEL) return 0;
+    const CaseVisibility *of = visibility_decisive(c, limit->is_upper);
+    return of ? of->age_years : 0;
 }
 
 static LimitVerdict judge_limit(const ProfileLimit *limit, const ReviewCase *c,
@@ -134,16 +152,16 @@ static LimitVerdict judge_limit(const ProfileLimit *limit, const ReviewCase *c,
 {
     const LimitKindFacts *kind = &limit_kinds[limit->kind];
     bool   is_visible = review_is_seen(c->visible_share);
-    Figure figure = is_visible ? figure_of(limit->kind, c, profile) : (Figure){NAN, NAN, NAN};
+    Figure figure = is_visible ? figure_of(limit, c, profile) : (Figure){NAN, NAN, NAN};
     LimitVerdict judged = {
         .name = limit->name, .kind = kind->name, .unit = kind->unit, .source = limit->source,
         .value = value_at(limit, c->height_arcmin),
         .read_in_the_standard = limit->read_in_the_standard, .is_upper = limit->is_upper,
         .is_advice = limit->is_advice, .found = figure.found, .low = figure.low,
-        .high = figure.high};
+        .high = figure.high, .age_years = age_of(limit, c)};
     judged.margin =
         quantity_margin(limit->kind, limit->is_upper, judged.found, judged.value);
-    judged.verdict = is_unjudged(c, kind->is_contrast) ? VERDICT_UNJUDGED
+    judged.verdict = is_unjudged(c, kind->is_of_light) ? VERDICT_UNJUDGED
                                                        : quantity_verdict(&judged);
     return judged;
 }
@@ -171,10 +189,12 @@ static Unjudged why_unjudged(const ReviewCase *c, int counted)
     return c->without_data_share > UNJUDGED_DATA_SHARE ? UNJUDGED_DATA : UNJUDGED_FIGURE;
 }
 
-/* The share of sampling in the contrast's doubt below or above it: the panel's stated errors
- * are the rest, and no path lessens those. */
-static double sampling_share(const ReviewCase *c, bool is_below)
+/* The share of sampling in a figure's doubt below or above it: the panel's stated errors are
+ * the rest, and no path lessens those. Of all contrasts it is the ratio's. */
+static double sampling_share(const ReviewCase *c, const LimitVerdict *limit, bool is_below)
 {
+    if (limit_kind_named(limit->kind) == LIMIT_VISIBILITY_LEVEL)
+        return visibility_sampling_share(c, visibility_decisive(c, limit->is_upper), is_below);
     double end = is_below ? c->reflected_range.high : c->reflected_range.low;
     double all = is_below ? c->contrast_low : c->contrast_high;
     double half = contrast_of(&c->luminance_cd_m2, AS_IT_IS, end) - c->contrast_ratio;
@@ -211,7 +231,7 @@ static OpenLimit open_limit(const ReviewCase *c, const LimitVerdict *limit, doub
 {
     bool   is_above = limit->found > limit->value;
     double half = is_above ? limit->found - limit->low : limit->high - limit->found;
-    double share = sampling_share(c, is_above);
+    double share = sampling_share(c, limit, is_above);
     return (OpenLimit){.away = fabs(limit->found - limit->value),
                        .error = (1 - fixed) * share * half / NORMAL_QUANTILE,
                        .sun = fixed * share * half,
@@ -262,6 +282,7 @@ void judge_case(ReviewCase *review_case, const Profile *profile, Arena *arena)
     c->limit_id = -1;
     c->margin = NAN;
     c->verdict = VERDICT_PASS;
+    c->visibilities = visibility_levels(c, arena);
     for (int i = 0; i < profile->limit_count; i++) {
         const ProfileLimit *limit = &profile->limits[i];
         if (!is_asked(limit, c)) continue;

@@ -10,7 +10,8 @@
  * A case cannot be judged (`unjudged`, in this order) where half of it is hidden or more, where
  * its panel says of itself that it is not usable, where no limit that counts applies to it,
  * where more than UNJUDGED_DATA_SHARE of the light that it reflects came via materials without
- * data (its contrasts: a height that fails fails all the same), and where a figure is NaN.
+ * data (what hangs on the light: a height that fails fails all the same), and where a figure is
+ * NaN.
  *
  * Memory   lists come from the arena.
  * Threads  pure functions but for the case that is passed in.
@@ -42,6 +43,9 @@ void judge_paths(ReviewCase *review_case, double fixed);
  * panel and without_data_share: sets limits, limit_count, limit_id, margin, verdict and
  * unjudged; of one that is not too close it clears what would decide it. limit_id is, among the
  * contrast limits that count, the one that requires the greatest ratio; margin is its margin.
+ *
+ * The levels of `visibilities` are made anew of the case's luminances (visibility_figure.h); a
+ * limit of visibility is about the least of them, an upper one about the greatest.
  *
  * A profile that uses the veil limits contrast_with_veil; its interval is that of
  * contrast_ratio seen through the veil, whose own doubt is not in it. */

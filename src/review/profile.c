@@ -279,3 +279,10 @@ Ambient profile_ambient(const Profile *profile, double display_lux, bool sun_on_
     if (display_lux < profile->night_below_lx) return AMBIENT_NIGHT;
     return display_lux < profile->twilight_below_lx ? AMBIENT_TWILIGHT : AMBIENT_DAY;
 }
+
+bool profile_has(const Profile *profile, LimitKind kind)
+{
+    for (int i = 0; i < profile->limit_count; i++)
+        if (profile->limits[i].kind == kind) return true;
+    return false;
+}

@@ -68,5 +68,8 @@ bool profile_load(const char *name_or_path, Arena *arena, const Profile **out, E
 /* The names of those inside the program, with commas. */
 const char *profile_names(Arena *arena);
 
+/* Has it a limit of that kind, advice included? */
+bool profile_has(const Profile *profile, LimitKind kind);
+
 /* Direct sun on the display is AMBIENT_SUN; else its illuminance decides. */
 Ambient profile_ambient(const Profile *profile, double display_lux, bool sun_on_display);

@@ -8,15 +8,16 @@
 
 const char *const limit_kind_names[LIMIT_KIND_COUNT + 1] = {
     "contrast_ratio", "luminance_contrast", "modulation", "character_height", "stroke_ratio",
-    "width_ratio"};
+    "width_ratio", "visibility_level"};
 
 const LimitKindFacts limit_kinds[LIMIT_KIND_COUNT] = {
-    [LIMIT_CONTRAST_RATIO] = {"contrast_ratio", "1", true, true},
-    [LIMIT_LUMINANCE_CONTRAST] = {"luminance_contrast", "1", true, true},
-    [LIMIT_MODULATION] = {"modulation", "1", true, true},
-    [LIMIT_CHARACTER_HEIGHT] = {"character_height", "arcmin", false, true},
-    [LIMIT_STROKE_RATIO] = {"stroke_ratio", "1", false, true},
-    [LIMIT_WIDTH_RATIO] = {"width_ratio", "1", false, false},
+    [LIMIT_CONTRAST_RATIO] = {"contrast_ratio", "1", true, true, true},
+    [LIMIT_LUMINANCE_CONTRAST] = {"luminance_contrast", "1", true, true, true},
+    [LIMIT_MODULATION] = {"modulation", "1", true, true, true},
+    [LIMIT_CHARACTER_HEIGHT] = {"character_height", "arcmin", false, true, false},
+    [LIMIT_STROKE_RATIO] = {"stroke_ratio", "1", false, true, false},
+    [LIMIT_WIDTH_RATIO] = {"width_ratio", "1", false, false, false},
+    [LIMIT_VISIBILITY_LEVEL] = {"visibility_level", "1", false, true, true},
 };
 
 LimitKind limit_kind_named(const char *name)

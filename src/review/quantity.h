@@ -22,12 +22,14 @@ typedef enum LimitKind {
     LIMIT_CHARACTER_HEIGHT,   /* arc minutes */
     LIMIT_STROKE_RATIO,       /* stroke over the character's height */
     LIMIT_WIDTH_RATIO,        /* width over height: not measured here */
+    LIMIT_VISIBILITY_LEVEL,   /* times what somebody of an age just sees */
     LIMIT_KIND_COUNT
 } LimitKind;
 
 typedef struct LimitKindFacts {
     const char *name, *unit;
     bool        is_contrast, is_measured;
+    bool        is_of_light; /* it hangs on the light, as contrasts do */
 } LimitKindFacts;
 
 extern const LimitKindFacts limit_kinds[LIMIT_KIND_COUNT];

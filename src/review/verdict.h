@@ -84,6 +84,7 @@ typedef struct LimitVerdict {
     double      low, high;    /* 95 % interval of `found`; equal where it is exact */
     double      margin;       /* above; NaN where `found` is */
     Verdict     verdict;
+    double      age_years;    /* of a visibility level: who has it; 0 or NaN: nobody */
 } LimitVerdict;
 
 /* What a display's panel says of itself (panel/query/panel_stated.h). */
@@ -209,6 +210,21 @@ typedef struct CaseWhole {
 
 CaseWhole case_whole_unknown(void);
 
+/* How a symbol stands above what somebody of an age just sees (vision/visibility.h). The target
+ * is one of its strokes, as wide as that, before its background. */
+typedef struct CaseVisibility {
+    double age_years;
+    bool   is_observer;     /* the request's observer */
+    double size_arcmin;     /* of the target */
+    double glance_s;
+    double veil_times;      /* stray light in that eye, over that in the observer's */
+    double adapted_cd_m2;   /* background, reflected light and veil, through the sunglasses */
+    double threshold_cd_m2; /* the least difference that is seen */
+    double level;           /* times that it differs; NaN: not known */
+    double low, high;       /* 95 %: of what is reflected, and of the panel's stated errors */
+    const char *doubts;     /* where the formula is doubtful; NULL: nowhere */
+} CaseVisibility;
+
 #define CASE_BATCHES 32
 
 #define DECIDE_TIMES 64 /* --decide's budget: so many times the paths of the precision */
@@ -235,6 +251,8 @@ typedef struct ReviewCase {
     double  jnd;                 /* steps of DICOM's GSDF between the two, veil included */
     double  visibility;          /* Michelson contrast, veil included, by the least that an eye
                                     sees of strokes that wide (Barten) */
+    const CaseVisibility *visibilities; /* the observer's first; none: nobody asked */
+    int     visibility_count;
     CaseGlare glare;             /* of this gaze */
     long    paths;               /* that what is reflected was read from */
     const double *batches;       /* [CASE_BATCHES] estimates by independent batches of them, cd

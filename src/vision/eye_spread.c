@@ -23,13 +23,18 @@ static double peak(double t, double width)
     return 1 / (x * sqrt(x));
 }
 
+double eye_spread_aging(double age_years)
+{
+    return fourth_power(age_years / 70);
+}
+
 /* The core of the optics (two peaks, narrower than the sun), the lens that scatters more with
  * age, and the light that comes through iris and wall of the eye. */
 double eye_spread_at(double angle_deg, HumanEye eye)
 {
     if (!is_angle(angle_deg)) return NAN;
     double t = angle_deg, p = eye.pigment;
-    double age = fourth_power(eye.age_years / 70);
+    double age = eye_spread_aging(eye.age_years);
     double x = 1 + t / 0.1 * (t / 0.1);
     double core = 9.2e6 * peak(t, 0.0046) + 1.5e5 * peak(t, 0.045);
     double lens = 400 / x + 3e-8 * t * t;

@@ -18,3 +18,7 @@
  * 1.169 at 75 and 1.2. Nothing divides by that: the veil at every angle is the published one;
  * who spreads a picture says where the rest goes (eye_filter.h). */
 double eye_spread_at(double angle_deg, HumanEye eye);
+
+/* What age makes of it: at every angle, and so in every veil, the spread is a straight line
+ * over this, so that two ages tell all others. (A/70)^4. */
+double eye_spread_aging(double age_years);

@@ -23,6 +23,7 @@ dashboard='scenes/car_dashboard.gltf scenes/noon.gltf'
 .build/release/bench_shaders "$runs"
 .build/release/bench_metrics "$runs"
 .build/release/bench_hemisphere
+python3 tests/bench/visibility.py .build/release/bench_visibility
 for panel in ips_cluster oled_centre; do
     for set in '' _avx2 _avx512; do
         [ -z "$set" ] || grep -q "${set#_}" /proc/cpuinfo || continue

@@ -5,10 +5,10 @@
 #include "review/export/review_junit.h"
 #include "review_page_fixture.h"
 
-enum { CSV_COLUMNS = 61 };
+enum { CSV_COLUMNS = 61, CSV_COLUMNS_MOST = 69 };
 
 /* One record of RFC 4180 into cells; what follows it. */
-static const char *read_record(const char *at, const char *cell[CSV_COLUMNS], int *count)
+static const char *read_record(const char *at, const char *cell[CSV_COLUMNS_MOST], int *count)
 {
     for (*count = 0;; at++) {
         Text text = {.arena = &arena};
@@ -20,7 +20,7 @@ static const char *read_record(const char *at, const char *cell[CSV_COLUMNS], in
             at += quoted && *at == '"';
         }
         at += quoted;
-        assert_true(*count < CSV_COLUMNS);
+        assert_true(*count < CSV_COLUMNS_MOST);
         cell[(*count)++] = text.data ? text.data : "";
         if (*at != ',') break;
     }
@@ -45,7 +45,7 @@ static double number_of(const char *cell)
 
 static void assert_csv_says(const Review *review)
 {
-    const char *path = in_folder("t.csv"), *header[CSV_COLUMNS], *cell[CSV_COLUMNS];
+    const char *path = in_folder("t.csv"), *header[CSV_COLUMNS_MOST], *cell[CSV_COLUMNS_MOST];
     int         count = 0;
     assert_done(review_csv_write(review, path, &err));
     const char *at = read_record(taken(path), header, &count);
@@ -91,7 +91,7 @@ static void assert_csv_says(const Review *review)
 
 static void assert_gaze_csv_says(const Review *review)
 {
-    const char *path = in_folder("t.csv"), *cell[CSV_COLUMNS];
+    const char *path = in_folder("t.csv"), *cell[CSV_COLUMNS_MOST];
     int         count = 0, columns = 0;
     assert_done(review_csv_write_gazes(review, path, &err));
     const char *at = read_record(taken(path), cell, &columns);
@@ -129,10 +129,34 @@ TEST(csv_says_the_same)
     assert_csv_says(&none);
 }
 
+/* Four columns an age, behind all others; nothing of a symbol that is hidden. */
+TEST(csv_has_columns_of_levels)
+{
+    Review      review = fixture_review(&arena);
+    const char *path = in_folder("t.csv"), *cell[CSV_COLUMNS_MOST];
+    int         count = 0;
+    fixture_add_levels(&arena, &review);
+    assert_done(review_csv_write(&review, path, &err));
+    const char *at = read_record(taken(path), cell, &count);
+    assert_int_equal(count, CSV_COLUMNS + 8);
+    assert_string_equal(cell[CSV_COLUMNS], "visibility_level_50_years");
+    assert_string_equal(cell[CSV_COLUMNS + 5], "visibility_low_70_years");
+    for (int i = 0; i < review.case_count; i++) {
+        const CaseVisibility *v = review.cases[i].visibilities;
+        at = read_record(at, cell, &count);
+        assert_int_equal(count, CSV_COLUMNS + 8);
+        assert_same(v[0].level, number_of(cell[CSV_COLUMNS]));
+        assert_same(v[1].low, number_of(cell[CSV_COLUMNS + 5]));
+        assert_same(v[1].high, number_of(cell[CSV_COLUMNS + 6]));
+        assert_names(cell[CSV_COLUMNS + 7], v[1].doubts);
+    }
+    assert_int_equal(*at, 0);
+}
+
 TEST(csv_tells_every_false_sun)
 {
     Review reviews[] = {fixture_odd_review(&arena), fixture_review(&arena)};
-    const char *cell[CSV_COLUMNS];
+    const char *cell[CSV_COLUMNS_MOST];
     int count = 0;
     for (int k = 0; k < 2; k++) {
         const char *path = in_folder("t.csv");

@@ -74,6 +74,12 @@ static const Member LIMIT[] = {
     OF(WHOLE, read_in_the_standard), OF(WHOLE, is_upper), OF(WHOLE, is_advice),
     OF(WHOLE, verdict)};
 #undef OF
+#define OF(kind, member) MEMBER(CaseVisibility, kind, member)
+static const Member LEVEL[] = {
+    OF(NUMBER, age_years), OF(WHOLE, is_observer), OF(NUMBER, size_arcmin), OF(TEXT, doubts),
+    OF(NUMBER, glance_s), OF(NUMBER, veil_times), OF(NUMBER, adapted_cd_m2), OF(NUMBER, low),
+    OF(NUMBER, threshold_cd_m2), OF(NUMBER, level), OF(NUMBER, high)};
+#undef OF
 #define OF(kind, member) MEMBER(CaseCause, kind, member)
 static const Member CAUSE[] = {OF(WHOLE, links), OF(NUMBER, share), OF(NUMBER, cd_m2),
                                OF(NUMBER, low), OF(NUMBER, high)};
@@ -101,10 +107,11 @@ static const Member CASE[] = {
     OF(NUMBER, whole.reflected_range.high), OF(NUMBER, whole.contrast_ratio),
     OF(NUMBER, whole.lit_share), OF(NUMBER, whole.part.left), OF(NUMBER, whole.part.bottom),
     OF(NUMBER, visible_share), OF(NUMBER, level), OF(NUMBER, display_lux), OF(NUMBER, margin),
-    OF(WHOLE, limit_id), OF(WHOLE, verdict), OF(WHOLE, limit_count), OF(WHOLE, cause_count),
-    OF(WHOLE, remedy_count), OF(WHOLE, hider_count), OF(NUMBER, without_data_share),
-    OF(NUMBER, guessed_share), OF(NUMBER, extrapolated_share), OF(TEXT, panel.assumed),
-    OF(TEXT, empty_seat), OF(NUMBER, empty_seat_share)};
+    OF(WHOLE, visibility_count), OF(WHOLE, limit_id), OF(WHOLE, verdict),
+    OF(WHOLE, limit_count), OF(WHOLE, cause_count), OF(WHOLE, remedy_count),
+    OF(WHOLE, hider_count), OF(NUMBER, without_data_share), OF(NUMBER, guessed_share),
+    OF(NUMBER, extrapolated_share), OF(TEXT, panel.assumed), OF(TEXT, empty_seat),
+    OF(NUMBER, empty_seat_share)};
 #undef OF
 #define OF(kind, member) MEMBER(ReviewFalseSun, kind, member)
 static const Member FALSE_SUN[] = {
@@ -159,7 +166,13 @@ static void assert_same_case(const ReviewCase *a, const ReviewCase *b)
     ASSERT_SAME(a, b, CASE);
     assert_same(a->has_sun ? a->sun_azimuth_deg : NAN, b->sun_azimuth_deg);
     assert_same(a->has_sun ? a->sun_elevation_deg : NAN, b->sun_elevation_deg);
-    for (int i = 0; i < a->limit_count; i++) ASSERT_SAME(&a->limits[i], &b->limits[i], LIMIT);
+    for (int i = 0; i < a->limit_count; i++) {
+        double age = a->limits[i].age_years;
+        ASSERT_SAME(&a->limits[i], &b->limits[i], LIMIT);
+        assert_same(age > 0 ? age : NAN, b->limits[i].age_years);
+    }
+    for (int i = 0; i < a->visibility_count; i++)
+        ASSERT_SAME(&a->visibilities[i], &b->visibilities[i], LEVEL);
     for (int i = 0; i < a->cause_count; i++) {
         ASSERT_SAME(&a->causes[i], &b->causes[i], CAUSE);
         for (int k = 0; k < a->causes[i].links; k++)
@@ -199,7 +212,8 @@ static void assert_same_review(const Review *a, const Review *b)
 TEST(json_is_read_back)
 {
     Review reviews[] = {fixture_review(&arena), fixture_odd_review(&arena),
-                        {.title = "", .pass = true}};
+                        {.title = "", .pass = true}, fixture_review(&arena)};
+    fixture_add_levels(&arena, &reviews[3]);
     for (size_t i = 0; i < sizeof reviews / sizeof *reviews; i++) {
         const char *json = json_of(&reviews[i]);
         Review      again = read_back(json);
@@ -303,7 +317,8 @@ static bool is_optional(const char *key, const json_t *object)
                                         "symbol_mean", "lit_share", "judged_part_uv",
                                         "decide_times", "open_by", "glasses_transmittance",
                                         "middle_eye_contrast_ratio", "glasses",
-                                        "glasses_display_loss"};
+                                        "glasses_display_loss", "visibility_levels",
+                                        "age_years"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)
         if (!strcmp(key, ADDED[i])) return true;
     if (!strcmp(key, "kind") && json_object_get(object, "what")) return true; /* a remedy's */

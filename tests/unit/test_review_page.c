@@ -176,6 +176,7 @@ static json_t *all_values(json_t *own)
                                   .width = 200, .height = 100};
     Review before = fixture_review(&arena), *review = ARENA_NEW(&arena, Review, 1);
     *review = fixture_review(&arena);
+    fixture_add_levels(&arena, review);
     ReviewDiff        diff = review_diff(&before, review, "a", "b", &arena);
     ReviewMap         map = fixture_map(&arena, &review->sweeps[0]);
     SunPath           path = fixture_path(&arena, "21 June", 23.4);
@@ -239,6 +240,21 @@ TEST(templates_and_values_know_the_same_names)
     json_decref(names);
     json_decref(own);
     json_decref(values);
+}
+
+/* Of every age, with its doubt; who asked for none finds no word of it. */
+TEST(a_card_tells_the_levels)
+{
+    Review      review = fixture_review(&arena);
+    const char *plain = page_of(&(ReviewPage){.review = &review});
+    assert_null(strstr(plain, "isibility level"));
+    fixture_add_levels(&arena, &review);
+    const char *page = page_of(&(ReviewPage){.review = &review});
+    assert_well_formed(page);
+    assert_non_null(strstr(page, "<dt>Visibility level at 50 years, the observer</dt>"));
+    assert_non_null(strstr(page, "<dt>Visibility level at 70 years</dt><dd>3.00, 95 % sure "
+                                 "between 2.75 and 3.25; doubtful: a &lt;doubt&gt;"));
+    assert_non_null(strstr(page, "one of its strokes, 2.25 arc minutes wide"));
 }
 
 TEST(a_page_of_nothing_says_so)

@@ -266,9 +266,9 @@ static inline Review fixture_odd_review(Arena *arena)
     static const char *const NOTES[] = {WILD_NAME, ""};
     static const LimitVerdict LIMITS[] = {
         {WILD_NAME, "contrast_ratio", "1", WILD_NAME, 2, false, false, false, NAN, NAN, NAN,
-         NAN, VERDICT_TOO_CLOSE},
+         NAN, VERDICT_TOO_CLOSE, NAN},
         {WILD_NAME, "glare", WILD_NAME, WILD_NAME, 0.1, true, true, true, 1e-9, 1e-10, 1e12,
-         1e8 - 1, VERDICT_PASS}};
+         1e8 - 1, VERDICT_PASS, 70}};
     static const CaseCause  CAUSES[] = {{CHAIN, 3, NAN, NAN, NAN, NAN, NAN, NULL, 0, 0},
                                        {CHAIN, 0, 1, 0, 0, 0, 1, NULL, 0, 3}};
     static const CaseRemedy REMEDIES[] = {
@@ -320,6 +320,23 @@ static inline Review fixture_odd_review(Arena *arena)
                                      wild, WILD_NAME};
     review_decide(&review);
     return review;
+}
+
+/* Visibility levels at 50 years, the observer's, and at 70 for every case; nothing is known of
+ * those of a symbol that is hidden. */
+static inline void fixture_add_levels(Arena *arena, Review *review)
+{
+    for (int i = 0; i < review->case_count; i++) {
+        ReviewCase     *c = &review->cases[i];
+        CaseVisibility *v = ARENA_NEW(arena, CaseVisibility, 2);
+        double          level = isnan(c->contrast_ratio) ? NAN : 6 + i;
+        v[0] = (CaseVisibility){50, true, 2.25, 0.2, 1, 3.5, 0.125, level, level - 0.5,
+                                level + 0.25, NULL};
+        v[1] = (CaseVisibility){70, false, 2.25, 0.2, 1.25, 3.75, 0.375, level / 2,
+                                level / 2 - 0.25, level / 2 + 0.25, "a <doubt>, \"quoted\""};
+        c->visibilities = v;
+        c->visibility_count = 2;
+    }
 }
 
 /* ---- maps and calendars ----------------------------------------------------------------- */

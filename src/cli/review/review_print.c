@@ -9,6 +9,7 @@
 #include "review/output/review_facts.h"
 #include "review/output/review_gaze.h"
 #include "review/output/review_json.h"
+#include "review/output/review_levels.h"
 #include "review/output/review_variants.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
@@ -35,6 +36,12 @@ static void print_whole(const ReviewCase *c, Arena *scratch)
     if (*whole) print("; of the worst part, %s", whole);
 }
 
+static void print_levels(const ReviewCase *c, Arena *scratch)
+{
+    const char *levels = words_levels(c, scratch);
+    if (*levels) print("; %s", levels);
+}
+
 static void print_case(const ReviewCase *c, Arena scratch)
 {
     print("%-16s %s, %s, %s", verdict_names[c->verdict], c->condition, c->eye, c->symbol);
@@ -44,6 +51,7 @@ static void print_case(const ReviewCase *c, Arena scratch)
               interval_text(c->luminance_cd_m2.reflected, c->reflected_range.low,
                             c->reflected_range.high, &scratch));
     print_whole(c, &scratch);
+    print_levels(c, &scratch);
     if (c->hider_count && review_is_seen(c->visible_share))
         print("; %s", words_hiders(c, &scratch));
     print("%s%s\n", words_precision(c, &scratch), words_decide(c, &scratch));
@@ -70,6 +78,7 @@ static void print_sweep(const ReviewSweep *s, Arena scratch)
               s->worst.sun_elevation_deg);
     print_judged(&s->worst, &scratch);
     print_whole(&s->worst, &scratch);
+    print_levels(&s->worst, &scratch);
     print("%s", words_precision(&s->worst, &scratch));
     print("\n");
 }

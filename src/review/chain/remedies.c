@@ -207,8 +207,8 @@ static double left_without(const Remedying *m, double cd_m2)
     return (1 - share) * m->c->luminance_cd_m2.reflected;
 }
 
-/* Of the limits of contrast that count and are missed, or that no paths decide, the one that is
- * missed by most; -1. */
+/* Of the limits that hang on the light, count and are missed, or that no paths decide, the one
+ * that is missed by most; -1. */
 static int limit_to_mend(const ReviewCase *c)
 {
     int worst = -1;
@@ -217,7 +217,7 @@ static int limit_to_mend(const ReviewCase *c)
         LimitKind           kind = limit_kind_named(limit->kind);
         bool is_known = limit->verdict == VERDICT_FAIL || limit->verdict == VERDICT_TOO_CLOSE;
         bool is_missed = limit->margin < 0 || case_is_undecidable(c);
-        if (limit->is_advice || !is_known || !is_missed || !limit_kinds[kind].is_contrast)
+        if (limit->is_advice || !is_known || !is_missed || !limit_kinds[kind].is_of_light)
             continue;
         if (worst < 0 || limit->margin < c->limits[worst].margin) worst = i;
     }
@@ -234,6 +234,50 @@ static double veil_of(const Remedying *m)
 {
     double veil = m->c->luminance_cd_m2.veil;
     return m->ask->profile->uses_veil && veil > 0 ? veil : 0;
+}
+
+/* ---- what no closed form gives ----------------------------------------------------------- */
+
+/* A level of visibility: it rises with the display's brightness, and falls with what is
+ * reflected. */
+static bool is_of_level(const Remedying *m)
+{
+    const char *kind = m->c->limits[m->limit].kind;
+    return limit_kind_named(kind) == LIMIT_VISIBILITY_LEVEL;
+}
+
+typedef ReviewCase JudgedBy(const Remedying *m, double factor);
+
+static double margin_by(const Remedying *m, JudgedBy *judged, double factor)
+{
+    ReviewCase then = judged(m, factor);
+    return then.limit_count == m->c->limit_count ? then.limits[m->limit].margin : (double)NAN;
+}
+
+#define HALVINGS 24
+
+/* The factor between 1 and `end`, nearest to 1, with which the limit's figure keeps it; NaN:
+ * even `end` does not. */
+static double factor_by(const Remedying *m, JudgedBy *judged, double end)
+{
+    double misses = 1, keeps = end;
+    if (!(margin_by(m, judged, end) >= 0)) return (double)NAN;
+    for (int i = 0; i < HALVINGS; i++) {
+        double middle = sqrt(misses * keeps);
+        *(margin_by(m, judged, middle) >= 0 ? &keeps : &misses) = middle;
+    }
+    return keeps;
+}
+
+static ReviewCase judged_brighter(const Remedying *m, double factor)
+{
+    double other = m->c->luminance_cd_m2.reflected - own_light(m);
+    return judged_with(m, (Remedied){factor, fmax(other + doubt_of(m), 0)});
+}
+
+static ReviewCase judged_reflecting(const Remedying *m, double factor)
+{
+    return with_light(m, factor * (m->c->luminance_cd_m2.reflected + doubt_of(m)));
 }
 
 /* To three digits, away from 1. */
@@ -265,10 +309,13 @@ static void add_brightness(Remedying *m)
     double own = own_light(m), other = m->c->luminance_cd_m2.reflected - own;
     double veil = veil_of(m), grows = veil > 0 ? m->c->veil_displays : 0;
     double doubt = doubt_of(m), most = fmax(other + veil - grows + 2 * doubt, 0);
-    double x = brighter_for(&m->c->luminance_cd_m2, own + grows, most, ratio_needed(m));
+    double end = is_upper ? 1 / BRIGHTER_MOST : BRIGHTER_MOST;
+    double x = is_of_level(m) ? factor_by(m, judged_brighter, end)
+                              : brighter_for(&m->c->luminance_cd_m2, own + grows, most,
+                                             ratio_needed(m));
     for (int i = 0; i < TRIES && x > 0 && x < BRIGHTER_MOST; i++) {
         double     factor = rounded_out(x);
-        ReviewCase sure = judged_with(m, (Remedied){factor, fmax(other + doubt, 0)});
+        ReviewCase sure = judged_brighter(m, factor);
         x *= is_upper ? 1 / TRY_STEP : TRY_STEP;
         if (!keeps_limit(m, &sure)) continue;
         ReviewCase then = judged_with(m, (Remedied){factor, other});
@@ -410,12 +457,14 @@ static double reflected_at(const CaseLuminances *l, double ratio)
 static void add_panel(Remedying *m)
 {
     const CaseLuminances *l = &m->c->luminance_cd_m2;
-    double doubt = doubt_of(m);
-    double share = (reflected_at(l, ratio_needed(m)) - veil_of(m)) / (l->reflected + 2 * doubt);
+    double doubt = doubt_of(m), share;
     if (m->c->limits[m->limit].is_upper) return;
+    if (is_of_level(m)) share = factor_by(m, judged_reflecting, PANEL_LEAST);
+    else
+        share = (reflected_at(l, ratio_needed(m)) - veil_of(m)) / (l->reflected + 2 * doubt);
     for (int i = 0; i < TRIES && share > PANEL_LEAST && share < 1; i++) {
         double     factor = rounded_out(share);
-        ReviewCase sure = with_light(m, factor * (l->reflected + doubt));
+        ReviewCase sure = judged_reflecting(m, factor);
         share /= TRY_STEP;
         if (!keeps_limit(m, &sure)) continue;
         add_with(m, REMEDY_PANEL,

@@ -3,6 +3,7 @@
 
 #include "page/page.h"
 #include "review/output/review_json.h"
+#include "review/output/review_levels.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
 
@@ -36,6 +37,7 @@ static void add_case(json_t *list, const Review *review, const ReviewCase *c, co
     page_set(to, "outcome", words_verdict(c->verdict));
     page_set(to, "reason", words_reason(c, &scratch));
     page_set(to, "sun", words_sun(c, NULL, &scratch));
+    page_set(to, "levels", words_levels(c, &scratch));
     page_set_flag(to, "is_error", is_error);
     page_set_flag(to, "is_failure", fails);
     page_set_flag(to, "is_skipped", !is_error && !fails && c->verdict != VERDICT_PASS);
@@ -76,12 +78,31 @@ bool review_junit_write(const Review *review, const char *path, Error *err)
     return ok;
 }
 
-/* ---- x ----------------------------------------------------------------------------------- */
+/* ---- as tables --------------------------------------------------------------------------- */
+
+/* All cases have the same ages; the document leaves empty lists out. */
+static void set_ages(json_t *document, const Review *review)
+{
+    json_t *ages = json_array(), *cases = json_object_get(document, "cases");
+    for (int i = 0; review->case_count && i < review->cases[0].visibility_count; i++) {
+        char age[32];
+        snprintf(age, sizeof age, "%g", review->cases[0].visibilities[i].age_years);
+        json_array_append_new(ages, json_string(age));
+    }
+    json_object_set_new(document, "visibility_ages", ages);
+    for (size_t i = 0; i < json_array_size(cases); i++) {
+        json_t *to = json_array_get(cases, i);
+        if (!json_object_get(to, "visibility_levels"))
+            json_object_set_new(to, "visibility_levels", json_array());
+    }
+}
 
 /* Columns are the templates': assets/pages/cases.csv and the others. */
 bool review_csv_write(const Review *review, const char *path, Error *err)
 {
-    return page_write_values("cases.csv", review_json(review), NULL, path, err);
+    json_t *document = review_json(review);
+    set_ages(document, review);
+    return page_write_values("cases.csv", document, NULL, path, err);
 }
 
 bool review_csv_write_false_suns(const Review *review, const char *path, Error *err)

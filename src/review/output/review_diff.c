@@ -26,6 +26,16 @@ static DiffKind verdict_change(Verdict before, Verdict after)
     return more > 0 ? DIFF_BROKEN : more < 0 ? DIFF_MENDED : DIFF_SAME;
 }
 
+/* The same person's, in as long a glance; NULL: there is none. */
+static const CaseVisibility *level_like(const ReviewCase *c, const CaseVisibility *like)
+{
+    for (int i = 0; c && i < c->visibility_count; i++) {
+        const CaseVisibility *v = &c->visibilities[i];
+        if (v->age_years == like->age_years && v->glance_s == like->glance_s) return v;
+    }
+    return NULL;
+}
+
 /* Contrast moved only where the intervals do not touch: two runs of one design differ by their
  * noise. */
 static DiffKind contrast_change(const ReviewCase *before, const ReviewCase *after)
@@ -35,12 +45,24 @@ static DiffKind contrast_change(const ReviewCase *before, const ReviewCase *afte
     return DIFF_SAME;
 }
 
+/* Of the first age whose level moved where both have it: its interval is the light's. */
+static DiffKind level_change(const ReviewCase *before, const ReviewCase *after)
+{
+    for (int i = 0; i < after->visibility_count; i++) {
+        const CaseVisibility *a = &after->visibilities[i], *b = level_like(before, a);
+        if (b && a->high < b->low) return DIFF_WORSE;
+        if (b && a->low > b->high) return DIFF_BETTER;
+    }
+    return DIFF_SAME;
+}
+
 static DiffKind case_change(const ReviewCase *before, const ReviewCase *after)
 {
     if (!after) return DIFF_GONE;
     if (!before) return DIFF_NEW;
     DiffKind kind = verdict_change(before->verdict, after->verdict);
-    return kind == DIFF_SAME ? contrast_change(before, after) : kind;
+    if (kind == DIFF_SAME) kind = contrast_change(before, after);
+    return kind == DIFF_SAME ? level_change(before, after) : kind;
 }
 
 static DiffKind sweep_change(const ReviewSweep *before, const ReviewSweep *after)
@@ -185,6 +207,22 @@ static json_t *names_json(const char *condition, const char *eye, const char *ki
                      "change", diff_names[change]);
 }
 
+/* Of each age of either side both levels; NULL: neither has any. */
+static json_t *levels_json(const CaseDiff *d)
+{
+    const ReviewCase *either = d->after && d->after->visibility_count ? d->after : d->before;
+    if (!either || !either->visibility_count) return NULL;
+    json_t *list = json_array();
+    for (int i = 0; i < either->visibility_count; i++) {
+        const CaseVisibility *v = &either->visibilities[i];
+        const CaseVisibility *b = level_like(d->before, v), *a = level_like(d->after, v);
+        json_array_append_new(list, json_pack("{s:f, s:f, s:o}", "age_years", v->age_years,
+                                              "glance_s", v->glance_s, "level",
+                                              two(b ? b->level : NAN, a ? a->level : NAN)));
+    }
+    return list;
+}
+
 static json_t *case_json(const CaseDiff *d)
 {
     const ReviewCase *either = d->after ? d->after : d->before;
@@ -199,6 +237,8 @@ static json_t *case_json(const CaseDiff *d)
     json_object_set_new(out, "contrast_interval",
                         json_pack("[o,o]", interval(d->before), interval(d->after)));
     json_object_set_new(out, "margin", figures(d, offsetof(ReviewCase, margin)));
+    json_t *levels = levels_json(d);
+    if (levels) json_object_set_new(out, "visibility_levels", levels);
     return out;
 }
 

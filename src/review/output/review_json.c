@@ -64,13 +64,21 @@ static bool read_verdict(const JsonView *view, const RecordRow *row, void *item,
     return true;
 }
 
+static json_t *write_age(const void *item)
+{
+    double age = ((const LimitVerdict *)item)->age_years;
+    return age > 0 ? json_real(age) : json_null();
+}
+
 TABLE(limit_json, LimitVerdict,
     OWN(TEXT, LimitVerdict, name), OWN(TEXT, LimitVerdict, kind),
     OWN(FIGURE, LimitVerdict, value), OWN(TEXT, LimitVerdict, unit),
     OWN(TEXT, LimitVerdict, source), OWN(FLAG, LimitVerdict, read_in_the_standard),
     AS("upper", FLAG, LimitVerdict, is_upper), AS("advice", FLAG, LimitVerdict, is_advice),
     OWN(FIGURE, LimitVerdict, found), AS("interval", RANGE, LimitVerdict, low),
-    OWN(FIGURE, LimitVerdict, margin), OWN(VERDICT, LimitVerdict, verdict));
+    OWN(FIGURE, LimitVerdict, margin), OWN(VERDICT, LimitVerdict, verdict),
+    {"age_years", RECORD_NUMBER, RECORD_NULL | RECORD_BRIEF, RECORD_AT(LimitVerdict, age_years),
+     RECORD_RANGE(-HUGE_VAL, HUGE_VAL), .write = write_age});
 
 TABLE(cause_json, CaseCause,
     {"chain", RECORD_TEXTS, MUST, RECORD_MANY(CaseCause, chain, links)},
@@ -116,6 +124,13 @@ TABLE(mean_json, CaseWhole,
     OWN(FIGURE, CaseWhole, reflected),
     AS("reflected_interval", RANGE, CaseWhole, reflected_range),
     OWN(FIGURE, CaseWhole, contrast_ratio));
+
+TABLE(visibility_json, CaseVisibility,
+    OWN(FIGURE, CaseVisibility, age_years), AS("observer", FLAG, CaseVisibility, is_observer),
+    OWN(FIGURE, CaseVisibility, level), AS("interval", RANGE, CaseVisibility, low),
+    OWN(FIGURE, CaseVisibility, threshold_cd_m2), OWN(FIGURE, CaseVisibility, adapted_cd_m2),
+    OWN(FIGURE, CaseVisibility, veil_times), OWN(FIGURE, CaseVisibility, size_arcmin),
+    OWN(FIGURE, CaseVisibility, glance_s), OWN(TEXT, CaseVisibility, doubts));
 
 TABLE(glare_json, CaseGlare,
     OWN(FIGURE, CaseGlare, threshold_cd_m2), OWN(FIGURE, CaseGlare, background_cd_m2),
@@ -194,6 +209,8 @@ TABLE(case_json, ReviewCase,
     OWN(FIGURE, ReviewCase, contrast_with_veil), OWN(FIGURE, ReviewCase, height_arcmin),
     LATER("stroke_ratio", FIGURE, ReviewCase, stroke_ratio),
     OWN(FIGURE, ReviewCase, jnd), OWN(FIGURE, ReviewCase, visibility),
+    LIST("visibility_levels", RECORD_BRIEF, ReviewCase, visibilities, visibility_count,
+         visibility_json),
     GLARE_MEMBERS(ReviewCase),
     OWN(FIGURE, ReviewCase, eye_failed_share), OWN(FIGURE, ReviewCase, visible_share),
     LIST("hidden_by", 0, ReviewCase, hiders, hider_count, hider_json),
@@ -224,6 +241,7 @@ FOLLOWS(ReviewCase, contrast_high, contrast_low);
 FOLLOWS(ReviewCase, sun_elevation_deg, sun_azimuth_deg);
 FOLLOWS(ReviewFalseSun, sun_elevation_deg, sun_azimuth_deg);
 FOLLOWS(LimitVerdict, high, low);
+FOLLOWS(CaseVisibility, high, low);
 FOLLOWS(CaseCause, high, low);
 
 TABLE(sweep_json, ReviewSweep,

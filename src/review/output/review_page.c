@@ -11,6 +11,7 @@
 #include "review/output/review_json.h"
 #include "review/output/review_link.h"
 #include "review/output/review_variants.h"
+#include "review/output/review_levels.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
 #include "text/json_text.h"
@@ -230,7 +231,7 @@ static const char *verdict_of(const ReviewCase *c)
 
 static const char *figure_of(const ReviewCase *c, Arena *arena)
 {
-    return c ? words_judged(c, arena) : "–";
+    return c ? words_judged_and_levels(c, arena) : "–";
 }
 
 static const char *margin_of(const ReviewCase *c, Arena *arena)

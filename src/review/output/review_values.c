@@ -12,6 +12,7 @@
 #include "review/output/review_facts.h"
 #include "review/output/review_link.h"
 #include "review/output/ray_file.h"
+#include "review/output/review_levels.h"
 #include "review/output/review_words.h"
 #include "review/quantity.h"
 #include "review/review_decide.h"
@@ -193,6 +194,21 @@ static void set_contrast(json_t *to, const ReviewCase *c, Arena *arena)
     page_set(to, "other_contrast", other_contrast(c, arena));
 }
 
+static void set_levels(json_t *to, const ReviewCase *c, Arena *arena)
+{
+    json_t *list = values_list(to, "levels");
+    page_set(to, "target", NULL);
+    for (int i = 0; i < c->visibility_count; i++) {
+        const CaseVisibility *v = &c->visibilities[i];
+        const char           *whose = v->is_observer ? ", the observer" : "";
+        if (isnan(c->contrast_ratio)) continue; /* it is not seen */
+        json_t *level = page_add(list);
+        page_set(level, "who", arena_format(arena, "%g years%s", v->age_years, whose));
+        page_set(level, "told", words_level(v, arena));
+        if (v->is_observer) page_set(to, "target", words_target(v, arena));
+    }
+}
+
 /* Figures made for rooms. */
 static void set_glare(json_t *to, const CaseGlare *g, Arena *arena)
 {
@@ -291,6 +307,7 @@ static bool add_case(const PageValues *v, json_t *to, const ReviewCase *c, Error
     page_set_flag(to, "is_judged", c->verdict != VERDICT_UNJUDGED);
     page_set_flag(to, "is_worst", review_sweep_of(v->review, c) != NULL);
     set_contrast(to, c, arena);
+    set_levels(to, c, arena);
     set_glare(to, &c->glare, arena);
     set_limits(to, c, arena);
     set_causes(to, c, arena);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "plot/draw/ticks.h"
+#include "review/output/review_levels.h"
 #include "review/quantity.h"
 #include "review/review_decide.h"
 #include "text/interval_text.h"
@@ -134,13 +135,20 @@ static bool is_belied(const LimitVerdict *limit, const char *figure)
     return isfinite(limit->found) && is != 0 && !(is * looks > 0);
 }
 
+/* Whose it is, where it is somebody's. */
+static const char *with_age(const LimitVerdict *limit, const char *figure, Arena *arena)
+{
+    if (!(limit->age_years > 0)) return figure;
+    return arena_format(arena, "%s at %g years", figure, limit->age_years);
+}
+
 const char *words_found(const LimitVerdict *limit, Arena *arena)
 {
     if (isnan(limit->found)) return "–";
     const char *figure = words_within(limit->found, limit->low, limit->high, arena);
     for (int digits = 4; digits <= 9 && is_belied(limit, figure); digits++)
         figure = arena_format(arena, "%.*g", digits, limit->found);
-    return with_unit(limit, figure, arena);
+    return with_age(limit, with_unit(limit, figure, arena), arena);
 }
 
 const char *words_kind(const LimitVerdict *limit)
@@ -148,7 +156,8 @@ const char *words_kind(const LimitVerdict *limit)
     static const char *const WORDS[LIMIT_KIND_COUNT] = {
         [LIMIT_CONTRAST_RATIO] = "contrast", [LIMIT_LUMINANCE_CONTRAST] = "luminance contrast",
         [LIMIT_MODULATION] = "modulation", [LIMIT_CHARACTER_HEIGHT] = "height",
-        [LIMIT_STROKE_RATIO] = "stroke ratio", [LIMIT_WIDTH_RATIO] = "width ratio"};
+        [LIMIT_STROKE_RATIO] = "stroke ratio", [LIMIT_WIDTH_RATIO] = "width ratio",
+        [LIMIT_VISIBILITY_LEVEL] = "visibility level"};
     LimitKind kind = limit_kind_named(limit->kind);
     if (kind < LIMIT_KIND_COUNT) return WORDS[kind];
     return limit->name ? limit->name : "";
@@ -158,7 +167,7 @@ const char *words_measured(const LimitVerdict *limit, Arena *arena)
 {
     const char *figure = interval_text(limit->found, limit->low, limit->high, arena);
     if (is_belied(limit, figure)) figure = arena_format(arena, "%.9g", limit->found);
-    return with_unit(limit, figure, arena);
+    return with_age(limit, with_unit(limit, figure, arena), arena);
 }
 
 const char *words_quantity(const LimitVerdict *limit, Arena *arena)
@@ -391,8 +400,10 @@ const char *words_unjudged(const ReviewCase *c, Arena *arena)
         return arena_format(arena, "no limit that counts applies to it %s",
                             words_ambient(c->ambient));
     case UNJUDGED_FIGURE:
-        return arena_format(arena, "%s could not be found out",
-                            limit && limit->name ? limit->name : "its figure");
+        return arena_format(arena, "%s could not be found out%s%s",
+                            limit && limit->name ? limit->name : "its figure",
+                            level_doubted(c) ? ": " : "",
+                            level_doubted(c) ? level_doubted(c) : "");
     default: return "nothing of it is known";
     }
 }
@@ -409,6 +420,8 @@ const char *words_to_judge(const ReviewCase *c)
         [UNJUDGED_LIMIT] = "a profile with a limit that applies in this light",
         [UNJUDGED_FIGURE] = "a rectangle of the content that holds the symbol and its "
                             "background"};
+    if (c->unjudged == UNJUDGED_FIGURE && level_doubted(c))
+        return "an observer of an age for which the visibility level is published";
     return WORDS[c->unjudged] && !c->is_optional ? WORDS[c->unjudged] : "";
 }
 

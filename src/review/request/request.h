@@ -291,6 +291,16 @@ typedef struct ReviewFrames {
     int    worst;         /* how many of the worst cases are rendered; 0: none */
 } ReviewFrames;
 
+/* For whom visibility levels are told besides the observer, and of how long a glance. */
+typedef struct ReviewVisibility {
+    bool          is_asked;
+    double        glance_s;  /* VISIBILITY_GLANCE_LONG and more: as long as it takes */
+    const double *ages;      /* years */
+    int           age_count;
+} ReviewVisibility;
+
+#define REVIEW_AGES_MOST 8
+
 /* A file that was read, for provenance. */
 typedef struct ReviewInput {
     const char *path;
@@ -306,6 +316,7 @@ typedef struct ReviewRequest {
     int              eye_count;
     double           forward[3]; /* where the vehicle points: unit, not vertical */
     HumanEye         observer;
+    ReviewVisibility visibility;
     GlareSettings    glare;
     ReviewGaze      *gazes;
     int              gaze_count;

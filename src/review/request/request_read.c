@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "record/rows.h"
 #include "review/request/request_format.h"
+#include "vision/visibility.h"
 
 #define CLEAR_USUAL 0.05 /* precision of readings whose verdict is clear */
 #define UPRIGHT 1e-6     /* horizontal length of a unit vector: less is vertical */
@@ -22,6 +23,19 @@ static const RecordRow OBSERVER[] = {
     {0}};
 
 static const RecordFormat observer_format = {"observer", sizeof(OWNER), OBSERVER, .doc = NULL};
+#undef OWNER
+#define OWNER ReviewVisibility
+
+static const RecordRow VISIBILITY[] = {
+    FIGURES("ages", 0, ages, age_count, 0, REVIEW_AGES_MOST, VISIBILITY_AGE_MIN,
+            VISIBILITY_AGE_MAX, "Years; besides the observer's own age."),
+    NUMBER("glance_s", 0, glance_s, 0.01, 100,
+           "How long the symbol is looked at; 2 and more: as long as it takes."),
+    {0}};
+
+static const RecordFormat visibility_format = {"visibility", sizeof(OWNER), VISIBILITY,
+                                               .doc = NULL};
+
 #undef OWNER
 #define OWNER GlareSettings
 
@@ -111,6 +125,8 @@ static const RecordRow REVIEW[] = {
     VECTOR("forward", RECORD_UNIT, forward, 3, -1e6, 1e6,
            "Where the vehicle points to; not vertical."),
     OBJECT("observer", 0, observer, observer_format, NULL),
+    PART("visibility", visibility, visibility.is_asked, visibility_format,
+         "How far symbols stand above what people of these ages just see: visibility levels."),
     LIST("gaze", 0, gazes, gaze_count, 1, 256, review_gaze_format, "Default: at the symbols."),
     MAP("with", 0, withs, with_count, 100, review_with_format,
         "More of the scene by name: occupants."),
@@ -139,6 +155,7 @@ static void start_review(void *item)
 {
     *(ReviewRequest *)item = (ReviewRequest){
         .title = "", .forward = {0, 0, -1}, .observer = {50, 0.5},
+        .visibility = {.glance_s = VISIBILITY_GLANCE_LONG},
         .glare = GLARE_SETTINGS_DEFAULT, .max_level = 1, .precision_contrast = 0.01,
         .precision_clear = CLEAR_USUAL, .precision_paths = 262144,
         .frames = {960, 540, 0.1, 2}};

@@ -14,6 +14,7 @@
 #include "review/light/response_suns.h"
 #include "review/pace/work.h"
 #include "review/review_decide.h"
+#include "review/run/case_visibility.h"
 #include "review/run/symbols.h"
 #include "scene/load/material_data.h"
 #include "text/text.h"
@@ -171,6 +172,10 @@ static const char *name_of(const VerdictAsk *ask, Arena *arena)
                 ask->of->symbol);
     text_format(&text, "%d %.17g %.17g\n", profile->uses_veil, profile->night_below_lx,
                 profile->twilight_below_lx);
+    for (int i = 0; i < ask->of->visibility_count; i++) {
+        const CaseVisibility *v = &ask->of->visibilities[i];
+        text_format(&text, "%.17g %.17g\n", v->age_years, v->glance_s);
+    }
     for (int i = 0; i < profile->limit_count; i++) {
         const ProfileLimit *limit = &profile->limits[i];
         const LimitSlope   *slope = &limit->slope;
@@ -235,13 +240,14 @@ static void set_shown(CaseLuminances *l, const SymbolEmission *emission, double 
 }
 
 static void see_stray_light(const Setup *setup, const SetupSymbol *symbol, Vec3 eye,
-                            ReviewCase *c, Arena scratch)
+                            ReviewCase *c, Arena *arena)
 {
     EyeLook    look = {eye, vec3_sub(symbol_middle(symbol).position, eye), 1, NULL};
     Setup      lit = setup_lit(setup);
-    EyeReading stray = eye_read(&lit, &look, scratch);
-    setup_unlight(setup);
+    EyeReading stray = eye_read(&lit, &look, *arena);
     c->luminance_cd_m2.veil = stray.veil;
+    case_visibility_veils(&lit, &look, c, arena);
+    setup_unlight(setup);
     c->veil_displays = stray.parts[EYE_LAMPS] + stray.parts[EYE_GLINTS] + stray.parts[EYE_NEAR];
     c->glare = glare_found(&stray.glare, &setup->request->glare);
 }
@@ -250,8 +256,7 @@ static void see_stray_light(const Setup *setup, const SetupSymbol *symbol, Vec3 
 static double visibility_of(const ReviewCase *c, const SymbolSplit *split)
 {
     const CaseLuminances *l = &c->luminance_cd_m2;
-    double height_px = (split->box[3] - split->box[1]) * split->light.content_height;
-    double stroke_deg = c->height_arcmin / 60 * split->stroke_px / height_px;
+    double stroke_deg = symbol_stroke_deg(split, c->height_arcmin);
     double mean = c->glasses_transmittance *
                   (0.5 * (l->foreground + l->background) + l->reflected + l->veil);
     double michelson = (c->contrast_with_veil - 1) / (c->contrast_with_veil + 1);
@@ -266,6 +271,13 @@ static const double *keep_batches(const Reading *reading, Arena *arena)
     double *kept = ARENA_NEW(arena, double, READING_BATCHES);
     for (int i = 0; i < READING_BATCHES; i++) kept[i] = reading->batches[i];
     return kept;
+}
+
+/* A look without stray light has levels only where a limit is about them. */
+static bool has_visibility(const CaseTools *tools, const CaseLook *look)
+{
+    bool is_limited = profile_has(tools->profile, LIMIT_VISIBILITY_LEVEL);
+    return is_limited || (!look->is_bare && tools->setup->request->visibility.is_asked);
 }
 
 /* Before anything of it was seen. */
@@ -288,6 +300,8 @@ static void start_look(const CaseTools *tools, const CaseLook *look, ReviewCase 
     c->contrast_ratio = c->contrast_low = c->contrast_high = c->contrast_with_veil = c->jnd =
         c->visibility = nan;
     c->glare = review_glare_unknown();
+    if (has_visibility(tools, look))
+        case_visibility_start(setup->request, &look->symbol->split, c, arena);
 }
 
 static void set_mean(const Profile *profile, ReviewCase *c)
@@ -352,8 +366,9 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     symbol_put_on_glasses(setup, symbol, &aim, c, arena);
     PartAsk   in = {symbol, &aim, look->is_coarse};
     WorstPart part = worst_part_find(setup, &in, arena);
-    bool wants_veil = !look->is_bare || tools->profile->uses_veil;
-    if (!look->is_coarse && wants_veil) see_stray_light(setup, symbol, look->eye, c, *arena);
+    bool wants_veil = !look->is_bare || tools->profile->uses_veil ||
+                      profile_has(tools->profile, LIMIT_VISIBILITY_LEVEL);
+    if (!look->is_coarse && wants_veil) see_stray_light(setup, symbol, look->eye, c, arena);
     VerdictAsk ask = {.tools = tools, .of = c};
     Reading    reading = read_part(look, &part, c, &ask, arena);
     *direct = ask.direct;

@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "review/judge.h"
+#include "review/run/case_visibility.h"
 #include "review/suns/sweep_suns.h"
 
 /* ---- reading them ------------------------------------------------------------------------ */
@@ -16,10 +17,12 @@ static double level_for(const Sweep *sweep, const Sight *sight, int sun)
                           sight->symbol->display_name, lux);
 }
 
-/* The figures of a case under one sun; the caller judges its limits. */
+/* The figures of a case under one sun, behind lenses that are grey in sweeps; the caller judges
+ * its limits. Levels of visibility are made only for those. */
 static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const DistantTools *tools,
-                          int sun)
+                          int sun, Arena *arena)
 {
+    const ReviewGlasses *glasses = sweep->setup->condition->glasses;
     DistantReading light =
         sight->read ? sight->read[sun] : distant_probe_read(&sight->probe, tools, sun);
     double     level = level_for(sweep, sight, sun);
@@ -31,6 +34,9 @@ static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const DistantT
                     .panel = sight->symbol->panel};
     c.display_lux = sight->face->lux[sun] + sight->face->own.lamps +
                     level * sight->face->own.displays;
+    c.glasses_transmittance = glasses ? glasses->transmittance : 1;
+    if (profile_has(sweep->run->profile, LIMIT_VISIBILITY_LEVEL))
+        case_visibility_start(sweep->run->request, &sight->symbol->split, &c, arena);
     c.luminance_cd_m2 = (CaseLuminances){
         level * sight->shown.foreground, level * sight->shown.background, reflected,
         light.mirror, reflected - light.mirror, (double)NAN};
@@ -104,7 +110,7 @@ typedef struct JudgeWork {
 static void judge_sun(const JudgeWork *work, int sun, Arena scratch)
 {
     SunFigures *figures = work->figures;
-    ReviewCase c = case_at(work->sweep, work->sight, work->tools, sun);
+    ReviewCase c = case_at(work->sweep, work->sight, work->tools, sun, &scratch);
     judge_case(&c, work->sweep->run->profile, &scratch);
     figures->contrast[sun] = (float)c.contrast_ratio;
     figures->low[sun] = (float)c.contrast_low;
