@@ -3,6 +3,7 @@
 
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_place.h"
+#include "panel/zones/backlight_at.h"
 #include "scene/point/coverage.h"
 #include "spectrum/fresnel.h"
 #include "spectrum/photometry.h"
@@ -37,8 +38,8 @@ void emitted_rgb(const Scene *scene, uint32_t triangle, const TrianglePoint *poi
     for (int i = 0; i < 3; i++) rgb[i] *= texel[i];
 }
 
-void display_panel_xyz(const Display *display, const TrianglePoint *point, Vec3 local,
-                       const float codes[3], float xyz[3])
+void display_full_xyz(const Display *display, const TrianglePoint *point, Vec3 local,
+                      const float codes[3], float xyz[3])
 {
     float place[2];
     if (!panel_varies(display->panel)) {
@@ -49,14 +50,48 @@ void display_panel_xyz(const Display *display, const TrianglePoint *point, Vec3 
     panel_place_emission_xyz(display->panel, place, local, codes, xyz);
 }
 
-Spectrum display_panel_spectrum(const Display *display, const TrianglePoint *point, Vec3 local,
-                                const float codes[3], const Wavelengths *wavelengths)
+Spectrum display_full_spectrum(const Display *display, const TrianglePoint *point, Vec3 local,
+                               const float codes[3], const Wavelengths *wavelengths)
 {
     float place[2];
     if (!panel_varies(display->panel))
         return panel_emission_spectrum(display->panel, local, codes, wavelengths);
     display_place(display, point, place);
     return panel_place_emission_spectrum(display->panel, place, local, codes, wavelengths);
+}
+
+/* The backlight there, and the codes that pixels get. */
+static float dimmed(const Display *display, const TrianglePoint *point, const float codes[3],
+                    float driven[3])
+{
+    float place[2];
+    display_place(display, point, place);
+    float b = backlight_at(display->backlight, place);
+    backlight_codes(display->backlight, b, codes, driven);
+    return b;
+}
+
+void display_panel_xyz(const Display *display, const TrianglePoint *point, Vec3 local,
+                       const float codes[3], float xyz[3])
+{
+    float driven[3];
+    if (!display->backlight) {
+        display_full_xyz(display, point, local, codes, xyz);
+        return;
+    }
+    float b = dimmed(display, point, codes, driven);
+    display_full_xyz(display, point, local, driven, xyz);
+    for (int i = 0; i < 3; i++) xyz[i] *= b;
+}
+
+Spectrum display_panel_spectrum(const Display *display, const TrianglePoint *point, Vec3 local,
+                                const float codes[3], const Wavelengths *wavelengths)
+{
+    float driven[3];
+    if (!display->backlight)
+        return display_full_spectrum(display, point, local, codes, wavelengths);
+    float b = dimmed(display, point, codes, driven);
+    return display_full_spectrum(display, point, local, driven, wavelengths) * spectrum_all(b);
 }
 
 bool display_is_measured(const Display *display, const TrianglePoint *point, Vec3 local)

@@ -9,7 +9,14 @@
 #include "spectrum/wavelengths.h"
 
 /* Emission of the display's panel there along `local`, a direction of display_frame, for
- * codes, without the display's level: XYZ, cd m^-2, or spectral radiance. */
+ * codes, without the display's level: XYZ, cd m^-2, or spectral radiance. Where the panel's
+ * backlight is dimmed by zones it is what the content leaves there (backlight.h); the `full`
+ * ones have all zones full, as the panel was measured: what white would shine that is shown
+ * there with its zones on. */
+void display_full_xyz(const Display *display, const TrianglePoint *point, Vec3 local,
+                      const float codes[3], float xyz[3]);
+Spectrum display_full_spectrum(const Display *display, const TrianglePoint *point, Vec3 local,
+                               const float codes[3], const Wavelengths *wavelengths);
 void display_panel_xyz(const Display *display, const TrianglePoint *point, Vec3 local,
                        const float codes[3], float xyz[3]);
 Spectrum display_panel_spectrum(const Display *display, const TrianglePoint *point, Vec3 local,

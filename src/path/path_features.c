@@ -36,18 +36,21 @@ static SeenDisplay view_of(const PathContext *context, const PathResult *path,
                          frame_to_local(&frame, vec3_neg(path->direction)), path, wavelengths};
 }
 
-/* XYZ that it sends to the eye for these codes: the same sum that the path adds. */
-static void emission_seen(const SeenDisplay *view, const float codes[3], float xyz[3])
+/* XYZ that it sends to the eye for these codes: the same sum that the path adds. is_full: with
+ * the backlight full, whatever is shown. */
+static void emission_seen(const SeenDisplay *view, bool is_full, const float codes[3],
+                          float xyz[3])
 {
     const Display *display = view->display;
     Spectrum       through = view->path->through;
     if (view->path->through_is_grey) {
-        display_panel_xyz(display, view->point, view->direction, codes, xyz);
+        (is_full ? display_full_xyz : display_panel_xyz)(display, view->point, view->direction,
+                                                         codes, xyz);
         for (int i = 0; i < 3; i++) xyz[i] = spectrum_mean(through) * (xyz[i] * display->level);
         return;
     }
-    Spectrum sent = display_panel_spectrum(display, view->point, view->direction, codes,
-                                           view->wavelengths) *
+    Spectrum sent = (is_full ? display_full_spectrum : display_panel_spectrum)(
+                        display, view->point, view->direction, codes, view->wavelengths) *
                     spectrum_all(display->level);
     for (int i = 0; i < 3; i++) xyz[i] = 0;
     spectrum_add_xyz(view->wavelengths, through * sent, xyz);
@@ -67,7 +70,7 @@ static void subpixels_of_content(const PathContext *context, const SeenDisplay *
     for (int j = 0; j < 3; j++) xyz[j] = 0;
     for (int i = 0; i < mix.count && i < SUBPIXEL_TERMS; i++) { /* gcc 14 sees one bound */
         float one[3];
-        emission_seen(view, mix.codes[i], one);
+        emission_seen(view, false, mix.codes[i], one);
         for (int j = 0; j < 3; j++) xyz[j] += mix.weight[i] * one[j];
     }
 }
@@ -81,7 +84,7 @@ static void content_seen(const PathContext *context, const SeenDisplay *view,
         return;
     }
     display_codes(context->scene, view->display, &surface->point, codes);
-    emission_seen(view, codes, xyz);
+    emission_seen(view, false, codes, xyz);
 }
 
 static void display_features(const PathContext *context, const SeenDisplay *view,
@@ -90,8 +93,8 @@ static void display_features(const PathContext *context, const SeenDisplay *view
     static const float white[3] = {255, 255, 255}, black[3] = {0, 0, 0};
     float phi = atan2_f(view->direction.y, view->direction.x);
     content_seen(context, view, surface, out->emitted);
-    emission_seen(view, white, out->white);
-    emission_seen(view, black, out->black);
+    emission_seen(view, true, white, out->white);
+    emission_seen(view, false, black, out->black);
     out->theta = acos_f(view->direction.z);
     out->phi = phi < 0 ? phi + 2 * PI_F : phi;
     out->is_measured = display_is_measured(view->display, view->point, view->direction);

@@ -24,6 +24,7 @@
 #include "base/vec.h"
 #include "image/texture.h"
 #include "panel/query/panel.h"
+#include "panel/zones/backlight.h"
 #include "sky/daylight.h"
 #include "sky/weather_clock.h"
 #include "spectrum/curve.h"
@@ -171,10 +172,12 @@ typedef struct Display {
     float level;            /* multiplies all emission, >= 0 */
     bool  any_size;         /* however large it is: it is meant (check/display_frame.h) */
     DisplayFinish finish;
-    float place_from_uv[4]; /* of a panel that varies: a place of its active area
+    float place_from_uv[4]; /* of a panel that varies or has zones: a place of its active area
                                (panel_place.h) is {u [0] + [1], v [2] + [3]} of the content's */
     const Subpixels *subpixels; /* its pixels are the columns and rows over the content's U and
                                    V from 0 to 1; NULL: none, its light is even */
+    const Backlight *backlight; /* of a panel with local dimming, for the content (places as
+                                   above); NULL: it is full everywhere */
 } Display;
 
 typedef enum LightKind {

@@ -55,6 +55,11 @@ static Fixture folder; /* files and what is made of them */
     "{\"emission\": {\"white\": \"emission/black.csv\"}, \"pixels\": [1920, 720],"             \
     "\"subpixels\": {\"layout\": \"pentile\", \"fill\": 0.6}}"
 
+#define ZONED                                                                                  \
+    "{\"emission\": {\"white\": \"emission/black.csv\"}, \"size_mm\": [300, 200],"            \
+    "\"local_dimming\": {\"zones\": [9, 5], \"spread\": {\"radius_mm\": [0, 30, 80],"          \
+    "\"value\": [1, 0.4, 0]}, \"drive\": {\"codes\": [0, 255], \"drives\": [0, 1]}}}"
+
 #define SPOTS                                                                                  \
     "{\"emission\": {\"white\": \"emission/black.csv\"}, \"reflection\": {"                  \
     "\"wavelengths_nm\": [450, 550, 650], \"incidence_deg\": [20],"                            \
@@ -92,6 +97,7 @@ static Kind kinds[] = {
      NULL},
     {"polarised", POLARISED, FIT_VERTEX, 0, NULL},
     {"divided", DIVIDED, FIT_VERTEX, 0, NULL},
+    {"zoned", ZONED, FIT_VERTEX, 0, NULL},
     {"spots", SPOTS, FIT_VERTEX, 0, NULL},
     {"map", MAPPED, FIT_VERTEX, 0, NULL},
     {"reflection only", ONLY_REFLECTION, FIT_VERTEX, 0, NULL},
@@ -339,6 +345,7 @@ TEST(files_keep_the_version_that_older_programs_read)
         const char *name = kinds[k].name;
         bool        has_places = !strcmp(name, "spots") || !strcmp(name, "map");
         uint32_t    wanted = has_places                 ? PANEL_VERSION_PLACES
+                             : !strcmp(name, "zoned")   ? PANEL_VERSION_ZONES
                              : !strcmp(name, "surface") ? PANEL_VERSION
                                                         : PANEL_VERSION_PLAIN;
         memcpy(&header, kinds[k].bytes, sizeof header);

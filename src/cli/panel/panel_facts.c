@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "print/print.h"
+#include "base/count.h"
 #include "base/units.h"
 #include "cli/options/answer.h"
 #include "cli/panel/panel_question.h"
@@ -12,7 +13,9 @@
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_place.h"
 #include "panel/query/panel_reflection.h"
+#include "panel/set/dimming_keys.h"
 #include "panel/set/display_traits.h"
+#include "panel/set/halo_square.h"
 #include "spectrum/gamut.h"
 #include "spectrum/photometry.h"
 
@@ -119,6 +122,27 @@ static void add_subpixels(const Panel *panel, json_t *out)
     json_object_set_new(out, "subpixels", list);
 }
 
+static const double HALO_MM[] = {10, 20, 40}; /* from the square's middle */
+
+/* Absent: the backlight is one, always full. */
+static void add_zones(const Panel *panel, json_t *out)
+{
+    if (!panel_zones(panel)) return;
+    Arena      arena = arena_reserve((size_t)1 << 32);
+    HaloSquare halo = halo_square_make(panel, &arena);
+    json_t    *zones = dimming_keys_json(panel_zones(panel)), *beside = json_array();
+    for (int i = 0; i < COUNT_OF(HALO_MM); i++)
+        json_array_append_new(beside, json_pack("{s:f, s:f, s:f}", "mm", HALO_MM[i],
+            "backlight", halo_square_backlight(&halo, HALO_MM[i]), "black_cd_m2",
+            halo_square_black(&halo, HALO_MM[i], vec3(0, 0, 1))));
+    json_object_set_new(zones, "mean_drive_black", json_real(halo.black_drive));
+    json_object_set_new(zones, "halo", json_pack("{s:f, s:f, s:o}", "square_mm", halo.side_mm,
+                                                 "mean_drive", halo.backlight->mean_drive,
+                                                 "beside", beside));
+    json_object_set_new(out, "local_dimming", zones);
+    arena_release(&arena);
+}
+
 static void add_emission(const Panel *panel, const json_t *report, json_t *out)
 {
     const json_t *emission = json_object_get(report, "emission");
@@ -138,6 +162,7 @@ static void add_emission(const Panel *panel, const json_t *report, json_t *out)
     }
     add_polarisation(panel, out);
     add_subpixels(panel, out);
+    add_zones(panel, out);
     json_object_set_new(out, "half_luminance_deg", cones(panel, (ConeQuestion){false, 0.5}));
     if (black > 0)
         json_object_set_new(out, "contrast_10_deg", cones(panel, (ConeQuestion){true, 10}));
@@ -283,6 +308,39 @@ static void print_subpixels(const json_t *stated)
     print("\n");
 }
 
+static void print_spread(const json_t *spread)
+{
+    const json_t *radius = json_object_get(spread, "radius_mm");
+    if (!radius) {
+        print("Gaussian of sigma %.4g mm", number(spread, "sigma_mm"));
+        return;
+    }
+    print("a table to %.4g mm", item(radius, json_array_size(radius) - 1));
+}
+
+static void print_zones(const json_t *zones)
+{
+    const json_t *count = json_object_get(zones, "zones"), *one;
+    const json_t *drive = json_object_get(zones, "drive"), *halo = json_object_get(zones,
+                                                                                   "halo");
+    size_t i;
+    if (!zones) return;
+    print("zones      %.0f x %.0f, light spread by ", item(count, 0), item(count, 1));
+    print_spread(json_object_get(zones, "spread"));
+    print("; driven by the %s%s, black %.3g %%; pixels %s\n",
+          json_string_value(json_object_get(drive, "rule")),
+          json_object_get(drive, "codes") ? " through a table" : "",
+          100 * number(zones, "mean_drive_black"),
+          json_is_true(json_object_get(zones, "compensates")) ? "keep their light"
+                                                              : "fall with their backlight");
+    print("halo       of a white square of %.4g mm on black: black is ",
+          number(halo, "square_mm"));
+    json_array_foreach(json_object_get(halo, "beside"), i, one)
+        print("%s%.3g cd/m2 at %.4g mm", i ? ", " : "", number(one, "black_cd_m2"),
+              number(one, "mm"));
+    print("; mean drive %.3g %%\n", 100 * number(halo, "mean_drive"));
+}
+
 static void print_reflection(const json_t *facts)
 {
     if (!json_object_get(facts, "mirror_reflectance")) return;
@@ -339,6 +397,7 @@ static void print_facts(const json_t *report)
     print_gamut(facts);
     print_polarisation(json_object_get(facts, "polarisation"));
     print_subpixels(json_object_get(facts, "subpixels"));
+    print_zones(json_object_get(facts, "local_dimming"));
     print_cone(facts, "half_luminance_deg", "half white");
     print_cone(facts, "contrast_10_deg", "10 : 1    ");
     print_reflection(facts);

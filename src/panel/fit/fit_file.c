@@ -341,6 +341,35 @@ static void write_subpixels(FitWriter *writer, const Measurement *set)
     if (stated->layout != SUBPIXELS_NONE) write_section(writer, PANEL_SUBPIXELS, 0, &piece, 1);
 }
 
+static int put_pairs(const ZoneTable *table, float *out)
+{
+    for (int i = 0; i < table->rows; i++) {
+        out[2 * i] = (float)table->at[i];
+        out[2 * i + 1] = (float)table->value[i];
+    }
+    return table->rows;
+}
+
+static bool write_zones(FitWriter *writer, const DimmingZones *zones)
+{
+    if (!zones->count[0]) return false;
+    float pairs[2][2 * ZONE_ROWS_MAX];
+    PanelZonesStored stored = {.version = PANEL_ZONES_VERSION,
+                               .columns = (uint16_t)zones->count[0],
+                               .rows = (uint16_t)zones->count[1], .rule = (uint8_t)zones->rule,
+                               .compensates = zones->compensates,
+                               .spread_rows = (uint8_t)put_pairs(&zones->spread, pairs[0]),
+                               .drive_rows = (uint8_t)put_pairs(&zones->drive, pairs[1]),
+                               .size_mm = {(float)zones->size_mm[0], (float)zones->size_mm[1]},
+                               .sigma_mm = (float)zones->sigma_mm,
+                               .least = (float)zones->least};
+    FitPiece pieces[3] = {{&stored, sizeof stored},
+                          {pairs[0], 2 * sizeof(float) * stored.spread_rows},
+                          {pairs[1], 2 * sizeof(float) * stored.drive_rows}};
+    write_section(writer, PANEL_ZONES, 0, pieces, 3);
+    return true;
+}
+
 /* A section of default values is left out. */
 static bool has_surface(const ReflectionResult *r)
 {
@@ -412,8 +441,10 @@ void *fit_file_bytes(const FitParts *parts, Arena *arena, size_t *size)
     bool has_places = parts->places && fit_places_are_there(parts->places);
     if (has_places) write_places(&writer, parts->places);
     if (parts->emission) write_subpixels(&writer, parts->set);
-    return finish(&writer, has_places  ? PANEL_VERSION_PLACES
-                           : has_frame ? PANEL_VERSION : PANEL_VERSION_PLAIN, size);
+    bool has_zones = parts->emission && write_zones(&writer, &parts->set->traits.zones);
+    return finish(&writer, has_zones    ? PANEL_VERSION_ZONES
+                           : has_places ? PANEL_VERSION_PLACES
+                           : has_frame  ? PANEL_VERSION : PANEL_VERSION_PLAIN, size);
 }
 
 Panel *fit_file_open(const FitParts *parts, const char *path, Arena *arena, size_t *size,

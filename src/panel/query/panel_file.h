@@ -14,6 +14,8 @@ _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are queried in 
 #define PANEL_MAGIC "PHPANEL\n"
 #define PANEL_VERSION 4u /* of files that a reader of version 3 would misread */
 #define PANEL_VERSION_PLACES 5u /* of files with several spots or a map: one of 4 would too */
+#define PANEL_VERSION_ZONES 6u  /* of files with local dimming: older ones would show the
+                                   black that a full backlight leaks */
 #define PANEL_VERSION_PLAIN 3u /* of all others, so that it can read them */
 #define PANEL_ALIGN 8 /* of sections, bytes */
 #define PANEL_SECTIONS_MAX 64
@@ -47,7 +49,9 @@ typedef enum PanelSectionKind {
     PANEL_SPOT_FILE = 12,      /* index 1 on: a panel file of its own, of one spot */
     PANEL_MAP = 13,            /* PanelMapHead and what follows it */
     PANEL_SUBPIXELS = 14,      /* PanelSubpixelsStored; absent: the light is even */
-    PANEL_REACH = 15           /* PanelReachStored[tables]; absent: the cone of all tables */
+    PANEL_REACH = 15,          /* PanelReachStored[tables]; absent: the cone of all tables */
+    PANEL_ZONES = 16           /* PanelZonesStored and what follows it; absent: one backlight,
+                                  always full */
 } PanelSectionKind;
 
 typedef struct PanelSection {
@@ -164,6 +168,23 @@ typedef struct PanelSubpixelsStored {
 } PanelSubpixelsStored;
 #define PANEL_LEAST_FILL 0.01f
 #define PANEL_PIXELS_MAX 65536
+
+/* PANEL_ZONES: local dimming (panel/zones/dimming_zones.h says what the numbers mean).
+ *
+ * Section   PanelZonesStored | float radius_mm, value [spread_rows] | float code, drive
+ *           [drive_rows]; pairs. */
+typedef struct PanelZonesStored {
+    uint16_t version;          /* PANEL_ZONES_VERSION */
+    uint16_t columns, rows;
+    uint8_t  rule;             /* 0 maximum, 1 mean */
+    uint8_t  compensates;      /* 0 or 1 */
+    uint8_t  spread_rows, drive_rows; /* 0, or 2 to 64 */
+    uint8_t  reserved[2];      /* 0 */
+    float    size_mm[2];
+    float    sigma_mm;         /* 0: the table says the spread */
+    float    least;
+} PanelZonesStored;
+#define PANEL_ZONES_VERSION 1u
 
 /* A display that is not the same everywhere. Panel 0 is what the file holds itself, panel k the
  * file in section PANEL_SPOT_FILE of index k; spots state which of them was measured there, and

@@ -14,6 +14,7 @@
 #include "panel/query/panel_opened.h"
 #include "panel/query/panel_place.h"
 #include "panel/query/panel_section.h"
+#include "panel/query/panel_zones.h"
 #include "panel/query/sampling_make.h"
 
 /* ---- places ----------------------------------------------------------------------------- */
@@ -306,8 +307,9 @@ static bool check_version(const PanelBytes *bytes, const PanelHeader *header,
                           const Panel *panel)
 {
     bool     has_frame = panel->reflection && panel->reflection->frame != PANEL_FRAME_SPECULAR;
-    uint32_t wanted = panel->places ? PANEL_VERSION_PLACES
-                      : has_frame   ? PANEL_VERSION : PANEL_VERSION_PLAIN;
+    uint32_t wanted = panel->zones    ? PANEL_VERSION_ZONES
+                      : panel->places ? PANEL_VERSION_PLACES
+                      : has_frame     ? PANEL_VERSION : PANEL_VERSION_PLAIN;
     if (header->version == wanted) return true;
     return error_at(bytes->err, ERROR_INPUT, bytes->name, "header",
                     "has version %u, required: %u for what the file holds; it is damaged: fit "
@@ -383,7 +385,8 @@ static bool open_one(const PanelBytes *bytes, Arena *arena, PanelHeader *header,
     panel->figures_size = figures.size;
     if (!panel_open_emission(bytes, geodesic, arena, panel) ||
         !panel_open_reflection(bytes, geodesic, arena, panel) ||
-        !open_polarised(bytes, panel) || !open_subpixels(bytes, panel))
+        !open_polarised(bytes, panel) || !open_subpixels(bytes, panel) ||
+        !panel_open_zones(bytes, arena, panel))
         return false;
     if (!panel->emission && !panel->reflection)
         return panel_refuse(bytes, "table of contents", "neither emits nor reflects");
@@ -411,8 +414,8 @@ static bool open_spot(const PanelBytes *bytes, int index, Arena *arena, const Pa
         !panel_find_section(&at, PANEL_SPOTS, 0, &inner, &has_spots) ||
         !panel_find_section(&at, PANEL_MAP, 0, &inner, &has_map))
         return error_prefix(bytes->err, "a spot's own file") && false;
-    if (has_spots || has_map)
-        return panel_refuse(bytes, "spots", "a spot's own file has places again");
+    if (has_spots || has_map || panel->zones)
+        return panel_refuse(bytes, "spots", "a spot's own file has places or zones again");
     *out = panel;
     return true;
 }

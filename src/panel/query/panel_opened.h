@@ -17,6 +17,7 @@
 #include "panel/shape/panel_spline.h"
 #include "panel/shape/spot_ground.h"
 #include "panel/shape/spectral_warp.h"
+#include "panel/zones/dimming_zones.h"
 #include "spectrum/spectral_table.h"
 
 #define PANEL_ANGLES 181 /* nodes of tables over theta: 0, 0.5, ... 90 degrees */
@@ -146,6 +147,7 @@ struct Panel {
     const PanelPrimaries *primaries; /* with emission */
     PanelPolarisation polarisation;  /* of the emission */
     Subpixels    subpixels;          /* the same */
+    const DimmingZones *zones;       /* NULL: the backlight is one, always full */
     const PanelReflection *reflection; /* NULL: reflects nothing */
     Tree         reflection_tree;
     PanelSampling sampling;

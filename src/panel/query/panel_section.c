@@ -27,12 +27,12 @@ bool panel_check_header(const PanelBytes *bytes, PanelHeader *header)
         return error_at(bytes->err, ERROR_INPUT, bytes->name, "",
                         "is no panel file, required: one that `panel fit` wrote");
     memcpy(header, bytes->data, sizeof *header);
-    if (header->version < PANEL_VERSION_PLAIN || header->version > PANEL_VERSION_PLACES ||
+    if (header->version < PANEL_VERSION_PLAIN || header->version > PANEL_VERSION_ZONES ||
         header->flags)
         return error_at(bytes->err, ERROR_INPUT, bytes->name, "header",
                         "has version %u, required: %u to %u: fit the panel "
                         "again", header->version,
-                        PANEL_VERSION_PLAIN, PANEL_VERSION_PLACES);
+                        PANEL_VERSION_PLAIN, PANEL_VERSION_ZONES);
     if (header->size != bytes->size)
         return error_at(bytes->err, ERROR_INPUT, bytes->name, "header",
                         "has %zu bytes, required: %llu: the file is cut or grown", bytes->size,

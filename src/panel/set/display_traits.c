@@ -55,8 +55,8 @@ static bool check_count(const JsonView *root, const char *key, double count, dou
     return true;
 }
 
-bool display_traits_check(const JsonView *root, double pixels[2], DisplayTraits *traits,
-                          Error *err)
+static bool check_subpixel_count(const JsonView *root, double pixels[2], DisplayTraits *traits,
+                                 Error *err)
 {
     if (!traits->has_subpixels) return true;
     for (int k = 0; k < 2 && json_object_get(root->object, "pixels"); k++)
@@ -70,4 +70,11 @@ bool display_traits_check(const JsonView *root, double pixels[2], DisplayTraits 
     traits->subpixels.layout = (SubpixelLayout)(SUBPIXELS_STRIPE + traits->layout);
     traits->subpixels.fill = (float)traits->fill;
     return true;
+}
+
+bool display_traits_check(const JsonView *root, double pixels[2], const double size_mm[2],
+                          DisplayTraits *traits, Error *err)
+{
+    return check_subpixel_count(root, pixels, traits, err) &&
+           (!traits->has_zones || dimming_keys_check(root, size_mm, &traits->zones, err));
 }

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* display_traits.h -- keys that manifests and recipes share: how a display's light is
- * polarised, and how its pixels are divided.
+ * polarised, how its pixels are divided, and how its backlight is dimmed.
  *
  * Both hold for the whole display, at every angle and place.
  * Fails    with file, JSON path, found and required.
  */
 #pragma once
 #include "panel/query/panel.h"
+#include "panel/set/dimming_keys.h"
 #include "record/record.h"
 
 typedef struct DisplayTraits {
@@ -17,6 +18,8 @@ typedef struct DisplayTraits {
     int       layout;                   /* as read: the place among the words */
     double    fill, columns, rows;
     bool      has_subpixels;
+    DimmingZones zones;                 /* its count 0: the backlight is one, always full */
+    bool      has_zones;
 } DisplayTraits;
 
 /* "polarisation" and "subpixels" of a document whose struct has them in `member`. */
@@ -25,13 +28,18 @@ typedef struct DisplayTraits {
      .doc = "Of the emitted light. Absent: unpolarised."},                                     \
     {"subpixels", RECORD_OBJECT, RECORD_AT(Type, member), .of = &subpixels_format,             \
      .count = offsetof(Type, member.has_subpixels),                                            \
-     .doc = "How each pixel is divided. Absent: the light is even."}
+     .doc = "How each pixel is divided. Absent: the light is even."},                          \
+    {"local_dimming", RECORD_OBJECT, RECORD_AT(Type, member.zones), .of = &dimming_format,      \
+     .count = offsetof(Type, member.has_zones),                                                \
+     .doc = "A backlight of zones that follow the picture; needs size_mm. Absent: it is one, " \
+            "always full."}
 extern const RecordFormat polarisation_format, subpixels_format; /* of a DisplayTraits */
 
 /* What rows cannot say, once they are read. pixels: the display's columns and rows as its key
- * "pixels" gave them, if there is one; "subpixels" may state them in its place. */
-bool display_traits_check(const JsonView *root, double pixels[2], DisplayTraits *traits,
-                          Error *err);
+ * "pixels" gave them, if there is one; "subpixels" may state them in its place. size_mm: of
+ * the active area; 0: not stated. */
+bool display_traits_check(const JsonView *root, double pixels[2], const double size_mm[2],
+                          DisplayTraits *traits, Error *err);
 
 /* "stripe" or "pentile", as in files. */
 const char *display_traits_layout(SubpixelLayout layout);

@@ -14,7 +14,9 @@
 #include "panel/query/panel_opened.h"
 #include "panel/query/panel_reflection.h"
 #include "panel/query/panel_report.h"
+#include "panel/query/panel_zones.h"
 #include "panel/set/angle_table.h"
+#include "panel/set/dimming_keys.h"
 #include "panel/set/display_traits.h"
 #include "panel/set/set_writer.h"
 #include "spectrum/spectral_table.h"
@@ -275,6 +277,12 @@ static void add_subpixels(const Panel *panel, json_t *manifest)
                                   "fill", round((double)stated.fill * 1e6) / 1e6));
 }
 
+static void add_zones(const Panel *panel, json_t *manifest)
+{
+    const DimmingZones *zones = panel_zones(panel);
+    if (zones) json_object_set_new(manifest, "local_dimming", dimming_keys_json(zones));
+}
+
 /* The panel's names, sizes and note, from its report. */
 static bool add_names(Export *export, const char *name, json_t *manifest)
 {
@@ -415,6 +423,7 @@ static bool write_set(Export *export, const char *name)
     const Panel *panel = export->panel;
     add_polarisation(panel, manifest);
     add_subpixels(panel, manifest);
+    add_zones(panel, manifest);
     bool ok = add_names(export, name, manifest) &&
               is_white_only(panel, &export->is_white_only, export->err) &&
               (panel->places ? write_places(export, manifest)

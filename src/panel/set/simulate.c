@@ -2,11 +2,13 @@
 #include "panel/set/simulate.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "base/mathd.h"
 #include "base/sampler.h"
 #include "base/units.h"
 #include "panel/set/angle_table.h"
+#include "panel/set/dimming_keys.h"
 #include "panel/set/set_writer.h"
 #include "panel/set/synthetic_panel.h"
 #include "spectrum/spectral_table.h"
@@ -366,6 +368,13 @@ static void add_traits(Text *text, const DisplayTraits *traits)
         text_format(text, ",\n  \"subpixels\": {\"layout\": \"%s\", \"fill\": %.7g}",
                     display_traits_layout(traits->subpixels.layout),
                     (double)traits->subpixels.fill);
+    if (traits->has_zones) {
+        json_t *zones = dimming_keys_json(&traits->zones);
+        char   *words = json_dumps(zones, JSON_COMPACT | JSON_REAL_PRECISION(9));
+        text_format(text, ",\n  \"local_dimming\": %s", words);
+        free(words);
+        json_decref(zones);
+    }
 }
 
 static bool write_manifest(Instrument *instrument)

@@ -18,7 +18,7 @@ PanelChartList *plot_charts(const PlotData *data, PlotKind kind, Arena *arena)
 {
     static const PanelCharts *const all[] = {&emission_charts, &curve_charts, &angle_charts,
                                              &colour_charts, &reflection_charts, &fit_charts,
-                                             &place_charts};
+                                             &place_charts, &halo_charts};
     PanelChartList *list = ARENA_NEW(arena, PanelChartList, 1);
     for (int i = 0; i < COUNT_OF(all); i++)
         if (is_among(kind, all[i]->first, all[i]->last)) all[i]->add(list, data);
@@ -70,6 +70,9 @@ static bool fails_empty(const PlotData *s, PlotKind kind, Error *err)
     if (kind == PLOT_UNIFORMITY)
         return error_at(err, ERROR_INPUT, file, "", "is the same everywhere: its set had "
                         "neither 'spots' nor 'uniformity'");
+    if (kind == PLOT_HALO)
+        return error_at(err, ERROR_INPUT, file, "", "has one backlight that is always full: its "
+                        "set had no 'local_dimming'");
     if (kind == PLOT_CONTRAST)
         return error_at(err, ERROR_INPUT, file, "", "its black emits nothing, so there is no "
                         "contrast ratio to draw in the dark; --ambient LUX draws one in the "

@@ -14,6 +14,7 @@
 #include "review/light/response_suns.h"
 #include "review/pace/work.h"
 #include "review/review_decide.h"
+#include "review/run/case_halo.h"
 #include "review/run/case_visibility.h"
 #include "review/run/symbols.h"
 #include "scene/load/material_data.h"
@@ -378,6 +379,9 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     Reading    reading = read_part(look, &part, c, &ask, arena);
     *direct = ask.direct;
     keep_reading(&reading, look, c, arena);
+    if (!look->is_bare && !look->is_coarse)
+        case_halo(&(HaloLook){symbol, look->eye, setup->request->observer, seen.transmittance},
+                  c, *arena);
     c->precision_asked = is_verdict_clear(&ask, reading.interval, *arena)
                              ? setup->request->precision_clear
                              : setup->request->precision_contrast;

@@ -225,7 +225,8 @@ static bool add_sent(const ExplainPlace *place, Vec3 target, double sent[3], int
     Frame frame = display_frame(scene, display, hit.triangle, &point);
     Vec3  wo = vec3_normalize(vec3_sub(place->aim.eye, point.position));
     for (int k = 0; k < 2; k++) {
-        display_panel_xyz(display, &point, frame_to_local(&frame, wo), codes[k], xyz);
+        (k ? display_panel_xyz : display_full_xyz)(display, &point,
+                                                   frame_to_local(&frame, wo), codes[k], xyz);
         sent[k] += (double)(xyz[1] * display->level);
     }
     display_emission_xyz(scene, display, hit.triangle, &point, wo, xyz);

@@ -9,6 +9,7 @@
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_open.h"
 #include "panel/query/panel_place.h"
+#include "panel/query/panel_zones.h"
 #include "scene/gltf/document.h"
 #include "scene/load/image.h"
 #include "scene/gltf/part_draft.h"
@@ -400,7 +401,8 @@ static void find_place(Loader *load, int id)
 {
     Display *display = list_item(&load->displays, id);
     float    box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
-    if (!display->panel || !panel_varies(display->panel)) return;
+    if (!display->panel) return;
+    if (!panel_varies(display->panel) && !panel_zones(display->panel)) return;
     for (int i = 0; i < load->parts.count; i++) {
         const PartDraft *draft = list_item(&load->parts, i);
         if (draft->part.material_id == display->material_id)
@@ -414,6 +416,47 @@ static void find_place(Loader *load, int id)
     }
 }
 
+/* ---- local dimming ----------------------------------------------------------------------- */
+
+/* The content of a display, by places of its active area. */
+typedef struct ContentPicture {
+    const Texture *texture;
+    const float   *place_from_uv;
+} ContentPicture;
+
+static void picture_codes(const void *user, const float place[2], float codes[3])
+{
+    const ContentPicture *picture = user;
+    const float *m = picture->place_from_uv;
+    codes[0] = codes[1] = codes[2] = 255;
+    texture_codes(picture->texture, (place[0] - m[1]) / m[0], (place[1] - m[3]) / m[2], codes);
+}
+
+static int shown_pixels(int pixels, float place_from_uv)
+{
+    return (int)clampf(roundf((float)pixels / fabsf(place_from_uv)), 1, 16384);
+}
+
+/* What the content makes of the zones, once and for all frames of the scene. Without content
+ * all is white: they are full. */
+static void dim_backlight(Loader *load, int id)
+{
+    Display            *display = list_item(&load->displays, id);
+    const DimmingZones *zones = display->panel ? panel_zones(display->panel) : NULL;
+    const float        *m = display->place_from_uv;
+    if (!zones || display->content.texture_id == NO_ID || !(m[0] * m[2] != 0)) return;
+    const Texture *texture = list_item(&load->textures, display->content.texture_id);
+    ContentPicture content = {texture, m};
+    ShownPicture   picture = {shown_pixels(texture->image.width, m[0]),
+                              shown_pixels(texture->image.height, m[2]), picture_codes,
+                              &content};
+    LevelShares    levels;
+    double *drive = ARENA_NEW(load->arena, double, zones->count[0] * zones->count[1]);
+    panel_level_shares(display->panel, &levels);
+    backlight_drives(zones, &levels, &picture, drive);
+    display->backlight = backlight_make(zones, &levels, drive, load->arena);
+}
+
 void displays_finish(Loader *load)
 {
     for (int i = 0; i < load->displays.count; i++) {
@@ -422,7 +465,10 @@ void displays_finish(Loader *load)
         choose_subpixels(load, i);
         count_pixels(load, i);
     }
-    for (int i = 0; i < load->displays.count; i++) find_place(load, i);
+    for (int i = 0; i < load->displays.count; i++) {
+        find_place(load, i);
+        dim_backlight(load, i);
+    }
     for (int i = 0; i < load->parts.count; i++)
         check_coordinates(load, list_item(&load->parts, i));
 }

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* case_halo.h -- the halo that a display's zones lay on the black about a symbol, and whether
+ * the eye sees it above its own scatter.
+ *
+ * The display's active area, as far as the symbol's rectangle and three spreads of a zone's
+ * light around it, is parted into cells. In each that is black the halo is what the panel leaks
+ * there towards the eye, less what it would with its zones at their least drive; the veil is the
+ * stray light (eye_spread.h) of what all cells show. The halo is taken for a patch as wide as
+ * twice a zone's spread (60' at most), before a background of reflected light, that least black,
+ * and the larger of this veil and the case's own; its level is the halo over Adrian's least
+ * difference (visibility.h), in the place where that is largest. A halo has no edge and is
+ * harder to see than such a patch: the level errs towards visible.
+ *
+ * Memory   the arena's. Threads: pure. Fails: never; what is not known is NaN.
+ */
+#pragma once
+#include "path/path_context.h"
+#include "review/run/symbols.h"
+#include "review/verdict.h"
+#include "vision/human_eye.h"
+
+typedef struct HaloLook {
+    const SetupSymbol *symbol;
+    Vec3               eye;
+    HumanEye           observer;
+    double             transmittance; /* of what lies between */
+} HaloLook;
+
+/* Sets c->halo of a case whose luminances are known, where its display has zones. */
+void case_halo(const HaloLook *look, ReviewCase *c, Arena scratch);
