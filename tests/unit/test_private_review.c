@@ -21,7 +21,8 @@ static const char request_text[] =
     "'profile':'iso-15008','precision':{'contrast':0.2,'paths':8192},"
     "'frames':{'size':[32,18],'noise':1,'worst':0},"
     "'privacy':{'security_min_s':0.5},"
-    "'variants':{'dimmer':{'brightness':{'*':0.02}}},"
+    "'variants':{'dimmer':{'brightness':{'*':0.02}},"
+    "'shared':{'panels':{'cluster':'shared.panel'}}},"
     "'conditions':[{'name':'night','environment':{'type':'constant','luminance':1}},"
     "{'name':'bright','environment':{'type':'constant','luminance':90000}}]}";
 
@@ -32,6 +33,7 @@ static Review run_request(Arena *arena)
     const Profile *profile;
     Problems       problems = problems_start(arena);
     wall_write_files(request_text, *arena);
+    wall_copy(PROJECT_DIR "/assets/panels/hud_pgu.panel", "shared.panel", *arena);
     if (!review_request_read(in_folder("r.json"), NULL, arena, &problems, &request, why()) ||
         !profile_load(request.profile, arena, &profile, why()))
         fail_msg("%s: %s", why()->path, why()->text);
@@ -129,6 +131,23 @@ static void assert_variant(const Review *review)
     assert_true(moved[0] < 0 && moved[1] > 0);
 }
 
+/* Two states of one display are two panel files, of which a variant has the other: it is judged
+ * by what that one sends the driver, who reads it better. */
+static void assert_states(const Review *review)
+{
+    const ReviewVariantFound *shared = &review->variants[1];
+    const ReviewCase *before = case_of(review, "night", "driver");
+    const ReviewCase *after = case_of(shared->review, "night", "driver");
+    const CaseLuminances *l = &after->luminance_cd_m2;
+    assert_string_equal(shared->name, "shared");
+    assert_true(after->must_not_be_read);
+    assert_int_equal(before->verdict, VERDICT_FAIL);
+    assert_true(l->foreground != before->luminance_cd_m2.foreground);
+    assert_near(after->limits[0].found,
+                log10_d(privacy_security(l->foreground, l->background, l->reflected)), 1e-12);
+    assert_true(after->limits[0].high < before->limits[0].low);
+}
+
 ARENA_TEST(a_review_of_what_must_not_be_read)
 {
     Review review = run_request(&arena);
@@ -138,6 +157,7 @@ ARENA_TEST(a_review_of_what_must_not_be_read)
     assert_places(&review);
     assert_remedies(&review);
     assert_variant(&review);
+    assert_states(&review);
     int said = 0;
     for (int i = 0; i < review.note_count; i++)
         said += strstr(review.notes[i], "US 11,106,103 B2") != NULL;

@@ -124,3 +124,16 @@ int panel_spots(const Panel *panel, float place[PANEL_EVENNESS_SPOTS][2], int ma
     if (places->map) map[0] = places->map->width, map[1] = places->map->height;
     return places->spots;
 }
+
+/* ---- states ---------------------------------------------------------------------------- */
+
+int panel_info_states(const Panel *panel, int *state)
+{
+    *state = panel->state;
+    return panel->states;
+}
+
+const char *panel_info_state_name(const Panel *panel, int i)
+{
+    return panel->state_names[i].name;
+}

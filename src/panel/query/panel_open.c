@@ -3,6 +3,7 @@
 #include "panel/query/panel_open.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/file.h"
@@ -448,25 +449,116 @@ bool panel_from_bytes(const void *data, size_t size, const char *name, Arena *ar
     return true;
 }
 
+/* ---- states ------------------------------------------------------------------------------ */
+
+_Static_assert(sizeof(PanelStateStored) == 32, "the file's layout");
+
+static bool is_state_name(const PanelStateStored *stored)
+{
+    size_t length = strnlen(stored->name, sizeof stored->name);
+    if (!length || length == sizeof stored->name) return false;
+    for (size_t i = 0; i < sizeof stored->name; i++) {
+        char c = stored->name[i];
+        bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                        (c >= '0' && c <= '9') || c == '-' || c == '_';
+        if (i < length ? !is_plain : c != 0) return false;
+    }
+    return true;
+}
+
+/* Names and how many there are; 0: the file has none. */
+static bool read_states(const PanelBytes *bytes, Panel *panel)
+{
+    PanelBytes at;
+    bool       found;
+    if (!panel_find_section(bytes, PANEL_STATES, 0, &at, &found)) return false;
+    if (!found) return true;
+    size_t count = at.size / sizeof(PanelStateStored);
+    if (at.size % sizeof(PanelStateStored) || count < 2 || count > PANEL_STATES_MAX)
+        return panel_refuse(bytes, "states", "have a wrong number of bytes");
+    const PanelStateStored *names = (const PanelStateStored *)(const void *)at.data;
+    for (size_t i = 0; i < count; i++) {
+        if (!is_state_name(&names[i])) return panel_refuse(bytes, "states", "a name is none");
+        for (size_t k = 0; k < i; k++)
+            if (!strcmp(names[i].name, names[k].name))
+                return panel_refuse(bytes, "states", "two have one name");
+        PanelBytes own;
+        if (i && !panel_need_section(bytes, PANEL_STATE_FILE, (uint32_t)i, &own)) return false;
+    }
+    panel->states = (int)count;
+    panel->state_names = names;
+    return true;
+}
+
+static bool open_whole(const PanelBytes *bytes, Arena *arena, Panel **out)
+{
+    return panel_from_bytes(bytes->data, bytes->size, bytes->name, arena, out, bytes->err) &&
+           check_sampling(bytes, *out) && read_states(bytes, *out);
+}
+
+static bool refuse_state(const PanelBytes *bytes, const Panel *panel, const char *state)
+{
+    char names[PANEL_STATES_MAX * (sizeof(PanelStateStored) + 2)] = "none: it has no states";
+    for (int i = 0, length = 0; i < panel->states; i++)
+        length += snprintf(names + length, sizeof names - (size_t)length, "%s%s",
+                           i ? ", " : "", panel->state_names[i].name);
+    return error_at(bytes->err, ERROR_INPUT, bytes->name, "",
+                    "has no state '%.60s', required: %s", state, names);
+}
+
+static bool open_other_state(const PanelBytes *bytes, int state, Arena *arena, Panel **out)
+{
+    const Panel *whole = *out;
+    PanelBytes   own;
+    if (!panel_need_section(bytes, PANEL_STATE_FILE, (uint32_t)state, &own)) return false;
+    if (!open_whole(&own, arena, out)) return error_prefix(bytes->err, "a state's own file");
+    if ((*out)->states)
+        return panel_refuse(bytes, "states", "a state's own file has states again");
+    (*out)->states = whole->states;
+    (*out)->state_names = whole->state_names;
+    (*out)->state = state;
+    return true;
+}
+
+bool panel_open_state(const PanelOpenAsk *ask, Arena *arena, Panel **out, Error *err)
+{
+    PanelBytes bytes = {ask->data, ask->size, ask->name, err};
+    Panel     *panel;
+    int        state = 0;
+    if (!open_whole(&bytes, arena, &panel)) return false;
+    while (ask->state && state < panel->states &&
+           strcmp(panel->state_names[state].name, ask->state) != 0)
+        state++;
+    if (ask->state && state == panel->states) return refuse_state(&bytes, panel, ask->state);
+    if (state && !open_other_state(&bytes, state, arena, &panel)) return false;
+    *out = panel;
+    return true;
+}
+
 bool panel_open_memory(const void *data, size_t size, const char *name, Arena *arena,
                        Panel **out, Error *err)
 {
-    Panel *panel;
-    if (!panel_from_bytes(data, size, name, arena, &panel, err) ||
-        !check_sampling(&(PanelBytes){data, size, name, err}, panel))
-        return false;
-    *out = panel;
-    return true;
+    PanelOpenAsk ask = {data, size, name, NULL};
+    return panel_open_state(&ask, arena, out, err);
 }
 
 /* A copy, not a mapping: a file that shrinks under a mapping kills the process, and one that
  * changes would be queried unchecked. */
 bool panel_open(const char *path, Arena *arena, Panel **out, Error *err)
 {
-    Arena     copy = arena_reserve(PANEL_FILE_BYTES_MAX + 4096);
-    FileBytes bytes;
-    if (!file_read(path, PANEL_FILE_BYTES_MAX, &copy, &bytes, err) ||
-        !panel_open_memory(bytes.data, bytes.size, path, arena, out, err)) {
+    Arena        copy = arena_reserve(PANEL_FILE_BYTES_MAX + 4096);
+    FileBytes    bytes;
+    const char  *hash = strrchr(path, '#');
+    bool         has_state = hash && !file_exists(path);
+    PanelOpenAsk ask = {.name = path};
+    if (has_state) {
+        ask.name = arena_string(arena, path, (size_t)(hash - path));
+        ask.state = arena_string(arena, hash + 1, strlen(hash + 1));
+    }
+    bool ok = file_read(ask.name, PANEL_FILE_BYTES_MAX, &copy, &bytes, err);
+    ask.data = ok ? bytes.data : NULL;
+    ask.size = ok ? bytes.size : 0;
+    if (!ok || !panel_open_state(&ask, arena, out, err)) {
         arena_release(&copy);
         return false;
     }

@@ -464,7 +464,8 @@ static void set_members(json_t *object, const ReviewCase *c, const char *const *
 
 void review_whole_json(const ReviewCase *c, json_t *to)
 {
-    static const char *const KEYS[] = {"symbol_mean", "lit_share", "judged_part_uv", NULL};
+    static const char *const KEYS[] = {"symbol_mean", "lit_share", "judged_part_uv",
+                                       "must_not_be_read", NULL}; /* absent: it may be */
     if (c->symbol) set_members(to, c, KEYS);
 }
 
