@@ -18,25 +18,25 @@ guides_and_meeting()
 
 start 'headers compile alone' headers sh tests/structure/headers.sh
 start 'no shell, one socket, no mapped file' calls python3 tests/structure/calls.py
-run 'folders include what they may' layers python3 tests/structure/layers.py
-run 'the module is the file' modules python3 tests/structure/modules.py
-run 'sizes and contents of the sources' source python3 tests/structure/source.py
-run 'every source says its licence' spdx python3 tests/structure/spdx.py
-run 'the README names what is there' readme python3 tests/structure/readme.py
-run 'a surface model is known by its own files' models python3 tests/structure/models.py
-run 'a long step runs when what it needs changes' steps python3 tests/structure/steps.py
-run 'figures of pages stand on something' figures python3 tests/image/figures.py
-run 'pages and comments point to what is there' pointers python3 tests/structure/pointers.py
+start 'folders include what they may' layers python3 tests/structure/layers.py
+start 'the module is the file' modules python3 tests/structure/modules.py
+start 'sizes and contents of the sources' source python3 tests/structure/source.py
+start 'every source says its licence' spdx python3 tests/structure/spdx.py
+start 'the README names what is there' readme python3 tests/structure/readme.py
+start 'a surface model is known by its own files' models python3 tests/structure/models.py
+start 'a long step runs when what it needs changes' steps python3 tests/structure/steps.py
+start 'figures of pages stand on something' figures python3 tests/image/figures.py
+start 'pages and comments point to what is there' pointers python3 tests/structure/pointers.py
+start 'a schedule, simulated' schedule python3 tests/slurm/schedule_laws.py
 gather
-run 'a schedule, simulated' schedule python3 tests/slurm/schedule_laws.py
 
 run_one 'release build, warnings are errors' build-release build release everyday || finish
 program=.build/release/parhelion
-run 'scenes, sets and their schemas' schemas python3 tests/structure/schemas.py $program
-run 'extensions as the guide says' extensions python3 tests/structure/extensions.py $program
-run 'libraries keep no state' globals sh tests/structure/globals.sh .build/release
-run 'kernels keep their vectors' kernels python3 tests/structure/kernels.py .build/release
-run 'no function that differs by CPU' libm sh tests/structure/libm.sh .build/release
+start 'scenes, sets and their schemas' schemas python3 tests/structure/schemas.py $program
+start 'extensions as the guide says' extensions python3 tests/structure/extensions.py $program
+start 'libraries keep no state' globals sh tests/structure/globals.sh .build/release
+start 'kernels keep their vectors' kernels python3 tests/structure/kernels.py .build/release
+start 'no function that differs by CPU' libm sh tests/structure/libm.sh .build/release
 run 'unit tests' unit units .build/release -LE long
 
 # Long ones first: at the end no processor waits.

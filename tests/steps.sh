@@ -4,8 +4,17 @@
 # shellcheck shell=sh
 logs=.build/logs
 total_passed=0 total_failed=0 total_skipped=0
-export PYTHONDONTWRITEBYTECODE=1
+unset PYTHONDONTWRITEBYTECODE
+export PYTHONPYCACHEPREFIX="$PWD/.build/pycache"
 mkdir -p $logs
+
+# The interpreter itself: what stands on the path may be a script that looks for one at every
+# start (pyenv's takes half a second).
+interpreter=$(python3 -c 'import sys; print(sys.executable)') || exit 1
+python3()
+{
+    "$interpreter" "$@"
+}
 
 # ---- counting ----
 
