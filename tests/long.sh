@@ -144,6 +144,8 @@ of "$review scenes tests/image"
 start 'why a display looks so' explain python3 tests/image/explain.py $program
 start 'what would mend it, built' remedies python3 tests/image/remedies.py $program
 start 'through sunglasses' sunglasses python3 tests/image/sunglasses.py $program
+start 'visible to whom' visibility-levels \
+    python3 tests/image/visibility_levels.py $program
 of "$compare scenes tests/image"
 start 'samples for an area' favour python3 tests/image/favour.py $program
 start 'people in the seats' occupants python3 tests/image/occupants.py $program

@@ -145,6 +145,26 @@ ARENA_TEST(a_level_that_is_not_known_is_not_judged)
     assert_int_equal(c.unjudged, UNJUDGED_FIGURE);
 }
 
+/* What is known of the veil is an end of its own; where that reaches the limit, no path to the
+ * symbol decides. */
+ARENA_TEST(a_level_is_as_sure_as_the_veil)
+{
+    CaseVisibility in_doubt = TWO_AGES[0];
+    in_doubt.veil_doubt = 0.4;
+    double level = level_by_hand(1, 0.5, 30), sampled = level_by_hand(1.1, 0.5, 30) - level;
+    double veiled = level_by_hand(1, 0.7, 30) - level;
+    ProfileLimit limit = level_limit(level * 1.001);
+    ReviewCase   c = seen_by(&in_doubt, 1);
+    c.paths = 8192;
+    c = judged(c, &limit, &arena);
+    double both = sqrt(sampled * sampled + veiled * veiled);
+    assert_close(c.visibilities[0].low, level - both, 1e-12);
+    assert_int_equal(c.verdict, VERDICT_TOO_CLOSE);
+    judge_paths(&c, 0);
+    assert_int_equal(c.open_by, OPEN_BY_VEIL);
+    assert_true(case_is_undecidable(&c));
+}
+
 /* How many paths decide it: as errors of sampling alone say, ever fewer the farther it lies. */
 ARENA_TEST(paths_decide_a_level)
 {
