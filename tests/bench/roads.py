@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""roads.py BUILD [--trials N] [--rooms screen,cabin,street] -- how often the verdict on a gaze at
-a road by night is wrong whose true margin is -10 to 10 %: a table. BUILD has bench_roads.
+"""roads.py BUILD [--trials N] [--rooms screen,cabin,street] -- how often the verdict on a gaze
+at a road by night is wrong whose true margin is -10 to 10 %: a table. BUILD has bench_roads.
 
-Rooms: a wide screen in the dark; a cabin whose walls it lights, with a pane that mirrors it; that
-cabin with street lamps ahead, small ones near the gaze among them. The truth is the mean of as
-many readings of other seeds; tests/unit/test_road_verdicts.c has one in closed form.
+Rooms: a wide screen in the dark; a cabin whose walls it lights, with a pane that mirrors it;
+that cabin with street lamps ahead, small ones near the gaze among them. The truth is the mean
+of as many readings of other seeds; tests/unit/test_road_verdicts.c has one in closed form.
 A wrong verdict passes where the truth fails, or fails where it passes; "too close" is none. At
 most one in a hundred may be; the upper end is that of Clopper and Pearson's 95 % interval of
 one side.

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""road.py PARHELION -- the threshold increment of a gaze at a road by night, from two reviews of
-a small cabin: the level that the first one names makes a second one, of another seed, that lies
+"""road.py PARHELION -- the threshold increment of a gaze at a road by night, from reviews of a
+small cabin: the level that the first one names makes a second one, of another seed, that lies
 on the limit within its interval; figures that belong together agree; what cannot be evaluated
 says so.
 """
