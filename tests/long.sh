@@ -143,6 +143,7 @@ start 'light that few paths find' rare python3 tests/image/rare.py $program
 of "$review scenes tests/image"
 start 'why a display looks so' explain python3 tests/image/explain.py $program
 start 'what would mend it, built' remedies python3 tests/image/remedies.py $program
+start 'the road after dark' road python3 tests/image/road.py $program
 start 'through sunglasses' sunglasses python3 tests/image/sunglasses.py $program
 start 'visible to whom' visibility-levels \
     python3 tests/image/visibility_levels.py $program
@@ -212,6 +213,8 @@ run "laws of a whole car's review" review-laws-car \
 of "$review tests/bench tests/image"
 run 'verdicts whose truth is known' verdicts claim \
     python3 tests/bench/verdicts.py .build/release --rooms open,window --trials 200
+run 'verdicts on increments' roads claim \
+    python3 tests/bench/roads.py .build/release --trials 40 --rooms cabin,street
 of "$review scenes tests/slurm tests/image"
 run 'a review shared in a job' review-job python3 tests/slurm/review_job.py $program
 of "$render scenes tests/slurm tests/image"

@@ -4,7 +4,7 @@
  * threshold increment a margin of -10 to 10 %, TRIALS seeds, by what decides a review's
  * verdicts. roads.py makes the reviews.
  *
- * The truth is the mean of TRUTH_RUNS readings with seeds of their own, for the first age.
+ * The truth is the mean of as many readings with seeds of their own, for the first age.
  * Printed are, with tabs between: moment, "truth", increment, the error of that in percent;
  * then of each margin: moment, margin in percent, trials, passes, failures, too close. */
 #include <string.h>
@@ -14,7 +14,6 @@
 #include "review/request/request_read.h"
 #include "review/run/road.h"
 
-#define TRUTH_RUNS 200
 #define ROUNDS 16 /* a review's */
 #define MARGINS 6
 
@@ -46,15 +45,15 @@ static RoadReading read_road(const Roads *r, unsigned seed, Arena *room)
     return out;
 }
 
-static Truth true_increment(const Roads *r)
+static Truth true_increment(const Roads *r, int trials, Arena arena)
 {
-    Trial list[TRUTH_RUNS];
-    for (int i = 0; i < TRUTH_RUNS; i++) {
+    Trial *list = ARENA_NEW(&arena, Trial, trials);
+    for (int i = 0; i < trials; i++) {
         Arena       room = r->scratch;
         RoadReading reading = read_road(r, (1u << 28) + (unsigned)i, &room);
         list[i].found = judged(r, &reading, 1, &room)->ages[0].increment_pct;
     }
-    Truth truth = trials_mean(list, TRUTH_RUNS);
+    Truth truth = trials_mean(list, trials);
     printf("%s\ttruth\t%.6g\t%.4f\n", r->setup->condition->name, truth.value,
            100 * truth.error / truth.value);
     fflush(stdout);
@@ -62,9 +61,9 @@ static Truth true_increment(const Roads *r)
 }
 
 /* One reading is held against all limits. */
-static void try_road(const Roads *r, int trials)
+static void try_road(const Roads *r, int trials, Arena arena)
 {
-    Truth truth = true_increment(r);
+    Truth truth = true_increment(r, trials, arena);
     int   count[MARGINS][4] = {{0}};
     for (int i = 0; i < trials; i++) {
         Arena       room = r->scratch;
@@ -102,7 +101,7 @@ static void try_moment(ReviewRequest *request, const ReviewCondition *c, int tri
         !setup_light(&setup, c->has_environment ? &c->environment : NULL, &arena, &err) ||
         !setup_eye_middle(&setup, &request->eyes[0], arena, &r.eye, &err))
         trials_stop(&err);
-    try_road(&r, trials);
+    try_road(&r, trials, arena);
     arena_release(&r.scratch);
     setup_close(&setup);
     arena_release(&arena);
@@ -115,7 +114,7 @@ int main(int argc, char **argv)
     Problems      problems = problems_start(&arena);
     ReviewRequest request;
     int           trials = argc == 3 ? atoi(argv[1]) : 0;
-    if (trials < 1) {
+    if (trials < 2) {
         fprintf(stderr, "bench_roads TRIALS REVIEW.json\n");
         return 1;
     }

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""roads.py BUILD [--trials N] [--rooms screen,cabin,street] -- how often the verdict on a gaze at
-a road by night is wrong whose true margin is -10 to 10 %: a table. BUILD has bench_roads.
+"""roads.py BUILD [--trials N] [--rooms screen,cabin,street] -- how often the verdict on a gaze
+at a road by night is wrong whose true margin is -10 to 10 %: a table. BUILD has bench_roads.
 
-Rooms: a wide screen in the dark, whose increment is a closed form (the lux that
-`panel eval` and its geometry give would be one; here the sum over its face of what it emits);
-a cabin whose walls it lights, with a pane that mirrors it; that cabin with street lamps ahead.
+Rooms: a wide screen in the dark; a cabin whose walls it lights, with a pane that mirrors it;
+that cabin with street lamps ahead, small ones near the gaze among them. The truth is the mean
+of as many readings of other seeds; tests/unit/test_road_verdicts.c has one in closed form.
 A wrong verdict passes where the truth fails, or fails where it passes; "too close" is none. At
 most one in a hundred may be; the upper end is that of Clopper and Pearson's 95 % interval of
 one side.
@@ -53,6 +53,9 @@ def street():
     scene = cabin()
     for x, z in ((-6, -25), (6, -40), (-6, -60)):
         scene.facing_quad(scene.emitter(3000), [x, 6, z], [-x, -6, -z], 0.5)
+    for x in (-0.8, 0.8):  # tail lamps
+        scene.facing_quad(scene.emitter(500), [x, -0.3, -50], [-x, 0.3, 50], 0.1)
+    scene.sphere(scene.metal(0.6), [0.1, -0.3, -0.8], 0.01)  # shows them all
     return scene
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""road.py PARHELION -- the threshold increment of a gaze at a road by night, from two reviews of
-a small cabin: the level that the first one names makes a second one, of another seed, that lies
+"""road.py PARHELION -- the threshold increment of a gaze at a road by night, from reviews of a
+small cabin: the level that the first one names makes a second one, of another seed, that lies
 on the limit within its interval; figures that belong together agree; what cannot be evaluated
 says so.
 """
@@ -52,7 +52,8 @@ def cabin(folder):
 
 
 def request(levels, seed, **more):
-    return {"title": "road", "scene": ["cabin.gltf"], "eyes": {"eye": {"camera": "eye"}},
+    return {"title": "road", "scene": ["cabin.gltf"], "profile": "iso-15008",
+            "eyes": {"eye": {"camera": "eye"}},
             "gaze": [{"name": "road", "direction": [0, 0, -1],
                       "road": {"luminance_cd_m2": ROAD, "s_p": 1.4, "ages_years": AGES}}],
             "symbols": {"bar": {"display": "cluster", "uv": [0.2, 0.2, 0.8, 0.8],
@@ -161,6 +162,12 @@ def check_left_out(report, reviews):
     done, _ = reviews.run("sweep", sweep)
     report.claim(done.returncode not in (0, 1) and "evaluated in moments" in done.stderr,
                  f"a request without a moment is refused: {done.stderr}")
+    sweep["gaze"][0]["road"]["conditions"] = ["suns"]
+    done, _, gaze = reviews.gaze("dark", sweep)
+    report.claim(gaze["road"]["after_dark"] and gaze["condition"] == "suns" and
+                 gaze["road"]["counts"], "a sweep that is named has it after dark")
+    report.claim(gaze["road"]["ages"][0]["displays"][0]["straight_share"] > 0.9,
+                 "its displays make it")
     symbols = request({"*": 0.01}, 1)
     symbols["gaze"][0] = {"at": "symbols", "road": {"luminance_cd_m2": 1}}
     done, _ = reviews.run("symbols", symbols)

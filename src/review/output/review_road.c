@@ -105,9 +105,11 @@ const char *road_words(const GazeFinding *gaze, Arena *arena)
         gaze_counts(gaze) ? arena_format(arena, ", required %s", words_required(&as, arena))
                           : "";
     return arena_format(
-        arena, "%sthreshold increment %s%s, at %.4g years on a road of %.4g cd/m2 (with the "
+        arena, "%s%sthreshold increment %s%s, at %.4g years on a road of %.4g cd/m2 (with the "
         "veil by CIE 135 %.3g %%)%s%s",
-        unjudged_because(road, arena), words_measured(&as, arena),
+        unjudged_because(road, arena),
+        road->is_after_dark ? "after dark, without sun and sky: " : "",
+        words_measured(&as, arena),
         required, age->age_years, road->luminance_cd_m2, age->increment_by_spread_pct,
         displays_words(age, arena),
         gaze_counts(gaze) ? "" : "; the profile has no limit of it");
@@ -118,7 +120,8 @@ const char *road_words(const GazeFinding *gaze, Arena *arena)
 static const char *percent(double level, Arena *arena)
 {
     if (isnan(level)) return "–";
-    if (!(level < 10)) return "more than 1000 %"; /* nobody asks for more */
+    if (!(level < 10)) return "more than 1000 %"; /* nobody sets more, */
+    if (level > 0 && level < 1e-5) return "less than 0.001 %"; /* nor less */
     return arena_format(arena, "%.3g %%", 100 * level);
 }
 
@@ -172,7 +175,7 @@ const char **road_empty_windows(const GazeFinding *gaze, int *count, Arena *aren
 #define RIGHT 84.0
 #define TOP 12.0
 #define BOTTOM 34.0
-#define LEVEL_SEEN 10.0 /* beyond that nobody asks */
+#define LEVEL_SEEN 10.0 /* beyond that none is set */
 #define LEVEL_LEAST 1e-4
 
 /* In the drawing itself, so that pages without a road keep their bytes. */

@@ -121,7 +121,8 @@ typedef struct ReviewRoad {
     const double *dimming;         /* cd m^-2, rising: roads of the table of levels */
     int           dimming_count;   /* 0: the program's own (ROAD_DIMMING) */
     const char *const *conditions; /* names of those in which it is evaluated */
-    int           condition_count; /* 0: all moments without the sun */
+    int           condition_count; /* 0: all moments without the sun. Sweeps and routes that
+                                      are named: without sun and sky */
 } ReviewRoad;
 
 #define ROAD_AGES_MOST 6

@@ -109,8 +109,9 @@ static const RecordRow ROAD[] = {
             "Rising: the road luminances of the table of levels. Default: 0.1 to 2."),
     {"conditions", RECORD_TEXTS, RECORD_MANY(OWNER, conditions, condition_count),
      RECORD_COUNT(1, 1000),
-     .doc = "Names of the moments in which it is evaluated; none has a sun above the horizon. "
-            "Default: all such."},
+     .doc = "Names of those in which it is evaluated: moments, where no sun stands above the "
+            "horizon; sweeps and routes, as after dark, without sun and sky. Default: all "
+            "such moments."},
     {0}};
 
 static void start_road(void *item)

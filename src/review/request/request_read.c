@@ -225,19 +225,18 @@ static bool check_road(const JsonView *view, const ReviewRequest *request,
     const ReviewRoad *road = gaze->road;
     bool is_any = false;
     for (int i = 0; i < road->condition_count; i++) {
-        const ReviewCondition *of = review_condition_named(request, road->conditions[i]);
-        if (!of || of->kind != CONDITION_MOMENT)
+        if (!review_condition_named(request, road->conditions[i]))
             return record_fails(view, "gaze", err,
-                                "'%.60s' has a road in '%.60s', which is no moment; required: "
-                                "the name of a condition that is one", gaze->name,
-                                road->conditions[i]);
+                                "'%.60s' has a road in '%.60s', which is none; required: the "
+                                "name of a condition", gaze->name, road->conditions[i]);
+        is_any = true;
     }
     for (int i = 0; i < request->condition_count; i++)
         is_any |= request->conditions[i].kind == CONDITION_MOMENT;
     return is_any || record_fails(view, "gaze", err,
                                   "'%.60s' has a road, which is evaluated in moments, and "
-                                  "there is none; required: a condition that is one",
-                                  gaze->name);
+                                  "there is none; required: one, or the names of sweeps and "
+                                  "routes in its 'conditions'", gaze->name);
 }
 
 static bool check_roads(const JsonView *view, const ReviewRequest *request, Error *err)

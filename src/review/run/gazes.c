@@ -190,6 +190,23 @@ static void read_gaze(const GazeAsk *ask, const GazeGoal *goal, Arena *arena, Ga
     set_contrasts(&along, out);
 }
 
+/* A sweep's name must be among the road's own conditions. */
+static bool is_in_sweep(const ReviewGaze *gaze, const ReviewCondition *condition)
+{
+    return gaze->road && gaze->road->condition_count &&
+           review_road_is_in(gaze->road, condition->name);
+}
+
+int roads_of_sweep(const ReviewRequest *request, const ReviewCondition *condition)
+{
+    int count = 0;
+    for (int g = 0; g < request->gaze_count; g++)
+        for (int e = 0; e < request->eye_count; e++)
+            count += !request->gazes[g].at_symbols && request->gazes[g].for_eye[e] &&
+                     is_in_sweep(&request->gazes[g], condition);
+    return count;
+}
+
 bool setup_gazes(const GazesAsk *gazes, Arena *arena, GazeFinding *out, Error *err)
 {
     const Setup         *setup = gazes->setup;
@@ -201,6 +218,7 @@ bool setup_gazes(const GazesAsk *gazes, Arena *arena, GazeFinding *out, Error *e
             const ReviewEye  *eye = &request->eyes[e];
             int count;
             if (gaze->at_symbols || !gaze->for_eye[e]) continue;
+            if (gazes->roads_only && !is_in_sweep(gaze, setup->condition)) continue;
             if (!moment_share_has(gazes->share, ++at, looks)) continue;
             Vec3 *points = setup_eye_points(setup, eye, &count, arena, err);
             if (!points) return false;

@@ -20,8 +20,13 @@ typedef struct GazesAsk {
     const Profile     *profile; /* limits of roads */
     const ReviewCase  *cases;   /* of this moment, which are made before */
     int                case_count;
+    bool               roads_only; /* of others nothing is set, and they are left out */
 } GazesAsk;
 
-/* Fills review_look_count(request) findings, eyes fastest, but for those that are others'.
+/* Fills review_look_count(request) findings, eyes fastest, but for those that are others'; with
+ * roads_only those of roads that the condition has, one behind the other.
  * Fails where an eye's camera is missing. */
 bool setup_gazes(const GazesAsk *gazes, Arena *arena, GazeFinding *out, Error *err);
+
+/* How many roads the request has evaluated in that sweep or route: gazes times eyes. */
+int roads_of_sweep(const ReviewRequest *request, const ReviewCondition *condition);

@@ -9,6 +9,7 @@
 #include "review/pace/work.h"
 #include "review/request/request_check.h"
 #include "review/review_decide.h"
+#include "review/road_verdict.h"
 #include "review/run/cases.h"
 #include "review/run/false_sun_times.h"
 #include "review/run/gazes.h"
@@ -127,13 +128,42 @@ static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena
     if (!ride_moments(run, &tools, review, arena, err)) return false;
     if (run->base) return true;
     GazeFinding *gazes = review->gazes + review->gaze_count;
-    GazesAsk looks = {setup, &tools.share, run->sun_searches, run->profile, cases, count};
+    GazesAsk looks = {setup, &tools.share, run->sun_searches, run->profile, cases, count,
+                      false};
     if (!setup_gazes(&looks, arena, gazes, err)) return false;
     work_add(run->work, WORK_LOOK, plan.of[WORK_LOOK]);
     review->gaze_count += review_look_count(run->request);
     /* The merge looks for images in panes: they are needed once. */
     return !run->request->pane_images || run->share.count > 0 ||
            setup_pane_images(setup, arena, review, err);
+}
+
+/* The roads of a sweep or route, as it is after dark: with its lamps, displays and levels, but
+ * without sun and sky. The merge answers what is needed once. */
+static bool run_after_dark(const ReviewRun *run, const ReviewCondition *condition, Arena *arena,
+                           ReviewOutcome *out, Error *err)
+{
+    SetupOptions options = {run->request, condition, run->means};
+    Review      *review = &out->review;
+    MomentShare  all = {{0, 0}, 0, 1};
+    int          count = roads_of_sweep(run->request, condition);
+    if (!count || run->base || run->share.count) return true;
+    Arena scratch = arena_reserve(SETUP_BYTES);
+    Setup setup;
+    bool  ok = setup_open(&options, &scratch, run->problems, &setup, err);
+    if (ok) {
+        Environment dark = setup.scene->environment;
+        GazesAsk    looks = {&setup, &all, run->sun_searches, run->profile, NULL, 0, true};
+        dark.kind = ENVIRONMENT_NONE;
+        dark.has_sun = false;
+        ok = setup_light(&setup, &dark, &scratch, err) &&
+             setup_gazes(&looks, arena, review->gazes + review->gaze_count, err);
+        setup_close(&setup);
+    }
+    for (int i = 0; ok && i < count; i++)
+        review->gazes[review->gaze_count++].road->is_after_dark = true;
+    arena_release(&scratch);
+    return ok;
 }
 
 /* Do two conditions have one scene? */
@@ -265,6 +295,14 @@ static bool run_watched(const ReviewRun *run, const ReviewCondition *condition,
     return true;
 }
 
+static bool run_roads(const ReviewRun *run, const SweepGroup *group, Arena *arena,
+                      ReviewOutcome *out, Error *err)
+{
+    for (int i = 0; i < group->count; i++)
+        if (!run_after_dark(run, group->conditions[i], arena, out, err)) return false;
+    return true;
+}
+
 static bool run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *err)
 {
     const ReviewRequest *request = run->request;
@@ -280,6 +318,7 @@ static bool run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *ou
         if (is_moment && !moment_share_has_any(&share)) continue;
         if (!is_moment) group = group_of(request, i, is_done, arena);
         if (!run_watched(run, condition, &group, arena, out, err) ||
+            !run_roads(run, &group, arena, out, err) ||
             !review_goes_on(run->means.journal, err)) /* else its last reading may be cut off */
             return false;
         done += is_moment ? 1 : group.count;
