@@ -27,8 +27,8 @@ typedef struct PaneImageBatch {
     double        sum[FIGURES], path[FIGURES]; /* path: of the one at work */
     BrightSamples bright[FIGURES];
     Vec3          place; /* of the display, that the near face shows along the path */
-    double        alone, ghost, beside; /* image light by one reflection; of it, the ghost's; and
-                                           that times how far beside it came from, radians */
+    double        alone, ghost, beside; /* image light by one reflection; of it, the ghost's;
+                                           and that times how far beside it stands, radians */
 } PaneImageBatch;
 
 /* Paths of one kind: those by mirrors end where something scatters; whole ones count no other
@@ -117,7 +117,23 @@ static int mirroring_pane(const Scene *scene, const PathHistory *history)
     return is_pane(scene, part_id) ? part_id : NO_ID;
 }
 
-#define GHOST_LEAST 1.5e-4 /* radians, half a minute of arc: nearer it is the image itself */
+#define GHOST_LEAST 0.25 /* of how far the pane's thickness puts the ghost aside: what is nearer
+                            is the image itself. Between a cell's corners the place is known
+                            to a minute of arc of a curved pane */
+
+/* m, across the rays: s = d sin 2t / sqrt(n^2 - sin^2 t) of a flat pane of thickness d; 0: it
+ * has none of its own. The turn from the way in to the way out is 180 degrees less 2 t. */
+static double ghost_shift(const Scene *scene, int pane_id, Vec3 in, Vec3 out)
+{
+    const Glazing *pane = scene->materials[scene->parts[pane_id].material_id].glazing;
+    double thickness = 0;
+    if (!pane) return 0;
+    for (int i = 0; i < pane->layer_count; i++)
+        thickness += (double)pane->layers[i].thickness_m;
+    double cosine2 = fmin(fmax(0.5 * (1 - (double)vec3_dot(in, out)), 0), 1);
+    double sine2 = 1 - cosine2, ior = (double)pane->absorbing_ior;
+    return 2 * thickness * sqrt(sine2 * cosine2 / (ior * ior - sine2));
+}
 
 /* Where the light began lies beside the place that the near face shows, across the way there:
  * that over the whole way is how far the ghost stands beside. */
@@ -127,11 +143,13 @@ static void note_ghost(const PathHistory *history, double luminance, PaneImageBa
     Vec3   way = vec3_sub(batch->place, pane), off = vec3_sub(history->from, batch->place);
     double far = (double)(vec3_length(vec3_sub(pane, eye)) + vec3_length(way));
     way = vec3_normalize(way);
-    double beside = (double)vec3_length(vec3_along(off, way, -vec3_dot(off, way))) / far;
+    double beside = (double)vec3_length(vec3_along(off, way, -vec3_dot(off, way)));
+    double shift = ghost_shift(batch->paths->setup->scene, history->step[0].part_id,
+                               history->towards, way);
     batch->alone += luminance;
-    if (!(beside > GHOST_LEAST)) return;
+    if (!(shift > 0 && beside > GHOST_LEAST * shift)) return;
     batch->ghost += luminance;
-    batch->beside += luminance * beside;
+    batch->beside += luminance * beside / far;
 }
 
 static void on_light(void *user, const PathHistory *history, const float xyz[3])
