@@ -36,6 +36,8 @@ typedef struct PaneFinding {
     MeanInterval against_range;
     double      contrast;
     MeanInterval contrast_range;
+    double      ghost_share;      /* of the image's light: a ghost by the pane's far face */
+    double      ghost_arcmin;     /* which stands so far beside; NaN: there is none */
     const char *area;             /* in the line of sight to it; NULL: to none that is named */
     double      off_deg;          /* from the area's axis to the nearest of the image */
     bool        has_limit;

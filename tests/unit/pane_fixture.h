@@ -15,7 +15,8 @@ static inline PaneFinding fixture_pane(const char *display)
                      .width_deg = 6, .height_deg = 3, .outline_deg = OUTLINE,
                      .outline_count = 6, .image = 1, .image_range = {0.9, 1.1}, .behind = 3,
                      .behind_range = {2.8, 3.2}, .against = 4, .against_range = {3.6, 4.4},
-                     .area = "road", .off_deg = 6.5};
+                     .ghost_share = 0.4, .ghost_arcmin = 4.75, .area = "road",
+                     .off_deg = 6.5};
     pane_set_contrast(&f);
     return f;
 }
@@ -29,5 +30,6 @@ static inline PaneFinding fixture_pane_hidden(void)
                          .ends_share = 1, .right_deg = nan, .up_deg = nan, .width_deg = nan,
                          .height_deg = nan, .image = nan, .image_range = none, .behind = nan,
                          .behind_range = none, .against = nan, .against_range = none,
-                         .contrast = nan, .contrast_range = none, .off_deg = nan};
+                         .contrast = nan, .contrast_range = none, .ghost_share = nan,
+                         .ghost_arcmin = nan, .off_deg = nan};
 }

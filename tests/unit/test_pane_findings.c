@@ -68,6 +68,7 @@ TEST(a_pane_across_the_way_shows_what_is_behind_at_its_mirrored_place)
     double wide = atan2((double)display_at.x + 0.05, far) - left;
     assert_near(f->width_deg, degrees_from_radians(wide), 0.05);
     assert_int_equal(f->outline_count, 8);
+    assert_true(f->ghost_share == 0 && isnan(f->ghost_arcmin)); /* a pane without thickness */
     /* Nothing lies behind: what the request says counts, and the contrast follows from it. */
     assert_true(f->behind == 0);
     assert_close(f->against, 0.25, 1e-12);

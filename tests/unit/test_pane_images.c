@@ -325,6 +325,7 @@ TEST(luminance_is_what_glass_mirrors_of_the_emission_towards_it)
         assert_found(PANELS[i], found.image, wanted);
         assert_found("through", found.through, through);
         assert_true(found.against.mean >= found.through.mean);
+        assert_true(found.ghost_share == 0 && isnan(found.ghost_rad));
     }
 }
 
@@ -366,12 +367,48 @@ TEST(a_laminated_panes_image_has_its_ghost)
         low = fmin(low, up);
         high = fmax(high, up);
     }
+    assert_near(found.ghost_rad, apart / far, 0.02 * apart / far);
+    assert_near(found.ghost_share, ghost / all, 0.03);
     double lacks = apart / far / (high - low) * ghost / all;
     assert_true(lacks > 0.01 && lacks < 0.1);
     double wanted = both * (1 - lacks), off = fabs(found.image.mean - wanted);
     if (!(off < 3 * found.image.sigma + 0.005 * both && found.image.sigma < 0.011 * both))
         fail_msg("%g +- %g cd/m2, required %g; without a shift %g", found.image.mean,
                  found.image.sigma, wanted, both);
+}
+
+/* A wedge turns the ghost by 2 a sqrt(n^2 - sin^2 t) / cos t: on the way b from the pane to the
+ * display as far as the thickness puts it, one way back onto the image, the other way twice as
+ * far. */
+TEST(a_wedge_moves_the_ghost_back_or_twice_as_far)
+{
+    double rad[2];
+    Vec3   middle = mirrored(below.middle);
+    double far = (double)vec3_length(middle), apart = 0;
+    for (int i = 0; i < 2; i++) {
+        SCOPED_WORLD world = world_start();
+        Sheet  plane = pane_plane();
+        double cosine = fabs((double)vec3_dot(vec3_normalize(middle), plane.normal));
+        double root = sqrt(GLASS * GLASS - 1 + cosine * cosine);
+        double to_pane = (double)vec3_dot(plane.point, plane.normal) /
+                         (double)vec3_dot(vec3_normalize(middle), plane.normal);
+        apart = 0.00496 * 2 * sqrt(1 - cosine * cosine) * cosine / root;
+        double  wedge = apart * cosine / (2 * (far - to_pane) * root);
+        Glazing glazing = {.layers = {{0.00496f, (float)GLASS}}, .layer_count = 1,
+                           .absorbing_ior = (float)GLASS, .wedge_ior = (float)GLASS,
+                           .wedge = {0, (float)(i ? wedge : -wedge)}};
+        Material laminated = builder_pane((float)GLASS);
+        open_panel(&world, "oled_centre");
+        add_display(&world, below);
+        laminated.glazing = &glazing;
+        add_pane(&world, laminated, 3);
+        Setup setup = setup_of(&world);
+        PaneImageReading found = read_image(&setup, find(&setup, &world), world.arena);
+        rad[i] = isnan(found.ghost_rad) ? 0 : found.ghost_rad;
+    }
+    if (!(fmin(rad[0], rad[1]) < 0.3 * apart / far))
+        fail_msg("%g, %g rad: none of %g", rad[0], rad[1], apart / far);
+    assert_near(fmax(rad[0], rad[1]), 2 * apart / far, 0.06 * apart / far);
 }
 
 TEST_PROGRAM(NULL, NULL)

@@ -108,6 +108,7 @@ static void assert_same_finding(const PaneFinding *a, const PaneFinding *b)
     assert_same(a->contrast, b->contrast);
     assert_same(a->contrast_range.low, b->contrast_range.low);
     assert_same(a->off_deg, b->off_deg);
+    assert_same(a->ghost_arcmin, b->ghost_arcmin);
     assert_int_equal(a->has_limit, b->has_limit);
     if (a->has_limit) assert_int_equal(a->limit.verdict, b->limit.verdict);
 }
@@ -138,7 +139,7 @@ TEST(every_output_has_the_same_figures)
     const char *csv = taken(path);
     assert_non_null(strstr(csv, ",the pane ends before it,0,1,0,0,,"));
     assert_non_null(strstr(csv, "-8,9,6,3,1,0.9,1.1,3,2.8,3.2,4,3.6,4.4,0.25,"));
-    assert_non_null(strstr(csv, ",road,6.5,0.1,"));
+    assert_non_null(strstr(csv, ",0.4,4.75,road,6.5,0.1,"));
     assert_done(review_junit_write(&review, path, &err));
     const char *junit = taken(path);
     assert_non_null(strstr(junit, "tests=\"2\" failures=\"1\""));

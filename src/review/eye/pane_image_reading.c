@@ -26,6 +26,9 @@ typedef struct PaneImageBatch {
     const struct PaneImagePaths *paths;
     double        sum[FIGURES], path[FIGURES]; /* path: of the one at work */
     BrightSamples bright[FIGURES];
+    Vec3          place; /* of the display, that the near face shows along the path */
+    double        alone, ghost, beside; /* image light by one reflection; of it, the ghost's;
+                                           and that times how far beside it stands, radians */
 } PaneImageBatch;
 
 /* Paths of one kind: those by mirrors end where something scatters; whole ones count no other
@@ -55,7 +58,7 @@ static const double *shares_of(const PaneImage *image, Arena *arena)
 }
 
 /* u, v: in [0, 1). Cells are so small that even over the plane is even over the sphere. */
-static Vec3 direction_at(const PaneImagePaths *paths, double u, double v)
+static Vec3 direction_at(const PaneImagePaths *paths, double u, double v, Vec3 *place)
 {
     int low = 0, high = paths->goal->image->cell_count;
     while (high - low > 1) {
@@ -66,9 +69,14 @@ static Vec3 direction_at(const PaneImagePaths *paths, double u, double v)
     const PaneCell *cell = &paths->goal->image->cells[low];
     double within = (u - paths->shares[low]) / (paths->shares[low + 1] - paths->shares[low]);
     double root = sqrt(fmin(fmax(within, 0), 1));
-    Vec3   d = vec3_scale(cell->corner[0], (float)(1 - root));
-    d = vec3_along(d, cell->corner[1], (float)(root * (1 - v)));
-    return vec3_normalize(vec3_along(d, cell->corner[2], (float)(root * v)));
+    float  weight[3] = {(float)(1 - root), (float)(root * (1 - v)), (float)(root * v)};
+    Vec3   d = vec3(0, 0, 0), p = vec3(0, 0, 0);
+    for (int k = 0; k < 3; k++) {
+        d = vec3_along(d, cell->corner[k], weight[k]);
+        p = vec3_along(p, cell->place[k], weight[k]);
+    }
+    *place = p;
+    return vec3_normalize(d);
 }
 
 static double fraction(double x)
@@ -76,11 +84,11 @@ static double fraction(double x)
     return x - floor(x);
 }
 
-static Vec3 target_of(const PaneImagePaths *paths, uint32_t seed, int i)
+static Vec3 target_of(const PaneImagePaths *paths, uint32_t seed, int i, Vec3 *place)
 {
     double u = hash_combine(hash_u32(seed), 0) * 0x1p-32;
     double v = hash_combine(hash_u32(seed), 1) * 0x1p-32;
-    Vec3   d = direction_at(paths, fraction(u + STEP_U * i), fraction(v + STEP_V * i));
+    Vec3   d = direction_at(paths, fraction(u + STEP_U * i), fraction(v + STEP_V * i), place);
     return vec3_add(paths->goal->eye, d);
 }
 
@@ -109,6 +117,41 @@ static int mirroring_pane(const Scene *scene, const PathHistory *history)
     return is_pane(scene, part_id) ? part_id : NO_ID;
 }
 
+#define GHOST_LEAST 0.25 /* of how far the pane's thickness puts the ghost aside: what is nearer
+                            is the image itself. Between a cell's corners the place is known
+                            to a minute of arc of a curved pane */
+
+/* m, across the rays: s = d sin 2t / sqrt(n^2 - sin^2 t) of a flat pane of thickness d; 0: it
+ * has none of its own. The turn from the way in to the way out is 180 degrees less 2 t. */
+static double ghost_shift(const Scene *scene, int pane_id, Vec3 in, Vec3 out)
+{
+    const Glazing *pane = scene->materials[scene->parts[pane_id].material_id].glazing;
+    double thickness = 0;
+    if (!pane) return 0;
+    for (int i = 0; i < pane->layer_count; i++)
+        thickness += (double)pane->layers[i].thickness_m;
+    double cosine2 = fmin(fmax(0.5 * (1 - (double)vec3_dot(in, out)), 0), 1);
+    double sine2 = 1 - cosine2, ior = (double)pane->absorbing_ior;
+    return 2 * thickness * sqrt(sine2 * cosine2 / (ior * ior - sine2));
+}
+
+/* Where the light began lies beside the place that the near face shows, across the way there:
+ * that over the whole way is how far the ghost stands beside. */
+static void note_ghost(const PathHistory *history, double luminance, PaneImageBatch *batch)
+{
+    Vec3   eye = batch->paths->goal->eye, pane = history->step[0].position;
+    Vec3   way = vec3_sub(batch->place, pane), off = vec3_sub(history->from, batch->place);
+    double far = (double)(vec3_length(vec3_sub(pane, eye)) + vec3_length(way));
+    way = vec3_normalize(way);
+    double beside = (double)vec3_length(vec3_along(off, way, -vec3_dot(off, way)));
+    double shift = ghost_shift(batch->paths->setup->scene, history->step[0].part_id,
+                               history->towards, way);
+    batch->alone += luminance;
+    if (!(shift > 0 && beside > GHOST_LEAST * shift)) return;
+    batch->ghost += luminance;
+    batch->beside += luminance * beside / far;
+}
+
 static void on_light(void *user, const PathHistory *history, const float xyz[3])
 {
     PaneImageBatch       *batch = user;
@@ -120,6 +163,7 @@ static void on_light(void *user, const PathHistory *history, const float xyz[3])
                     history->source == LIGHTS_EMITTERS && history->source_id == image->part_id;
     batch->path[is_image ? IMAGE : AGAINST] += (double)xyz[1];
     if (pane == NO_ID) batch->path[THROUGH] += (double)xyz[1];
+    if (is_image && history->count == 1) note_ghost(history, (double)xyz[1], batch);
 }
 
 static void read_batch(void *user, int item, int worker)
@@ -136,7 +180,7 @@ static void read_batch(void *user, int item, int worker)
     PathStatistics statistics = {0};
     for (int i = paths->first; i < paths->end; i++) {
         if (signals_stop_requested()) return;
-        targets[i % CHUNK] = target_of(paths, seed, i);
+        targets[i % CHUNK] = target_of(paths, seed, i, &batch->place);
         for (int k = 0; k < FIGURES; k++) batch->path[k] = 0;
         paths->setup->tools.kernel->trace(&aim, i, i + 1, &listener, &statistics);
         for (int k = 0; k < FIGURES; k++) {
@@ -262,6 +306,18 @@ static GazeFound figure_of(const PaneImagePair *pair, int figure)
     return (GazeFound){estimate.mean, estimate.sigma, estimate.interval};
 }
 
+static void set_ghost(const PaneImagePaths *paths, PaneImageReading *out)
+{
+    double alone = 0, ghost = 0, beside = 0;
+    for (int b = 0; b < ESTIMATE_BATCHES; b++) {
+        alone += paths->batches[b].alone;
+        ghost += paths->batches[b].ghost;
+        beside += paths->batches[b].beside;
+    }
+    out->ghost_share = alone > 0 ? ghost / alone : 0;
+    out->ghost_rad = ghost > 0 ? beside / ghost : (double)NAN;
+}
+
 PaneImageReading pane_image_read(const Setup *setup, const PaneImageGoal *goal, Arena scratch)
 {
     uint32_t      seed = review_seed(setup->request, SEED);
@@ -271,6 +327,9 @@ PaneImageReading pane_image_read(const Setup *setup, const PaneImageGoal *goal, 
     plan(&pilot);
     read_whole(&fresh, pilot.whole_paths);
     read_mirrors(&fresh, pilot.mirror_paths);
-    return (PaneImageReading){figure_of(&fresh, IMAGE), figure_of(&fresh, THROUGH),
-                          figure_of(&fresh, AGAINST)};
+    PaneImageReading out = {.image = figure_of(&fresh, IMAGE),
+                            .through = figure_of(&fresh, THROUGH),
+                            .against = figure_of(&fresh, AGAINST)};
+    set_ghost(&fresh.mirrors, &out);
+    return out;
 }

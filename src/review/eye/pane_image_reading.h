@@ -30,6 +30,10 @@ typedef struct PaneImageGoal {
 
 typedef struct PaneImageReading {
     GazeFound image, through, against;
+    double    ghost_share; /* of the image's light: by the pane's far face, which shows
+                              another place of the display than its near one there */
+    double    ghost_rad;   /* how far beside it stands, as the eye sees it: mean over that
+                              light; NaN: there is none */
 } PaneImageReading;
 
 PaneImageReading pane_image_read(const Setup *setup, const PaneImageGoal *goal, Arena scratch);

@@ -68,6 +68,7 @@ typedef struct PanePoint {
     uint32_t triangle;
     float    u, v;
     Vec3     towards; /* unit, from the eye */
+    Vec3     place;   /* that it is turned to */
 } PanePoint;
 
 static MirrorTriangle mirror_of(const Scene *scene, const Part *part, uint32_t triangle)
@@ -101,7 +102,7 @@ static bool point_in(const PaneSearch *search, const Part *part, uint32_t triang
         return false;
     if (!image_point_find(&mirror, search->eye, source, &at)) return false;
     Vec3 towards = vec3_normalize(vec3_sub(at.position, search->eye));
-    *out = (PanePoint){true, triangle, at.u, at.v, towards};
+    *out = (PanePoint){true, triangle, at.u, at.v, towards, source};
     return true;
 }
 
@@ -169,6 +170,7 @@ static void add_cell(PaneLattice *lattice, const int corner[3], TrianglePoint mi
     for (int k = 0; k < 3; k++) {
         is_there &= lattice->at[corner[k]].is_there;
         cell.corner[k] = lattice->at[corner[k]].towards;
+        cell.place[k] = lattice->at[corner[k]].place;
     }
     if (!is_there) {
         out->share.ends += lattice->area;

@@ -24,6 +24,7 @@
 /* A triangle of the field of view. */
 typedef struct PaneCell {
     Vec3   corner[3];
+    Vec3   place[3]; /* of the display, that the first face shows there, m, scene */
     double sr;
 } PaneCell;
 

@@ -399,6 +399,7 @@ TABLE(pane_image_json, PaneFinding,
     AS("against_interval", RANGE, PaneFinding, against_range),
     OWN(FIGURE, PaneFinding, contrast),
     AS("contrast_interval", RANGE, PaneFinding, contrast_range),
+    OWN(FIGURE, PaneFinding, ghost_share), OWN(FIGURE, PaneFinding, ghost_arcmin),
     OWN(TEXT, PaneFinding, area), OWN(FIGURE, PaneFinding, off_deg),
     {"limit", RECORD_OBJECT, MUST | RECORD_NULL, RECORD_AT(PaneFinding, limit),
      .count = offsetof(PaneFinding, has_limit), .of = &limit_json});

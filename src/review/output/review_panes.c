@@ -103,6 +103,8 @@ static void set_image(json_t *to, const PaneFinding *f, int number, Arena *arena
     page_set_count(to, "number", number);
     page_set(to, "where", where_of(f, arena));
     page_set(to, "size", arena_format(arena, "%.1f° × %.1f°", f->width_deg, f->height_deg));
+    page_set(to, "ghost", isnan(f->ghost_arcmin)
+                              ? NULL : arena_format(arena, "ghost %.1f′", f->ghost_arcmin));
     page_set(to, "image_words", figure(f->image, f->image_range, arena));
     page_set(to, "image_range", range_words(f->image_range, arena));
     page_set(to, "behind_words", figure(f->behind, f->behind_range, arena));

@@ -142,6 +142,8 @@ static void set_light(const Setup *setup, Vec3 eye, const PaneImage *image, Pane
     set_figure(found.through, 0, &out->behind, &out->behind_range);
     set_figure(found.against, setup->request->pane_images->against_cd_m2, &out->against,
                &out->against_range);
+    out->ghost_share = found.ghost_share;
+    out->ghost_arcmin = 60 * degrees_from_radians(found.ghost_rad);
     pane_set_contrast(out);
 }
 
@@ -152,7 +154,8 @@ static PaneFinding finding_unknown(void)
     return (PaneFinding){.right_deg = nan, .up_deg = nan, .width_deg = nan, .height_deg = nan,
                          .image = nan, .image_range = range, .behind = nan,
                          .behind_range = range, .against = nan, .against_range = range,
-                         .contrast = nan, .contrast_range = range, .off_deg = nan};
+                         .contrast = nan, .contrast_range = range, .ghost_share = nan,
+                         .ghost_arcmin = nan, .off_deg = nan};
 }
 
 typedef struct PaneEye {
