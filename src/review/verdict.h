@@ -243,12 +243,12 @@ typedef struct CasePlace {
 typedef struct CaseHalo {
     double mean_drive;      /* of the display's zones: its backlight's power over full */
     double full_cd_m2;      /* black with all zones full */
-    double black_cd_m2;     /* the most that is leaked about the symbol; 0: nothing is black */
+    double black_cd_m2;     /* the most that black leaks about the symbol */
     /* Where the halo stands highest above what is just seen: */
-    double halo_cd_m2;      /* above black at the zones' least drive */
+    double halo_cd_m2;      /* leaked there beyond what the zones' least drive would leak */
     double scattered_cd_m2; /* the eye's own stray light of what the display shows about it */
     double threshold_cd_m2; /* the least difference that is seen there */
-    double level;           /* halo over threshold; 0: nothing is black */
+    double level;           /* halo over threshold */
     bool   is_visible;      /* level is 1 or more */
 } CaseHalo;
 

@@ -11,8 +11,8 @@
 /* "visibility level 6.2 at 40 years, 2.9 at 70"; "": the case has none. */
 const char *words_levels(const ReviewCase *c, Arena *arena);
 
-/* "halo 0.02 cd/m²: 3.1 times what is just seen above ..."; "": the display has no zones, or
- * nothing about the symbol is black. */
+/* "halo of the zones visible: 0.02 cd/m² that black leaks, 3.1 times what is just seen above
+ * ..."; "": the display has no zones, or an ideal black. */
 const char *words_halo(const ReviewCase *c, Arena *arena);
 
 /* Behind the figure that made the case's verdict, where it has any. */

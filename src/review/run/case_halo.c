@@ -16,7 +16,6 @@
 #define FINE 3        /* looks along each side of a cell: strokes are thinner than cells */
 #define SPREADS 3.0   /* how far around the symbol */
 #define SCATTER_LEAST_DEG 0.1 /* the eye's spread is known from there on */
-#define DARK_TIMES 1.05       /* a cell that shows so much of its black is black */
 
 typedef struct HaloCell {
     Vec3   towards;       /* from the eye, unit */
@@ -135,25 +134,24 @@ static double patch_arcmin(const HaloGrid *grid, const double uv[4])
     return fmin(60 * degrees_from_radians(whole * share), VISIBILITY_SIZE_LARGE);
 }
 
-/* One black cell: is the halo there more visible than where it was so far? */
+/* One cell: is the halo there more visible than where it was so far? */
 static void try_cell(const HaloGrid *grid, const HaloCell *cell, double size_arcmin,
                      const ReviewCase *c, CaseHalo *out)
 {
     const DimmingZones *zones = panel_zones(grid->display->panel);
     double least = zones->drive.rows ? fmax(zones->least, zones->drive.value[0]) : zones->least;
-    double full = cell->black, veil = scattered_at(grid, cell);
-    double other = c->luminance_cd_m2.veil;
+    double halo = fmax(cell->black - least * out->full_cd_m2, 0);
+    double veil = scattered_at(grid, cell), other = c->luminance_cd_m2.veil;
     out->black_cd_m2 = fmax(out->black_cd_m2, cell->black);
-    full = fmax(full - least * out->full_cd_m2, 0); /* the halo alone */
     VisibilityTarget target = {.size_arcmin = size_arcmin,
-                               .adapted_cd_m2 = c->luminance_cd_m2.reflected + cell->black -
-                                                full + fmax(veil, other > 0 ? other : 0),
+                               .adapted_cd_m2 = c->luminance_cd_m2.reflected + cell->shown -
+                                                halo + fmax(veil, other > 0 ? other : 0),
                                .age_years = grid->look->observer.age_years,
                                .glance_s = HUGE_VAL};
     double threshold = visibility_threshold(&target);
-    if (full / threshold <= out->level) return;
-    out->level = full / threshold;
-    out->halo_cd_m2 = full;
+    if (halo / threshold <= out->level) return;
+    out->level = halo / threshold;
+    out->halo_cd_m2 = halo;
     out->threshold_cd_m2 = threshold;
     out->scattered_cd_m2 = veil;
 }
@@ -205,10 +203,7 @@ void case_halo(const HaloLook *look, ReviewCase *c, Arena scratch)
                          .full_cd_m2 = full_black(grid, uv)};
     fill_cells(grid, uv);
     double size = patch_arcmin(grid, uv);
-    for (int i = 0; i < SIDE * SIDE; i++) {
-        const HaloCell *cell = &grid->cell[i];
-        if (cell->sr > 0 && cell->shown <= DARK_TIMES * cell->black)
-            try_cell(grid, cell, size, c, &c->halo);
-    }
+    for (int i = 0; i < SIDE * SIDE; i++)
+        if (grid->cell[i].sr > 0) try_cell(grid, &grid->cell[i], size, c, &c->halo);
     c->halo.is_visible = c->halo.level >= 1;
 }

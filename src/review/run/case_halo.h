@@ -3,13 +3,14 @@
  * the eye sees it above its own scatter.
  *
  * The display's active area, as far as the symbol's rectangle and three spreads of a zone's
- * light around it, is parted into cells. In each that is black the halo is what the panel leaks
- * there towards the eye, less what it would with its zones at their least drive; the veil is the
- * stray light (eye_spread.h) of what all cells show. The halo is taken for a patch as wide as
- * twice a zone's spread (60' at most), before a background of reflected light, that least black,
- * and the larger of this veil and the case's own; its level is the halo over Adrian's least
- * difference (visibility.h), in the place where that is largest. A halo has no edge and is
- * harder to see than such a patch: the level errs towards visible.
+ * light around it, is parted into cells. In each the halo is what its black leaks towards the
+ * eye, less what it would with the zones at their least drive; the veil is the stray light
+ * (eye_spread.h) of what all other cells show. The halo is taken for a patch as wide as twice a
+ * zone's spread (60' at most), before a background of what the cell shows without it, reflected
+ * light, and the larger of this veil and the case's own; its level is the halo over Adrian's
+ * least difference (visibility.h), in the cell where that is largest. A halo has no edge and is
+ * harder to see than such a patch: the level errs towards visible. What the controller does not
+ * compensate of a lit background is no halo here.
  *
  * Memory   the arena's. Threads: pure. Fails: never; what is not known is NaN.
  */
