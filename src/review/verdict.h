@@ -210,8 +210,8 @@ typedef struct CaseWhole {
 
 CaseWhole case_whole_unknown(void);
 
-/* A place of an eye box or ellipse, and how it sees what must not be read: read by few paths, as
- * is enough to find the worst of all. */
+/* A place of an eye box or ellipse, and how it sees what must not be read: read by few paths,
+ * as is enough to find the worst of all. */
 typedef struct CasePlace {
     double  eye_m[3];       /* world */
     Verdict verdict;
