@@ -411,7 +411,8 @@ static void make_variant(const JsonView *view, const VariantSaid *said, ReviewVa
     int changes = 2 * (said->coating_count + said->glazing_count) + said->material_count +
                   said->node_count + said->hood_count + said->finish_count + 1;
     int words = changes + c->panel_count + c->state_count + c->content_count +
-                said->of.level_count + c->brightness_count + said->eye_count + said->of.more_count + 1;
+                said->of.level_count + c->brightness_count + said->eye_count +
+                said->of.more_count + 1;
     Making m = {view, said, out, ARENA_NEW(view->arena, SceneChange, changes)};
     const char *name = out->name;
     *out = said->of;
