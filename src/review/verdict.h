@@ -228,8 +228,8 @@ typedef struct CaseVisibility {
     const char *doubts;     /* where the formula is doubtful; NULL: nowhere */
 } CaseVisibility;
 
-/* A place of an eye box or ellipse, and how it sees what must not be read: read by few paths, as
- * is enough to find the worst of all. */
+/* A place of an eye box or ellipse, and how it sees what must not be read: read by few paths,
+ * as is enough to find the worst of all. */
 typedef struct CasePlace {
     double  eye_m[3];       /* world */
     Verdict verdict;

@@ -4,6 +4,7 @@
 #include "wall_fixture.h"
 
 #include "base/mathd.h"
+#include "panel/fit/panel_states.h"
 #include "review/engine/engine.h"
 #include "review/request/request_read.h"
 #include "review/review_decide.h"
@@ -22,7 +23,7 @@ static const char request_text[] =
     "'frames':{'size':[32,18],'noise':1,'worst':0},"
     "'privacy':{'security_min_s':0.5},"
     "'variants':{'dimmer':{'brightness':{'*':0.02}},"
-    "'shared':{'panels':{'cluster':'shared.panel'}}},"
+    "'shared':{'states':{'cluster':'shared'}}},"
     "'conditions':[{'name':'night','environment':{'type':'constant','luminance':1}},"
     "{'name':'bright','environment':{'type':'constant','luminance':90000}}]}";
 
@@ -33,7 +34,11 @@ static Review run_request(Arena *arena)
     const Profile *profile;
     Problems       problems = problems_start(arena);
     wall_write_files(request_text, *arena);
-    wall_copy(PROJECT_DIR "/assets/panels/hud_pgu.panel", "shared.panel", *arena);
+    static const PanelStateFile STATES[] = {
+        {"private", PROJECT_DIR "/assets/panels/ips_cluster.panel"},
+        {"shared", PROJECT_DIR "/assets/panels/hud_pgu.panel"}};
+    if (!panel_states_join(STATES, 2, in_folder("p.panel"), arena, why()))
+        fail_msg("%s", why()->text);
     if (!review_request_read(in_folder("r.json"), NULL, arena, &problems, &request, why()) ||
         !profile_load(request.profile, arena, &profile, why()))
         fail_msg("%s: %s", why()->path, why()->text);
@@ -131,8 +136,8 @@ static void assert_variant(const Review *review)
     assert_true(moved[0] < 0 && moved[1] > 0);
 }
 
-/* Two states of one display are two panel files, of which a variant has the other: it is judged
- * by what that one sends the driver, who reads it better. */
+/* Of two states of one panel file a variant has the other: it is judged by what that one sends
+ * the driver, who reads it better. */
 static void assert_states(const Review *review)
 {
     const ReviewVariantFound *shared = &review->variants[1];

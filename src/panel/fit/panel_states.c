@@ -83,8 +83,8 @@ bool panel_states_join(const PanelStateFile *states, int count, const char *path
     PanelHeader header;
     memcpy(&header, files[0].data, sizeof header);
     if (header.section_count + (uint32_t)count > PANEL_SECTIONS_MAX)
-        return error_at(err, ERROR_INPUT, states[0].path, "", "has %u sections, required: %d at "
-                        "most beside %d states", header.section_count,
+        return error_at(err, ERROR_INPUT, states[0].path, "", "has %u sections, required: %d "
+                        "at most beside %d states", header.section_count,
                         PANEL_SECTIONS_MAX - count, count);
     unsigned char *bytes = join(names, files, count, arena, &size);
     if (!bytes)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* panel_states.h -- panel files of one display, each in another state, become one file.
  *
- * The first is the file's own: who opens it without naming a state gets that one, with the bytes
- * of its sections as they were; the others lie behind it as they are (panel_file.h:
+ * The first is the file's own: who opens it without naming a state gets that one, with the
+ * bytes of its sections as they were; the others lie behind it as they are (panel_file.h:
  * PANEL_STATES).
  *
  * Memory   the arena's. Threads: one at a time.

@@ -28,8 +28,8 @@ bool panel_info_has_hulls(const Panel *panel);
 
 /* ---- states ---------------------------------------------------------------------------- */
 
-/* How many states the file has (panel_open.h); 0: one, without a name. Which of them this is, and
- * their names. */
+/* How many states the file has (panel_open.h); 0: one, without a name. Which of them this is,
+ * and their names. */
 int         panel_info_states(const Panel *panel, int *state);
 const char *panel_info_state_name(const Panel *panel, int i);
 

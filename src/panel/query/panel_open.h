@@ -13,8 +13,8 @@
 #include "base/error.h"
 #include "panel/query/panel.h"
 
-/* Opens and checks a .panel file (version, checksum, every offset). "X.panel#STATE" is that state
- * of X.panel, unless a file has that name; else a file of several states is its first. */
+/* Opens and checks a .panel file (version, checksum, every offset). "X.panel#STATE" is that
+ * state of X.panel, unless a file has that name; else a file of several states is its first. */
 bool panel_open(const char *path, Arena *arena, Panel **out, Error *err);
 
 #define PANEL_FILE_BYTES_MAX ((size_t)256 << 20)

@@ -76,8 +76,8 @@ static void add_place(Text *svg, const Plans *plans, const CasePlace *p, Arena *
     double x = PLAN * plan + 16 + plans->scale * (p->eye_m[0] - plans->low[0]);
     double y = 30 + plans->scale * (p->eye_m[2] - plans->low[1]);
     text_format(svg, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"6\" style=\"fill:var(--%s)\">"
-                "<title>%.2f, %.2f, %.2f m: %s", x, y, FILLS[p->verdict], p->eye_m[0], p->eye_m[1],
-                p->eye_m[2], verdict_names[p->verdict]);
+                "<title>%.2f, %.2f, %.2f m: %s", x, y, FILLS[p->verdict], p->eye_m[0],
+                p->eye_m[1], p->eye_m[2], verdict_names[p->verdict]);
     if (p->visible_share > 0)
         text_format(svg, ", S %s", words_within(privacy_s_of_contrast(p->contrast_ratio),
                                                 privacy_s_of_contrast(p->contrast_high),
@@ -95,7 +95,8 @@ const char *privacy_places_drawn(const ReviewCase *c, Arena *arena)
                 "which of the eye's places it can be read\">", PLAN * plans.count, PLAN + 8);
     for (int i = 0; i < plans.count && plans.count > 1; i++)
         text_format(&svg, "<text x=\"%.0f\" y=\"14\" "
-                    "style=\"font-size:11px;fill:currentColor\">y %.3g m</text>", PLAN * i + 10, plans.height_m[i]);
+                    "style=\"font-size:11px;fill:currentColor\">y %.3g m</text>", PLAN * i + 10,
+                    plans.height_m[i]);
     for (int rank = 0; rank <= verdict_rank(VERDICT_FAIL); rank++)
         for (int i = 0; i < c->place_count; i++)
             if (verdict_rank(c->places[i].verdict) == rank)

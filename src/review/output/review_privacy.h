@@ -17,9 +17,9 @@ typedef struct PrivacyFigures {
 
 PrivacyFigures privacy_figures(const ReviewCase *c);
 
-/* From where in an eye box or ellipse it can be read, as inline SVG: a plan of each height, seen
- * from above, x to the right and z down as the scene has them, the heights from the top on; of
- * more than nine heights one plan, those that can read it on top. NULL: it has one place. */
+/* From where in an eye box or ellipse it can be read, as inline SVG: a plan of each height,
+ * seen from above, x to the right and z down as the scene has them, the heights from the top
+ * on; of more than nine one plan, those that can read it on top. NULL: it has one place. */
 const char *privacy_places_drawn(const ReviewCase *c, Arena *arena);
 
 /* What review.json says of it: those figures, and what keeps it from being read. What is

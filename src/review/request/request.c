@@ -285,8 +285,9 @@ static bool has_same_sensors(const ReviewRequest *request, const ReviewVariant *
 bool review_variant_is_of_levels(const ReviewRequest *request, const ReviewVariant *variant)
 {
     const ReviewChange *c = &variant->change;
-    return !c->scene_count && !c->panel_count && !c->content_count && !variant->scene_count &&
-           !variant->more_count && !variant->eye_moves && has_same_sensors(request, variant);
+    return !c->scene_count && !c->panel_count && !c->state_count && !c->content_count &&
+           !variant->scene_count && !variant->more_count && !variant->eye_moves &&
+           has_same_sensors(request, variant);
 }
 
 bool review_is_compared(const ReviewRequest *request)
