@@ -297,6 +297,7 @@ bool profile_load(const char *name_or_path, Arena *arena, const Profile **out, E
                           : open_shipped(name_or_path, arena, &root, err);
     if (!ok) return false;
     Profile *profile = ARENA_NEW(arena, Profile, 1);
+    profile_format.start(profile);
     profile->id = arena_string(arena, name_or_path, strlen(name_or_path));
     profile->file_hash = root.hash;
     profile->security = security_of(SECURITY_OBSCURED, "assumed: from there on a picture is "

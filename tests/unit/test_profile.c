@@ -37,6 +37,7 @@ ARENA_TEST(every_profile_loads_and_says_where_it_was_read)
         assert_string_equal(p->id, NAMES[i]);
         assert_true(p->title[0] && p->edition[0] && p->ambient_source[0]);
         assert_true(p->limit_count > 0 || p->fact_count > 0);
+        assert_true(isnan(p->increment_most_pct)); /* a house's own: none was read */
         for (int k = 0; k < p->limit_count; k++) {
             const ProfileLimit *l = &p->limits[k];
             assert_true(l->source[0] && l->name[0] && l->value > 0);
@@ -107,13 +108,14 @@ static const char *write_profile(const char *text)
 ARENA_TEST(a_house_has_its_own)
 {
     const Profile *p = load(
-        write_profile("{" HEAD ", \"veil\": true, \"limits\": ["
+        write_profile("{" HEAD ", \"veil\": true, \"threshold_increment_max_pct\": 15, "
+                      "\"limits\": ["
                       "{\"ambient\": [\"day\", \"sun\"], " CONTRAST "\"value\": 4, " READ "},"
                       "{\"ambient\": \"any\", \"kind\": \"stroke_ratio\", \"unit\": \"1\", "
                       "\"value\": 0.2, \"bound\": \"most\", \"advice\": true, " READ "}],"
                       "\"facts\": [{\"name\": \"n\", \"value\": -3, \"unit\": \"lx\", " READ
                       "}]}"), &arena);
-    assert_true(p->uses_veil);
+    assert_true(p->uses_veil && p->increment_most_pct == 15);
     assert_string_equal(p->title, "Our cars");
     assert_int_equal(p->limit_count, 2);
     assert_string_equal(p->limits[0].name, "contrast ratio, day, sun");
@@ -138,6 +140,8 @@ static const Wrong WRONG[] = {
     {"{" HEAD ", \"limits\": [7]}", "/limits/0", "is a number, required: an object"},
     {"{" HEAD ", \"limits\": [], \"veil\": \"yes\"}", "/veil",
      "is a text, required: true or false"},
+    {"{" HEAD ", \"limits\": [], \"threshold_increment_max_pct\": 0}",
+     "/threshold_increment_max_pct", "is 0, required: a number above 0"},
     {"{\"edition\": \"7\", \"limits\": []}", "", "key 'title' is missing"},
     {"{\"title\": \"\", \"edition\": \"7\", \"limits\": []}", "/title", "is an empty text"},
     {"{\"title\": 4, \"edition\": \"7\"}", "/title", "is a number, required: a text"},
