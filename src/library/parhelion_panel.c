@@ -14,6 +14,7 @@
 #include "panel/query/panel_open.h"
 #include "panel/query/panel_place.h"
 #include "panel/query/panel_reflection.h"
+#include "panel/query/panel_zones.h"
 #include "spectrum/spectral_table.h"
 
 struct ParhelionPanel { /* lies in its own arena */
@@ -98,7 +99,8 @@ static uint32_t flags_of(const Panel *panel)
            (panel_info_azimuths(panel, phi) > 1 ? PARHELION_PANEL_ANISOTROPIC : 0) |
            (panel_varies(panel) ? PARHELION_PANEL_VARIES : 0) |
            (panel_polarisation(panel).degree > 0 ? PARHELION_PANEL_POLARISED : 0) |
-           (panel_subpixels(panel).layout ? PARHELION_PANEL_HAS_SUBPIXELS : 0);
+           (panel_subpixels(panel).layout ? PARHELION_PANEL_HAS_SUBPIXELS : 0) |
+           (panel_zones(panel) ? PARHELION_PANEL_HAS_ZONES : 0);
 }
 
 static void add_emission(const Panel *panel, ParhelionPanelInfo *info)

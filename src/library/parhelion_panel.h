@@ -97,6 +97,8 @@ PARHELION_PANEL_API void parhelion_panel_close(ParhelionPanel *panel); /* NULL i
 #define PARHELION_PANEL_VARIES 16u         /* not the same at every place */
 #define PARHELION_PANEL_POLARISED 32u
 #define PARHELION_PANEL_HAS_SUBPIXELS 64u
+#define PARHELION_PANEL_HAS_ZONES 128u     /* local dimming: all answers are of a backlight that
+                                              is full; what a picture makes of it is not told */
 
 /* Numbers of what is absent are 0. */
 typedef struct ParhelionPanelInfo {

@@ -29,7 +29,7 @@ import numpy
 __all__ = ["Panel", "PanelError", "version"]
 
 FLAGS = ("emits", "reflects", "has_mirror", "is_anisotropic", "varies", "is_polarised",
-         "has_subpixels")
+         "has_subpixels", "has_zones")
 LISTS = ("red_levels", "green_levels", "blue_levels", "wavelengths", "incidences", "azimuths",
          "spots")
 LAYOUTS = (None, "stripe", "pentile")

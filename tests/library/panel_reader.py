@@ -17,7 +17,7 @@ def sections_of(data):
     if data[:8] != b"PHPANEL\n":
         raise ValueError("no panel file")
     version, flags, _, size, count, _ = struct.unpack_from("<IIQQII", data, 8)
-    if version not in (3, 4, 5) or flags or size != len(data):
+    if version not in (3, 4, 5, 6) or flags or size != len(data):
         raise ValueError("a panel file that this page does not tell of")
     found = {}
     for i in range(count):

@@ -130,6 +130,35 @@ static const DimmingZones *shapes(int i)
     return i < 5 ? &all[i] : NULL;
 }
 
+static long folded(long i, long count)
+{
+    long at = ((i % (2 * count)) + 2 * count) % (2 * count);
+    return at < count ? at : 2 * count - 1 - at;
+}
+
+/* The sum as it stands in backlight.h: over all zones, their images in the walls too. */
+static double backlight_sum(const DimmingZones *zones, const double *drive,
+                            const double place[2])
+{
+    double light = 0, full = 0, pitch[2];
+    long   far[2];
+    for (int k = 0; k < 2; k++) {
+        double most = zones->sigma_mm > 0 ? 6 * fmin(zones->sigma_mm, 200) : 30;
+        pitch[k] = zones->size_mm[k] / zones->count[k];
+        far[k] = (long)(most / pitch[k]) + 2;
+    }
+    for (long y = -far[1]; y < zones->count[1] + far[1]; y++)
+        for (long x = -far[0]; x < zones->count[0] + far[0]; x++) {
+            double dx = ((double)x + 0.5) * pitch[0] - place[0] * zones->size_mm[0];
+            double dy = ((double)y + 0.5) * pitch[1] - place[1] * zones->size_mm[1];
+            double one = dimming_zones_spread(zones, sqrt(dx * dx + dy * dy));
+            light += one * drive[folded(y, zones->count[1]) * zones->count[0] +
+                                 folded(x, zones->count[0])];
+            full += one;
+        }
+    return light / full;
+}
+
 TEST(map_is_the_sum_within_a_percent)
 {
     const Patch lit = {{0.1f, 0.3f}, {0.36f, 0.62f}, 200, 0};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* panel_zones.h -- a panel's local dimming, and what its drives follow. All other queries answer
- * for a full backlight, as it was measured; backlight.h says what a picture makes of it.
+/* panel_zones.h -- a panel's local dimming, and what its drives follow. All other queries
+ * answer for a full backlight, as it was measured; backlight.h says what a picture makes of it.
  *
  * Threads  any number. Fails: never, but for opening.
  */

@@ -14,8 +14,8 @@ static const RecordRow SPREAD[] = {
     NUMBER("sigma_mm", RECORD_OPEN, sigma_mm, 0.01, 1e6,
            "Standard deviation of a Gaussian, mm."),
     NUMBERS("radius_mm", 0, spread.at, spread.rows, ZONE_ROWS_MAX, 0, 1e5,
-            "Of a table: distances from the zone's middle that rise from 0, mm; behind the last "
-            "there is no light."),
+            "Of a table: distances from the zone's middle that rise from 0, mm; behind the "
+            "last there is no light."),
     NUMBERS("value", 0, spread.value, spread.values, ZONE_ROWS_MAX, 0, 1e9,
             "Light there, relative; as many as of radius_mm."),
     {0}};
@@ -31,7 +31,7 @@ static const RecordRow DRIVE[] = {
            "What of a zone's pixels decides: the largest light of any primary at any pixel, or "
            "the mean over pixels of each one's largest."),
     NUMBERS("codes", 0, drive.at, drive.rows, ZONE_ROWS_MAX, 0, 255,
-            "Of a table: codes that rise. Then the rule is over codes in place of their light."),
+            "Of a table: codes that rise; the rule is then over codes, not over their light."),
     NUMBERS("drives", 0, drive.value, drive.values, ZONE_ROWS_MAX, 0, 1,
             "The zone's drive at those codes, a share of full; straight lines between."),
     NUMBER("least", 0, least, 0, 1, "Drive of any zone, also of a black one."),
@@ -39,7 +39,8 @@ static const RecordRow DRIVE[] = {
 static const RecordFormat drive_format = {
     "drive", sizeof(OWNER), DRIVE,
     .rules = "{'dependentRequired': {'codes': ['drives'], 'drives': ['codes']}, "
-             "'allOf': [{'properties': {'codes': {'minItems': 2}, 'drives': {'minItems': 2}}}]}",
+             "'allOf': [{'properties': {'codes': {'minItems': 2}, "
+             "'drives': {'minItems': 2}}}]}",
     .doc = "How a zone follows the picture. Without codes its drive is the light itself."};
 
 static const RecordRow DIMMING[] = {
@@ -61,8 +62,8 @@ bool dimming_keys_check(const JsonView *root, const double size_mm[2], DimmingZo
 {
     const char *key, *fault;
     if (!(size_mm[0] > 0 && size_mm[1] > 0))
-        return record_fails(root, "local_dimming", err, "is there, but not 'size_mm': the light "
-                                                        "of a zone spreads over millimetres");
+        return record_fails(root, "local_dimming", err, "is there, but not 'size_mm': the "
+                            "light of a zone spreads over millimetres");
     for (int k = 0; k < 2; k++) zones->size_mm[k] = size_mm[k];
     fault = dimming_zones_fault(zones, &key);
     if (!fault) return true;

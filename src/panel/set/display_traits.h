@@ -29,10 +29,10 @@ typedef struct DisplayTraits {
     {"subpixels", RECORD_OBJECT, RECORD_AT(Type, member), .of = &subpixels_format,             \
      .count = offsetof(Type, member.has_subpixels),                                            \
      .doc = "How each pixel is divided. Absent: the light is even."},                          \
-    {"local_dimming", RECORD_OBJECT, RECORD_AT(Type, member.zones), .of = &dimming_format,      \
+    {"local_dimming", RECORD_OBJECT, RECORD_AT(Type, member.zones), .of = &dimming_format,     \
      .count = offsetof(Type, member.has_zones),                                                \
-     .doc = "A backlight of zones that follow the picture; needs size_mm. Absent: it is one, " \
-            "always full."}
+     .doc = "A backlight of zones that follow the picture; needs size_mm. Absent: it is "      \
+            "one, always full."}
 extern const RecordFormat polarisation_format, subpixels_format; /* of a DisplayTraits */
 
 /* What rows cannot say, once they are read. pixels: the display's columns and rows as its key

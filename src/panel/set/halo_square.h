@@ -2,7 +2,8 @@
 /* halo_square.h -- what the zones of a panel make of a test picture: a white square on black in
  * the middle of the display.
  *
- * Units    mm on the panel, cd m^-2. Memory: the arena's. Threads: const once made. Fails: never.
+ * Units    mm on the panel, cd m^-2. Memory: the arena's. Threads: const once made.
+ * Fails    never.
  */
 #pragma once
 #include "base/vec.h"

@@ -304,7 +304,8 @@ static void start(void *item)
 {
     Manifest *manifest = item;
     *manifest = (Manifest){.set = {.panel = "", .instrument = "", .date = "",
-        .operator_name = "", .conditions = "", .note = "", .traits = {.fill = 1, .zones.compensates = true}}};
+        .operator_name = "", .conditions = "", .note = "", 
+        .traits = {.fill = 1, .zones.compensates = true}}};
 }
 
 /* Keys that say something of the emitted light; two of them in place of its spectra. */

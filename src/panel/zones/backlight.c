@@ -50,30 +50,6 @@ static double half_width(const DimmingZones *zones)
     return mm;
 }
 
-/* ---- at one place ------------------------------------------------------------------------ */
-
-double backlight_sum(const DimmingZones *zones, const double *drive, const double place[2])
-{
-    double at[2], light = 0, full = 0;
-    long   near[2];
-    int    reaches[2];
-    for (int k = 0; k < 2; k++) {
-        at[k] = place[k] * zones->count[k] - 0.5;
-        near[k] = lround(at[k]);
-        reaches[k] = reach(zones, k);
-    }
-    for (long y = near[1] - reaches[1]; y <= near[1] + reaches[1]; y++)
-        for (long x = near[0] - reaches[0]; x <= near[0] + reaches[0]; x++) {
-            double dx = ((double)x - at[0]) * pitch(zones, 0);
-            double dy = ((double)y - at[1]) * pitch(zones, 1);
-            double one = dimming_zones_spread(zones, sqrt(dx * dx + dy * dy));
-            long   row = folded(y, zones->count[1]), column = folded(x, zones->count[0]);
-            light += one * drive[row * zones->count[0] + column];
-            full += one;
-        }
-    return full > 0 ? light / full : 0;
-}
-
 /* ---- the map ----------------------------------------------------------------------------- */
 
 /* A map while it is made. */

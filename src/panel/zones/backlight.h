@@ -29,20 +29,7 @@
  */
 #pragma once
 #include "base/arena.h"
-#include "panel/zones/dimming_zones.h"
-
-/* Light of a primary at whole codes along the normal, over that at 255: it never falls, is 0 at
- * 0 and 1 at 255. */
-typedef struct LevelShares {
-    float share[3][256];
-} LevelShares;
-
-/* A picture as a display shows it: codes 0 to 255 at a place, and how fine it is. */
-typedef struct ShownPicture {
-    int   columns, rows; /* pixels over the active area, at least 1 */
-    void (*codes)(const void *user, const float place[2], float codes[3]);
-    const void *user;
-} ShownPicture;
+#include "panel/zones/zone_drives.h"
 
 typedef struct Backlight {
     int          width, height; /* samples, evenly over the active area */
@@ -56,18 +43,6 @@ typedef struct Backlight {
 } Backlight;
 
 #define BACKLIGHT_DARK 1e-6f /* the least b that is kept */
-
-/* Share of its full light that a primary shows at a code, whole or not. */
-double level_share_at(const LevelShares *levels, int primary, double code);
-
-/* Each zone's drive for a picture: by the largest share of the three primaries (or, with a
- * table, their largest code), of all pixels in the zone: the maximum or the mean; no less than
- * `least`. drive: room for all zones. Returns their mean. */
-double backlight_drives(const DimmingZones *zones, const LevelShares *levels,
-                        const ShownPicture *picture, double *drive);
-
-/* b at a place by the sum as it stands: slow, for tests and figures at single places. */
-double backlight_sum(const DimmingZones *zones, const double *drive, const double place[2]);
 
 /* Makes the map: fine enough that bilinear between its samples (of a Gaussian's ln b, of a
  * table's b) it is the sum within 1 % of it and 0.0001 of full, unless a wide table over many

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Drives of zones: what a controller makes of a picture. */
+#include "panel/zones/zone_drives.h"
+
 #include <math.h>
+#include <stddef.h>
 
 #include "base/mathd.h"
-#include "panel/zones/backlight.h"
 
 double level_share_at(const LevelShares *levels, int primary, double code)
 {

@@ -114,7 +114,8 @@ static void draw_map(Canvas *canvas, Box box, const PanelChart *shown, PanelChar
     draw_zone_lines(canvas, area, zones);
     Box     bar = {area.x + area.w + 12, area.y, 12, area.h};
     Letters letters = {.size = SIZE_TICK, .ink = canvas->theme.soft};
-    canvas_image(canvas, bar, &(CanvasRaster){1, 64, CAIRO_FORMAT_ARGB32, true, scale_at, NULL});
+    canvas_image(canvas, bar, &(CanvasRaster){1, 64, CAIRO_FORMAT_ARGB32, true, scale_at,
+                                              NULL});
     canvas_text(canvas, bar.x + bar.w + 5, bar.y, letters, "full");
     letters.down = 0.5;
     canvas_text(canvas, bar.x + bar.w + 5, bar.y + 0.5 * bar.h, letters, "1 %");
@@ -135,8 +136,8 @@ static void add_halo(PanelChartList *list, const PlotData *s)
         figure_text(100 * halo.black_drive, text[2]));
     panel_chart_add(list, &(PanelChart){PLOT_HALO, "Halo beside a square", subtitle,
         "What black shines beside a white square, along azimuth 45° at three angles from the "
-        "normal: the black that was measured there, times the backlight that the square's zones "
-        "leave at that distance.", draw_curves, s, 0, SHEET_ALWAYS, false});
+        "normal: the black that was measured there, times the backlight that the square's "
+        "zones leave at that distance.", draw_curves, s, 0, SHEET_ALWAYS, false});
     panel_chart_add(list, &(PanelChart){PLOT_HALO, "Backlight around a square", subtitle,
         "The backlight over full for the same picture, as someone facing the display sees it; "
         "thin lines part the zones.", draw_map, s, 0, SHEET_NEVER, false});

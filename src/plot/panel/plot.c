@@ -71,8 +71,8 @@ static bool fails_empty(const PlotData *s, PlotKind kind, Error *err)
         return error_at(err, ERROR_INPUT, file, "", "is the same everywhere: its set had "
                         "neither 'spots' nor 'uniformity'");
     if (kind == PLOT_HALO)
-        return error_at(err, ERROR_INPUT, file, "", "has one backlight that is always full: its "
-                        "set had no 'local_dimming'");
+        return error_at(err, ERROR_INPUT, file, "", "has one backlight that is always full: "
+                        "its set had no 'local_dimming'");
     if (kind == PLOT_CONTRAST)
         return error_at(err, ERROR_INPUT, file, "", "its black emits nothing, so there is no "
                         "contrast ratio to draw in the dark; --ambient LUX draws one in the "

@@ -545,7 +545,6 @@ bool review_run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *ou
     sun_searches_end(&searches);
     if (!ok || run->share.count) return ok;
     if (!run->base) add_notes(run, &out->review, arena);
-    if (!run->base) add_notes(run->request, run->profile, &out->review, arena);
     review_decide(&out->review);
     return true;
 }
