@@ -215,6 +215,8 @@ run 'verdicts whose truth is known' verdicts claim \
     python3 tests/bench/verdicts.py .build/release --rooms open,window --trials 200
 run 'verdicts on increments' roads claim \
     python3 tests/bench/roads.py .build/release --trials 40 --rooms cabin,street
+run 'verdicts of what must not be read' verdicts-private claim \
+    python3 tests/bench/verdicts.py .build/release --rooms open --trials 100 --private
 of "$review scenes tests/slurm tests/image"
 run 'a review shared in a job' review-job python3 tests/slurm/review_job.py $program
 of "$render scenes tests/slurm tests/image"

@@ -22,7 +22,7 @@ set(panel_library_sources src/library/parhelion_panel.c src/library/open_panel.c
   src/panel/shape/panel_profiles.c src/panel/shape/panel_spline.c
   src/panel/shape/spectral_warp.c src/panel/shape/spot_ground.c)
 foreach(file components emission grid info open open_emission open_reflection
-    place reflection sampling section)
+    place reflection sampling section zones)
   list(APPEND panel_library_sources src/panel/query/panel_${file}.c)
 endforeach()
 list(APPEND panel_library_sources src/panel/query/sampling_make.c)
