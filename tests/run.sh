@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # run.sh -- the tests of every day, in less than twelve minutes on two processors. tests/long.sh
 # has the rest: what is slow, what one room alone can break, every guide, the sanitizers.
-# Installs what is missing, builds, and ends with one line: "N passed, N failed".
+# Installs what is missing, builds, and ends with one line: "N passed, N failed"; the steps
+# stand in .build/logs/junit.xml, too.
 cd "$(dirname "$0")/.." || exit 1
 sh third_party/install.sh --tests || exit 1
 . tests/steps.sh

@@ -4,6 +4,7 @@
 # shellcheck shell=sh
 logs=.build/logs
 total_passed=0 total_failed=0 total_skipped=0
+rm -f .build/logs/junit.*
 unset PYTHONDONTWRITEBYTECODE
 export PYTHONPYCACHEPREFIX="$PWD/.build/pycache"
 mkdir -p $logs
@@ -37,6 +38,16 @@ processor_seconds()
                    print int(60 * (own[1] + of_system[1]) + own[2] + of_system[2]) }' "$1"
 }
 
+# junit_case NAME LOG SECONDS FAILED: one case of .build/logs/junit.xml, for what shows runs as
+# tables
+junit_case()
+{
+    name_in_xml=$(echo "$1" | sed 's/&/\&amp;/g; s/</\&lt;/g; s/"/\&quot;/g')
+    echo "<testcase classname=\"steps\" name=\"$name_in_xml\" time=\"$3\">"
+    [ "$4" = 0 ] || echo "<failure message=\"$4 failed: $logs/$2.log\"/>"
+    echo '</testcase>'
+}
+
 # report NAME LOG STATUS TIME PASSED FAILED SKIPPED: prints the step's line and adds it up.
 # A step that fails without having counted a failure counts as one.
 report()
@@ -49,6 +60,8 @@ report()
     line=$(printf '%-38s %5d passed %4d failed' "$1" "$5" "$failed")
     [ "$7" = 0 ] || line="$line $7 skipped"
     echo "$line  ($4)"
+    took=${4#kept, }
+    junit_case "$1" "$2" "${took%% *}" "$failed" >>$logs/junit.cases
     [ "$failed" = 0 ] || {
         grep -h '^FAILED\|\[  FAILED  \]\|error:\|ERROR:\|WARNING: Thread' "$logs/$2.log" |
             head -n 12 | sed 's/^/    /'
@@ -266,6 +279,8 @@ build()
 finish()
 {
     [ "$mode" != list ] || exit 0
+    { echo '<testsuite name="steps">' && cat $logs/junit.cases && echo '</testsuite>'; } \
+        >$logs/junit.xml
     [ $total_skipped = 0 ] || echo "$total_skipped skipped: see the lines above"
     echo "$total_passed passed, $total_failed failed"
     [ $total_failed = 0 ] || exit 1

@@ -8,6 +8,7 @@ import re
 import shutil
 import subprocess
 import tempfile
+import xml.etree.ElementTree as ElementTree
 
 from layers import allowed_includes
 from report import ROOT, Report, read
@@ -45,7 +46,7 @@ SCRIPT_OF_STEPS = (
     'of src\n'
     'run one one sh src/one.sh\n'
     "of 'shaders scenes/'\n"
-    'start two two sh shaders/two.sh\n'
+    "start 'two & <more>' two sh shaders/two.sh\n"
     "start three three sh -c 'sleep 0.3; echo 3 passed, 0 failed'\n"
     'gather\n'
     "needs 'native all'\n"
@@ -95,8 +96,18 @@ class Steps:
         for line in done.stdout.splitlines():
             words = line.split(None, 1)
             if words[0] in ("one", "two", "three", "four"):
-                said[words[0]] = re.sub(r" +", " ", words[1])
+                said[words[0]] = re.sub(r" +", " ", words[1]).removeprefix("& <more> ")
         return said, done.stdout.splitlines()[-1] if done.stdout else "", done.returncode
+
+
+def check_junit(report, folder):
+    cases = ElementTree.parse(os.path.join(folder, ".build/logs/junit.xml")).getroot()
+    found = [(case.get("name"), case.find("failure") is not None) for case in cases]
+    report.claim(sorted(found) == [("build: native all", False), ("four", True), ("one", False),
+                                   ("three", False), ("two & <more>", False)],
+                 f"JUnit: {found}")
+    report.claim(all(case.get("time").isdigit() for case in cases),
+                 "JUnit: a time is no number")
 
 
 def check_running(report):
@@ -104,6 +115,7 @@ def check_running(report):
         steps = Steps(folder)
         said, count, status = steps.run()
         report.claim(count == "7 passed, 1 failed" and status == 1, f"first run: {count}")
+        check_junit(report, folder)
         report.claim(said.get("four", "").startswith("0 passed 1 failed"),
                      f"a step before which something was built: {said}")
         report.claim(re.match(r"2 passed 0 failed 1 skipped \(\d+ s,", said["two"]),
@@ -112,6 +124,7 @@ def check_running(report):
         kept = [name for name, words in said.items() if "kept" in words]
         report.claim(kept == ["one", "two", "three"] and count == "7 passed, 1 failed",
                      f"kept: {said}, {count}")
+        check_junit(report, folder)
         steps.write("shaders/two.sh", "echo 5 passed, 0 failed")
         said, _, _ = steps.run("--list")
         report.claim([words.split(",")[0] for words in said.values()] ==
