@@ -4,8 +4,8 @@
 
     python3 scenes/model_passenger.py
 
-Needs numpy; no Blender. An overlay to be named beside car_dashboard.gltf: a display of 12 inches
-that stands before the pad on the passenger's side, and shows what the centre display shows.
+Needs numpy; no Blender. An overlay to be named beside car_dashboard.gltf: a display of 12
+inches that stands before the pad on the passenger's side, and shows what the centre one shows.
 """
 import os
 import sys

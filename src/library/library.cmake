@@ -25,7 +25,8 @@ foreach(file components emission grid info open open_emission open_reflection
     place reflection sampling section zones)
   list(APPEND panel_library_sources src/panel/query/panel_${file}.c)
 endforeach()
-list(APPEND panel_library_sources src/panel/query/sampling_make.c)
+list(APPEND panel_library_sources src/panel/query/sampling_make.c
+  src/panel/zones/dimming_zones.c)
 
 add_library(parhelion_panel SHARED ${panel_library_sources})
 set_target_properties(parhelion_panel PROPERTIES OUTPUT_NAME parhelion-panel

@@ -37,7 +37,7 @@ static RoadReading read_road(const Roads *r, unsigned seed, Arena *room)
 {
     RoadAges    ages = road_ages(r->request, r->road, room);
     RoadReading out = road_reading_start(ages.count, r->setup->scene->display_count, room);
-    EyeLook     look = {r->eye, r->towards, ROUNDS, NULL,
+    EyeLook     look = {r->eye, r->towards, ROUNDS, NULL, false,
                         road_veils_start(r->setup->scene, &ages, room)};
     r->request->seed = seed;
     eye_read(r->setup, &look, *room);

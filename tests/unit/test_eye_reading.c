@@ -296,7 +296,7 @@ TEST(veils_are_a_line_over_aging)
     for (int i = 0; i < 3; i++) {
         request.observer.age_years = ages[i];
         aging[i] = eye_spread_aging(ages[i]);
-        veil[i] = read_look(&world, (EyeLook){vec3(0, 0, 0), at, 2, NULL, true}).veil;
+        veil[i] = read_look(&world, (EyeLook){vec3(0, 0, 0), at, 2, NULL, true, NULL}).veil;
     }
     request.observer = before;
     double share = (aging[1] - aging[0]) / (aging[2] - aging[0]);
@@ -327,7 +327,7 @@ TEST(a_close_reading_knows_what_is_looked_at)
     builder_part(world.scene, builder_lamp((float)cd_m2));
     builder_quad(world.scene, at, vec3((float)half, 0, 0), vec3(0, (float)half, 0));
     double     wanted = veil_of_square(half, cd_m2);
-    EyeReading close = read_look(&world, (EyeLook){vec3(0, 0, 0), at, 4, NULL, true});
+    EyeReading close = read_look(&world, (EyeLook){vec3(0, 0, 0), at, 4, NULL, true, NULL});
     EyeReading plain = read_towards(&world, at, 4);
     assert_close(close.veil, wanted, 0.002);
     assert_true(close.veil_range.low < wanted && wanted < close.veil_range.high);
@@ -345,7 +345,7 @@ TEST(a_close_reading_leaves_the_rest_alone)
     world.scene->lights[world.scene->light_count++] =
         (PunctualLight){.name = "lamp", .kind = LIGHT_POINT, .position = at_angle(2),
                         .intensity = {30, 30, 30}, .level = 1};
-    EyeReading close = read_look(&world, (EyeLook){vec3(0, 0, 0), at, 2, NULL, true});
+    EyeReading close = read_look(&world, (EyeLook){vec3(0, 0, 0), at, 2, NULL, true, NULL});
     EyeReading plain = read_towards(&world, at, 2);
     assert_close(close.veil, plain.veil, 1e-12);
     assert_true(close.veil > 0);

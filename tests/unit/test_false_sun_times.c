@@ -13,7 +13,7 @@
 static const double sun_lx = 30000; /* less than any sun above 10 degrees gives */
 
 static bool          looks[] = {true};
-static ReviewGaze    gaze = {"road", false, {0, 0, -1}, looks};
+static ReviewGaze    gaze = {.name = "road", .direction = {0, 0, -1}, .for_eye = looks};
 static ReviewEye     eye = {.name = "driver", .kind = EYE_POINT};
 static const double  heading = HEADING_DEG;
 static ReviewRequest request = {.forward = {0, 0, -1}, .eyes = &eye, .eye_count = 1,

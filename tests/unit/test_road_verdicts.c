@@ -52,7 +52,7 @@ static RoadReading read_road(const Setup *setup, Arena *arena)
 {
     RoadAges    ages = road_ages(&request, &road, arena);
     RoadReading found = road_reading_start(1, 0, arena);
-    EyeLook     look = {vec3(0, 0, 0), vec3(0, 0, -1), ROUNDS, NULL,
+    EyeLook     look = {vec3(0, 0, 0), vec3(0, 0, -1), ROUNDS, NULL, false,
                         road_veils_start(setup->scene, &ages, arena)};
     eye_read(setup, &look, *arena);
     road_veils_read(look.road, &found);

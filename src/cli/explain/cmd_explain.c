@@ -20,7 +20,7 @@
 #include "cli/render/render_setup.h"
 #include "review/chain/outlook.h"
 #include "review/output/ray_file.h"
-#include "review/output/review_json.h"
+#include "review/output/case_json.h"
 #include "review/output/review_words.h"
 #include "review/request/request_check.h"
 #include "review/request/request_read.h"
@@ -328,14 +328,14 @@ static bool print_json(const Explained *explained, Error *err)
         json_figure(c->contrast_ratio), "contrast_interval", json_figure(c->contrast_low),
         json_figure(c->contrast_high), "paths", (json_int_t)explained->paths);
     json_object_set_new(out, "visible_share", json_figure(c->visible_share));
-    review_whole_json(c, out);
-    json_object_set_new(out, "hidden_by", review_hiders_json(c));
+    case_whole_json(c, out);
+    json_object_set_new(out, "hidden_by", case_hiders_json(c));
     json_object_set_new(out, "reflected_interval",
                         json_pack("[o,o]", json_figure(c->reflected_range.low),
                                   json_figure(c->reflected_range.high)));
-    json_object_set_new(out, "cause_groups", review_groups_json(c));
+    json_object_set_new(out, "cause_groups", case_groups_json(c));
     json_object_set_new(out, "chains", json_chains(c));
-    json_object_set_new(out, "remedies", review_remedies_json(c));
+    json_object_set_new(out, "remedies", case_remedies_json(c));
     json_object_set_new(out, "outlook", json_outlook(explained));
     return cli_print_json(out, err);
 }

@@ -243,8 +243,7 @@ static double veil_of(const Remedying *m)
  * reflected. */
 static bool is_of_level(const Remedying *m)
 {
-    const char *kind = m->c->limits[m->limit].kind;
-    return limit_kind_named(kind) == LIMIT_VISIBILITY_LEVEL;
+    return limit_kind_named(m->c->limits[m->limit].kind) == LIMIT_VISIBILITY_LEVEL;
 }
 
 typedef ReviewCase JudgedBy(const Remedying *m, double factor);
@@ -519,9 +518,8 @@ static void add_panel(Remedying *m)
     const CaseLuminances *l = &m->c->luminance_cd_m2;
     double doubt = doubt_of(m), share;
     if (limit_wants_less(&m->c->limits[m->limit])) return;
+    share = (reflected_at(l, ratio_needed(m)) - veil_of(m)) / (l->reflected + 2 * doubt);
     if (is_of_level(m)) share = factor_by(m, judged_reflecting, PANEL_LEAST);
-    else
-        share = (reflected_at(l, ratio_needed(m)) - veil_of(m)) / (l->reflected + 2 * doubt);
     for (int i = 0; i < TRIES && share > PANEL_LEAST && share < 1; i++) {
         double     factor = rounded_out(share);
         ReviewCase sure = judged_reflecting(m, factor);

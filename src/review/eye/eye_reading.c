@@ -21,6 +21,7 @@
 #define SHIFT_SEED 0x73686966u
 #define FROM_DEG 0.1 /* nearer is looked at */
 #define TO_DEG 89.9
+#define BY_SPREAD (-1.0) /* no age of a road's veil */
 #define IMAGES_APART 2 /* roots of what a path stands for: its neighbours are nearer */
 #define UPRIGHT 0.9999f /* |y| of a unit direction: above it the head has no top */
 
@@ -172,8 +173,6 @@ static bool is_close(const EyePaths *paths, Vec3 towards)
 {
     return paths->close_deg > 0 && degrees_between(towards, paths->gaze) < paths->close_deg;
 }
-
-#define BY_SPREAD (-1.0) /* no age of a road's veil */
 
 static double veil_at_age(const EyePaths *paths, Vec3 towards, double lux, double age)
 {

@@ -5,7 +5,8 @@
 #include <string.h>
 
 #include "base/count.h"
-#include "record/record_write.h"
+#include "review/output/case_json.h"
+#include "review/output/json_rows.h"
 #include "review/output/review_facts.h"
 #include "review/output/review_privacy.h"
 #include "review/pane_verdict.h"
@@ -19,271 +20,7 @@
 
 /* ---- which keys hold which members ------------------------------------------------------- */
 
-#define MUST RECORD_REQUIRED /* else older reviews may lack it */
-
-/* A member under a key, and under its own name; one that older reviews may lack. */
-#define AS_FIGURE(key, flag, Type, member)                                                     \
-    {key, RECORD_NUMBER, RECORD_NULL | (flag), RECORD_AT(Type, member),                        \
-     RECORD_RANGE(-HUGE_VAL, HUGE_VAL)}
-#define AS_TEXT(key, flag, Type, member)                                                       \
-    {key, RECORD_TEXT, RECORD_NULL | (flag), RECORD_AT(Type, member)}
-#define AS_RANGE(key, flag, Type, member)                                                      \
-    {key, RECORD_NUMBERS, RECORD_NULL | (flag), RECORD_AT(Type, member),                       \
-     RECORD_RANGE(-HUGE_VAL, HUGE_VAL), RECORD_COUNT(2, 2)}
-#define AS_FLAG(key, flag, Type, member) {key, RECORD_FLAG, flag, RECORD_AT(Type, member)}
-#define AS_COUNT(key, flag, Type, member)                                                      \
-    {key, RECORD_INTEGER, RECORD_LONG | (flag), RECORD_AT(Type, member), RECORD_RANGE(0, 1e18)}
-#define AS_WORD(key, flag, Type, member, list)                                                 \
-    {key, RECORD_CHOICE, flag, RECORD_AT(Type, member), .words = list}
-#define AS_AMBIENT(key, flag, Type, member) AS_WORD(key, flag, Type, member, ambient_names)
-#define AS_REASON(key, flag, Type, member)                                                     \
-    AS_WORD(key, RECORD_NULL | (flag), Type, member, unjudged_names + 1)
-#define AS_OPEN(key, flag, Type, member)                                                       \
-    AS_WORD(key, RECORD_NULL | (flag), Type, member, open_names + 1)
-#define AS_VERDICT(key, flag, Type, member)                                                    \
-    {key, RECORD_CHOICE, flag, RECORD_AT(Type, member), .words = verdict_names,                \
-     .read = read_verdict}
-#define AS(key, KIND, Type, member) AS_##KIND(key, MUST, Type, member)
-#define LATER(key, KIND, Type, member) AS_##KIND(key, 0, Type, member)
-#define OWN(KIND, Type, member) AS(#member, KIND, Type, member)
-#define LIST(key, flag, Type, member, number, table)                                           \
-    {key, RECORD_LIST, flag, RECORD_MANY(Type, member, number), .of = &table}
-#define PART(key, flag, Type, member, table)                                                   \
-    {key, RECORD_OBJECT, flag, RECORD_AT(Type, member), .of = &table}
-#define TOLD(key, flag, function) {key, RECORD_OWN, RECORD_WRITTEN | (flag), .write = function}
-
-/* The rows of a struct, and what reads and writes them. */
-#define TABLE(name, Type, ...)                                                                 \
-    static const RecordRow    name##_rows[] = {__VA_ARGS__, {0}};                              \
-    static const RecordFormat name = {#name, sizeof(Type), name##_rows, .takes_more = true}
-
-/* Reviews before there were four outcomes call one of them otherwise. */
-static bool read_verdict(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    const char *word = json_string_value(json_object_get(view->object, row->key));
-    if (!word || strcmp(word, "not visible") != 0)
-        return record_read_kind(view, row, item, err);
-    *(Verdict *)(void *)((char *)item + row->offset) = VERDICT_UNJUDGED;
-    return true;
-}
-
-static json_t *write_age(const void *item)
-{
-    double age = ((const LimitVerdict *)item)->age_years;
-    return age > 0 ? json_real(age) : json_null();
-}
-
-TABLE(limit_json, LimitVerdict,
-    OWN(TEXT, LimitVerdict, name), OWN(TEXT, LimitVerdict, kind),
-    OWN(FIGURE, LimitVerdict, value), OWN(TEXT, LimitVerdict, unit),
-    OWN(TEXT, LimitVerdict, source), OWN(FLAG, LimitVerdict, read_in_the_standard),
-    AS("upper", FLAG, LimitVerdict, is_upper), AS("advice", FLAG, LimitVerdict, is_advice),
-    OWN(FIGURE, LimitVerdict, found), AS("interval", RANGE, LimitVerdict, low),
-    OWN(FIGURE, LimitVerdict, margin), OWN(VERDICT, LimitVerdict, verdict),
-    {"age_years", RECORD_NUMBER, RECORD_NULL | RECORD_BRIEF, RECORD_AT(LimitVerdict, age_years),
-     RECORD_RANGE(-HUGE_VAL, HUGE_VAL), .write = write_age});
-
-TABLE(cause_json, CaseCause,
-    {"chain", RECORD_TEXTS, MUST, RECORD_MANY(CaseCause, chain, links)},
-    OWN(FIGURE, CaseCause, share), OWN(FIGURE, CaseCause, cd_m2),
-    AS("interval", RANGE, CaseCause, low), OWN(FIGURE, CaseCause, contrast_without));
-
-TABLE(share_json, CaseShare,
-    OWN(TEXT, CaseShare, what), OWN(FIGURE, CaseShare, share),
-    OWN(FIGURE, CaseShare, cd_m2));
-
-#define GROUP(key, id)                                                                         \
-    LIST(key, MUST, ReviewCase, groups[id].list, groups[id].count, share_json)
-TABLE(groups_json, ReviewCase,
-    GROUP("light", GROUP_LIGHT), GROUP("opening", GROUP_OPENING),
-    GROUP("surface", GROUP_SURFACE));
-
-TABLE(hider_json, CaseHider,
-    OWN(TEXT, CaseHider, what), OWN(FIGURE, CaseHider, share));
-
-TABLE(remedy_json, CaseRemedy,
-    {"kind", RECORD_CHOICE, RECORD_AT(CaseRemedy, kind), .words = remedy_kinds},
-    OWN(TEXT, CaseRemedy, what), OWN(FIGURE, CaseRemedy, contrast_ratio),
-    OWN(FIGURE, CaseRemedy, level),
-    PART("then", 0, CaseRemedy, then, limit_json),
-    LATER("verdict", VERDICT, CaseRemedy, verdict));
-
-TABLE(panel_json, CasePanel,
-    OWN(TEXT, CasePanel, verdict), OWN(TEXT, CasePanel, reason),
-    AS("coarse", FLAG, CasePanel, is_coarse), AS("not_usable", FLAG, CasePanel, is_unusable),
-    OWN(FIGURE, CasePanel, emission_error), OWN(FIGURE, CasePanel, reflection_error),
-    LATER("spectra_assumed", TEXT, CasePanel, assumed));
-
-TABLE(luminance_json, CaseLuminances,
-    OWN(FIGURE, CaseLuminances, foreground), OWN(FIGURE, CaseLuminances, background),
-    OWN(FIGURE, CaseLuminances, reflected), OWN(FIGURE, CaseLuminances, mirror),
-    OWN(FIGURE, CaseLuminances, scattered), OWN(FIGURE, CaseLuminances, veil));
-
-TABLE(box_json, CaseBox,
-    OWN(FIGURE, CaseBox, left), OWN(FIGURE, CaseBox, top),
-    OWN(FIGURE, CaseBox, right), OWN(FIGURE, CaseBox, bottom));
-
-TABLE(mean_json, CaseWhole,
-    OWN(FIGURE, CaseWhole, reflected),
-    AS("reflected_interval", RANGE, CaseWhole, reflected_range),
-    OWN(FIGURE, CaseWhole, contrast_ratio));
-
-TABLE(visibility_json, CaseVisibility,
-    OWN(FIGURE, CaseVisibility, age_years), AS("observer", FLAG, CaseVisibility, is_observer),
-    OWN(FIGURE, CaseVisibility, level), AS("interval", RANGE, CaseVisibility, low),
-    OWN(FIGURE, CaseVisibility, threshold_cd_m2), OWN(FIGURE, CaseVisibility, adapted_cd_m2),
-    OWN(FIGURE, CaseVisibility, veil_times), OWN(FIGURE, CaseVisibility, veil_doubt),
-    OWN(FIGURE, CaseVisibility, size_arcmin), OWN(FIGURE, CaseVisibility, glance_s),
-    OWN(TEXT, CaseVisibility, doubts));
-
-TABLE(halo_json, CaseHalo,
-    OWN(FIGURE, CaseHalo, mean_drive), OWN(FIGURE, CaseHalo, full_cd_m2),
-    OWN(FIGURE, CaseHalo, black_cd_m2), OWN(FIGURE, CaseHalo, halo_cd_m2),
-    OWN(FIGURE, CaseHalo, scattered_cd_m2), OWN(FIGURE, CaseHalo, threshold_cd_m2),
-    OWN(FIGURE, CaseHalo, level), AS("visible", FLAG, CaseHalo, is_visible));
-
-TABLE(glare_json, CaseGlare,
-    OWN(FIGURE, CaseGlare, threshold_cd_m2), OWN(FIGURE, CaseGlare, background_cd_m2),
-    AS("sources", COUNT, CaseGlare, source_count),
-    AS("sources_lx", FIGURE, CaseGlare, source_lx),
-    AS("smallest_source_sr", FIGURE, CaseGlare, smallest_sr),
-    AS("largest_source_sr", FIGURE, CaseGlare, largest_sr),
-    AS("low_light_factor", FLAG, CaseGlare, low_light),
-    AS("small_source_rule", FLAG, CaseGlare, small_sources),
-    AS("no_ugr_because", TEXT, CaseGlare, none));
-
-/* Of what has a CaseGlare. */
-#define GLARE_MEMBERS(Type)                                                                    \
-    AS("dgp", FIGURE, Type, glare.dgp), AS("ugr", FIGURE, Type, glare.ugr),                    \
-    LATER("dgi", FIGURE, Type, glare.dgi),                                                     \
-    LATER("dgp_interval", RANGE, Type, glare.dgp_range),                                       \
-    LATER("ugr_interval", RANGE, Type, glare.ugr_range),                                       \
-    LATER("dgi_interval", RANGE, Type, glare.dgi_range),                                       \
-    PART("glare", 0, Type, glare, glare_json)
-
-TABLE(place_json, CasePlace,
-    {"position_m", RECORD_NUMBERS, MUST, RECORD_AT(CasePlace, eye_m),
-     RECORD_RANGE(-HUGE_VAL, HUGE_VAL), RECORD_COUNT(3, 3)},
-    OWN(VERDICT, CasePlace, verdict), OWN(FIGURE, CasePlace, visible_share),
-    OWN(FIGURE, CasePlace, contrast_ratio), AS("interval", RANGE, CasePlace, contrast_low));
-
-TABLE(private_json, ReviewCase, LIST("places", 0, ReviewCase, places, place_count, place_json));
-
-static json_t *write_privacy(const void *item)
-{
-    const ReviewCase *c = item;
-    json_t           *out = privacy_json(c);
-    if (out && c->place_count)
-        json_object_set_new(out, "places",
-                            record_write_list(&place_json, c->places, c->place_count));
-    return out;
-}
-
-/* Its figures follow from the contrast's, which are read, too. */
-static bool read_privacy(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    RecordRow places = {.key = row->key, .kind = RECORD_OBJECT, .of = &private_json};
-    ((ReviewCase *)item)->must_not_be_read = true;
-    return record_read_kind(view, &places, item, err);
-}
-
-/* Of a case, and of a false sun. */
-typedef struct SunAt {
-    double azimuth_deg, elevation_deg;
-} SunAt;
-
-TABLE(sun_json, SunAt,
-    OWN(FIGURE, SunAt, azimuth_deg),
-    OWN(FIGURE, SunAt, elevation_deg));
-
-/* "limit" repeats one of "limits": the first that is equal. */
-static bool read_limit_id(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    ReviewCase   *c = item;
-    const json_t *limit = json_object_get(view->object, row->key);
-    const json_t *limits = json_object_get(view->object, "limits");
-    c->limit_id = -1;
-    if (json_is_null(limit) || !json_is_array(limits)) return true; /* limits are read, too */
-    for (size_t i = 0; i < json_array_size(limits) && c->limit_id < 0; i++)
-        if (json_equal(limit, json_array_get(limits, i))) c->limit_id = (int)i;
-    return c->limit_id >= 0 ||
-           record_fails(view, row->key, err, "required: one of 'limits', or null");
-}
-
-static json_t *write_limit(const void *item)
-{
-    const ReviewCase *c = item;
-    bool              has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
-    return has_limit ? record_write(&limit_json, &c->limits[c->limit_id]) : json_null();
-}
-
-/* The limit that made the case's verdict, or null. */
-static json_t *write_judged(const void *item)
-{
-    const LimitVerdict *limit = case_worst_limit(item);
-    return limit ? record_write(&limit_json, limit) : json_null();
-}
-
-TABLE(case_json, ReviewCase,
-    OWN(TEXT, ReviewCase, condition), OWN(TEXT, ReviewCase, eye), OWN(TEXT, ReviewCase, symbol),
-    OWN(TEXT, ReviewCase, display), OWN(AMBIENT, ReviewCase, ambient),
-    {"sun", RECORD_OBJECT, MUST | RECORD_NULL, .of = &sun_json,
-     RECORD_MANY(ReviewCase, sun_azimuth_deg, has_sun)},
-    PART("luminance_cd_m2", MUST, ReviewCase, luminance_cd_m2, luminance_json),
-    PART("symbol_mean", 0, ReviewCase, whole, mean_json),
-    LATER("lit_share", FIGURE, ReviewCase, whole.lit_share),
-    PART("judged_part_uv", 0, ReviewCase, whole.part, box_json),
-    OWN(FIGURE, ReviewCase, contrast_ratio),
-    AS("contrast_interval", RANGE, ReviewCase, contrast_low),
-    LATER("reflected_interval", RANGE, ReviewCase, reflected_range),
-    OWN(COUNT, ReviewCase, paths),
-    LATER("precision_asked", FIGURE, ReviewCase, precision_asked),
-    LATER("precision_reached", FIGURE, ReviewCase, precision_reached),
-    LATER("open_by", OPEN, ReviewCase, open_by),
-    LATER("paths_to_decide", FIGURE, ReviewCase, paths_to_decide),
-    LATER("decide_times", FIGURE, ReviewCase, decide_times),
-    OWN(FIGURE, ReviewCase, contrast_with_veil), OWN(FIGURE, ReviewCase, height_arcmin),
-    LATER("stroke_ratio", FIGURE, ReviewCase, stroke_ratio),
-    OWN(FIGURE, ReviewCase, jnd), OWN(FIGURE, ReviewCase, visibility),
-    LIST("visibility_levels", RECORD_BRIEF, ReviewCase, visibilities, visibility_count,
-         visibility_json),
-    {"halo", RECORD_OBJECT, RECORD_NULL | RECORD_BRIEF, .of = &halo_json,
-     RECORD_MANY(ReviewCase, halo, has_halo)},
-    GLARE_MEMBERS(ReviewCase),
-    OWN(FIGURE, ReviewCase, eye_failed_share), OWN(FIGURE, ReviewCase, visible_share),
-    LIST("hidden_by", 0, ReviewCase, hiders, hider_count, hider_json),
-    OWN(FIGURE, ReviewCase, level), OWN(FIGURE, ReviewCase, display_lux),
-    LATER("glasses_transmittance", FIGURE, ReviewCase, glasses_transmittance),
-    LATER("glasses", TEXT, ReviewCase, glasses),
-    LATER("glasses_display_loss", FIGURE, ReviewCase, glasses_display_loss),
-    {"limit", RECORD_OWN, MUST, .read = read_limit_id, .write = write_limit},
-    LIST("limits", MUST, ReviewCase, limits, limit_count, limit_json),
-    {"judged", RECORD_OWN, RECORD_WRITTEN, .write = write_judged},
-    OWN(FIGURE, ReviewCase, margin), OWN(VERDICT, ReviewCase, verdict),
-    LATER("reason", REASON, ReviewCase, unjudged),
-    LATER("optional", FLAG, ReviewCase, is_optional),
-    {"must_not_be_read", RECORD_OWN, RECORD_BRIEF, .read = read_privacy,
-     .write = write_privacy},
-    PART("panel", 0, ReviewCase, panel, panel_json),
-    LIST("causes", MUST, ReviewCase, causes, cause_count, cause_json),
-    {"cause_groups", RECORD_OBJECT, RECORD_WRITTEN, .of = &groups_json},
-    LATER("without_data_share", FIGURE, ReviewCase, without_data_share),
-    LATER("guessed_share", FIGURE, ReviewCase, guessed_share),
-    LATER("extrapolated_share", FIGURE, ReviewCase, extrapolated_share),
-    LATER("empty_seat", TEXT, ReviewCase, empty_seat),
-    LATER("empty_seat_share", FIGURE, ReviewCase, empty_seat_share),
-    LIST("remedies", MUST, ReviewCase, remedies, remedy_count, remedy_json),
-    OWN(TEXT, ReviewCase, frame), OWN(TEXT, ReviewCase, outlook), OWN(TEXT, ReviewCase, when));
-
-#define FOLLOWS(Type, second, first)                                                           \
-    _Static_assert(offsetof(Type, second) == offsetof(Type, first) + sizeof(double), "a pair")
-FOLLOWS(ReviewCase, contrast_high, contrast_low);
-FOLLOWS(ReviewCase, sun_elevation_deg, sun_azimuth_deg);
 FOLLOWS(ReviewFalseSun, sun_elevation_deg, sun_azimuth_deg);
-FOLLOWS(LimitVerdict, high, low);
-FOLLOWS(CaseVisibility, high, low);
-FOLLOWS(CaseCause, high, low);
-FOLLOWS(CasePlace, contrast_high, contrast_low);
 
 TABLE(sweep_json, ReviewSweep,
     OWN(TEXT, ReviewSweep, condition), OWN(TEXT, ReviewSweep, eye),
@@ -424,7 +161,7 @@ TABLE(mend_json, ReviewMend,
     OWN(FIGURE, ReviewMend, outside),
     LIST("trials", MUST, ReviewMend, trials, trial_count, trial_json));
 
-/* ---- parts that others show -------------------------------------------------------------- */
+/* ---- variants ---------------------------------------------------------------------------- */
 
 static json_t *pair(double low, double high)
 {
@@ -436,42 +173,10 @@ static json_t *text(const char *string)
     return string ? json_text(string) : json_null();
 }
 
-json_t *review_groups_json(const ReviewCase *c)
-{
-    return record_write(&groups_json, c);
-}
-
-json_t *review_remedies_json(const ReviewCase *c)
-{
-    return record_write_list(&remedy_json, c->remedies, c->remedy_count);
-}
-
-json_t *review_hiders_json(const ReviewCase *c)
-{
-    return record_write_list(&hider_json, c->hiders, c->hider_count);
-}
-
 static void set(json_t *object, const char *key, json_t *value)
 {
     json_object_set_new(object, key, value);
 }
-
-/* Some of a case's; NULL behind the last. */
-static void set_members(json_t *object, const ReviewCase *c, const char *const *keys)
-{
-    for (; *keys; keys++)
-        for (const RecordRow *row = case_json.rows; row->key; row++)
-            if (!strcmp(row->key, *keys)) set(object, *keys, record_write_value(row, c));
-}
-
-void review_whole_json(const ReviewCase *c, json_t *to)
-{
-    static const char *const KEYS[] = {"symbol_mean", "lit_share", "judged_part_uv",
-                                       "must_not_be_read", NULL}; /* absent: it may be */
-    if (c->symbol) set_members(to, c, KEYS);
-}
-
-/* ---- variants ---------------------------------------------------------------------------- */
 
 static json_t *difference_json(const ReviewDifference *d)
 {
@@ -479,12 +184,12 @@ static json_t *difference_json(const ReviewDifference *d)
                                         "contrast_ratio", "contrast_interval", "margin", NULL};
     static const char *const LAST[] = {"level", "when", "sun", NULL};
     json_t *out = json_object();
-    set_members(out, d->after, FIRST);
+    case_members_json(d->after, FIRST, out);
     set(out, "margin_before", json_figure(d->before ? d->before->margin : (double)NAN));
     set(out, "margin_difference", json_figure(d->margin));
     set(out, "margin_difference_interval", pair(d->margin_range.low, d->margin_range.high));
     set(out, "reflected_cd_m2", json_figure(d->after->luminance_cd_m2.reflected));
-    set_members(out, d->after, LAST);
+    case_members_json(d->after, LAST, out);
     if (!d->sweep_after) return out;
     const ReviewSweep *before = d->sweep_before;
     set(out, "failed_share", json_figure(d->sweep_after->failed_share));
@@ -516,7 +221,7 @@ static json_t *slope_json(const ReviewSlope *slope)
 {
     static const char *const KEYS[] = {"condition", "eye", "symbol", "margin", NULL};
     json_t *out = json_object();
-    set_members(out, slope->of, KEYS);
+    case_members_json(slope->of, KEYS, out);
     set(out, "margin_per_unit", json_figure(slope->slope));
     set(out, "interval", pair(slope->range.low, slope->range.high));
     return out;

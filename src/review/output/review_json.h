@@ -18,18 +18,6 @@
 #include "base/error.h"
 #include "review/verdict.h"
 
-/* {"light": [{"what", "share", "cd_m2"}, ...], "opening": ..., "surface": ...} */
-json_t *review_groups_json(const ReviewCase *c);
-
-/* [{"what", "contrast_ratio", "level", "then", "verdict"}, ...] */
-json_t *review_remedies_json(const ReviewCase *c);
-
-/* Sets "symbol_mean", "lit_share" and "judged_part_uv" of a symbol's case. */
-void review_whole_json(const ReviewCase *c, json_t *to);
-
-/* [{"what", "share"}, ...] */
-json_t *review_hiders_json(const ReviewCase *c);
-
 /* {"pass", "strict", "title", "profile", "cases": [...], "sweeps", "responses", "notes"}. */
 json_t *review_json(const Review *review);
 

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "review/output/review_words.h"
+#include "review/review_decide.h"
 #include "text/text.h"
 #include "vision/visibility.h"
 
@@ -61,4 +62,12 @@ const char *words_target(const CaseVisibility *v, Arena *arena)
                         "adapted to %s cd/m²: background, reflected light and veil",
                         words_figure(v->size_arcmin, arena), glance,
                         words_figure(v->adapted_cd_m2, arena));
+}
+
+bool review_has_levels(const Review *review)
+{
+    bool has = false;
+    for (int i = 0; i < review_case_count(review); i++)
+        has = has || review_case_at(review, i)->visibility_count > 0;
+    return has;
 }

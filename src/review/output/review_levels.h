@@ -24,3 +24,6 @@ const char *words_level(const CaseVisibility *v, Arena *arena);
 /* What it is of: "one of its strokes, 2.3 arc minutes wide, looked at in a glance of 0.2 s; the
  * eye adapted to 3.4 cd/m²: ...". */
 const char *words_target(const CaseVisibility *v, Arena *arena);
+
+/* Does any case have one? */
+bool review_has_levels(const Review *review);

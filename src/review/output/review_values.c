@@ -16,7 +16,6 @@
 #include "review/output/review_levels.h"
 #include "review/output/review_road.h"
 #include "review/output/review_privacy.h"
-#include "review/output/review_panes.h"
 #include "review/output/review_words.h"
 #include "review/quantity.h"
 #include "review/review_decide.h"
@@ -70,8 +69,6 @@ void values_set_names(json_t *to, const char *const *keys)
         if (!name || !*name) page_set(to, *keys, "?");
     }
 }
-
-/* ---- cards ------------------------------------------------------------------------------- */
 
 #define FIRST_CAUSES 4
 #define PICTURE_BYTES_MAX ((size_t)64 << 20)
@@ -347,10 +344,9 @@ static bool add_case(const PageValues *v, json_t *to, const ReviewCase *c, Error
 bool values_add_cases(const PageValues *v, Error *err)
 {
     page_set_flag(v->doc, "has_private", review_has_privacy(v->review));
-    page_set_flag(v->doc, "has_levels", false);
+    page_set_flag(v->doc, "has_levels", review_has_levels(v->review));
     for (int i = 0; i < review_case_count(v->review); i++) {
         const ReviewCase *c = review_case_at(v->review, i);
-        if (c->visibility_count) page_set_flag(v->doc, "has_levels", true);
         if (!add_case(v, values_of_case(v, c), c, err)) return false;
     }
     return true;

@@ -155,7 +155,3 @@ const char *words_empty_seat(const ReviewCase *c, Arena *arena);
 
 /* "glass Window_FL: through → seat FrontSeat_L: scatters" */
 const char *words_chain(const CaseCause *cause, Arena *arena);
-
-/* "tilt: with 2.6 degrees instead of 0 everything passes ...; with 2.5 something does not";
- * where no value does what is left. */
-const char *words_mend(const ReviewMend *mend, Arena *arena);

@@ -558,19 +558,6 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
     return true;
 }
 
-/* ---- before all cases -------------------------------------------------------------------- */
-
-bool setup_learn(Setup *setup, const SetupSymbol *symbols, int count, Arena *arena, Error *err)
-{
-    Vec3 eye, sum = vec3(0, 0, 0);
-    if (trained_guide_inherit(setup)) return true;
-    if (!setup_eye_middle(setup, &setup->request->eyes[0], *arena, &eye, err)) return false;
-    for (int i = 0; i < count; i++) sum = vec3_add(sum, symbol_middle(&symbols[i]).position);
-    Vec3 towards = vec3_sub(vec3_scale(sum, 1 / (float)count), eye);
-    if (vec3_dot(towards, towards) > 0) trained_guide_take(setup, eye, towards, arena);
-    return review_goes_on(setup->tools.journal, err);
-}
-
 /* ---- all cases --------------------------------------------------------------------------- */
 
 bool setup_case(const CaseTools *tools, const SetupSymbol *symbol, const ReviewEye *eye,

@@ -32,13 +32,6 @@ typedef struct CaseTools {
 /* Share of what a display reflects from which on its light is that of direct sun. */
 #define CASE_SUNLIT 0.5
 
-/* Trains the setup's guide, once it is lit, on where light comes from to what the first eye
- * sees of the symbols: lamps that few of them would find otherwise, at night above all. The
- * guide comes from the arena, or from the setup's folder of guides, where it is kept; one that
- * is damaged is trained again. A variant takes the review's (light/inherited.h). Fails where an
- * eye's camera is missing. */
-bool setup_learn(Setup *setup, const SetupSymbol *symbols, int count, Arena *arena, Error *err);
-
 /* symbol_count * eye_count cases, symbols fastest. Fails where an eye's camera is missing. */
 bool setup_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *err);
 

@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "panel/query/panel_stated.h"
 #include "render/identity.h"
+#include "review/keep/frame_kept.h"
 #include "review/light/glasses.h"
 #include "review/light/response_suns.h"
 #include "review/request/request_check.h"
@@ -470,4 +471,15 @@ bool worst_part_is_better(const CaseWhole *whole, MeanInterval reading, bool is_
 void worst_part_take_all(const SetupSymbol *symbol, WorstPart *part, Arena *arena)
 {
     aim_at_all(&symbol->surface, part, arena);
+}
+
+bool setup_learn(Setup *setup, const SetupSymbol *symbols, int count, Arena *arena, Error *err)
+{
+    Vec3 eye, sum = vec3(0, 0, 0);
+    if (trained_guide_inherit(setup)) return true;
+    if (!setup_eye_middle(setup, &setup->request->eyes[0], *arena, &eye, err)) return false;
+    for (int i = 0; i < count; i++) sum = vec3_add(sum, symbol_middle(&symbols[i]).position);
+    Vec3 towards = vec3_sub(vec3_scale(sum, 1 / (float)count), eye);
+    if (vec3_dot(towards, towards) > 0) trained_guide_take(setup, eye, towards, arena);
+    return review_goes_on(setup->tools.journal, err);
 }

@@ -91,3 +91,10 @@ bool worst_part_is_better(const CaseWhole *whole, MeanInterval reading, bool is_
 
 /* From now on all of the symbol that is seen is the part. */
 void worst_part_take_all(const SetupSymbol *symbol, WorstPart *part, Arena *arena);
+
+/* Trains the setup's guide, once it is lit, on where light comes from to what the first eye
+ * sees of the symbols: lamps that few of them would find otherwise, at night above all. The
+ * guide comes from the arena, or from the setup's folder of guides, where it is kept; one that
+ * is damaged is trained again. A variant takes the review's (light/inherited.h). Fails where an
+ * eye's camera is missing. */
+bool setup_learn(Setup *setup, const SetupSymbol *symbols, int count, Arena *arena, Error *err);
