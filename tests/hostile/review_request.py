@@ -46,13 +46,20 @@ GOOD = {
     "glare": {"task_factor": 5, "task_deg": 40, "peak_cd_m2": 60000, "low_light_factor": False,
               "small_source_rule": True},
     "gaze": [{"at": "symbols", "name": "here", "eyes": ["driver"]},
-             {"name": "road", "direction": [0, 0, -4], "eyes": ["tall", "driver"]}],
+             {"name": "road", "direction": [0, 0, -4], "eyes": ["tall", "driver"],
+              "road": {"luminance_cd_m2": 0.3, "s_p": 1.4, "ages_years": [25, 70],
+                       "dimming_cd_m2": [0.1, 1]}}],
     "with": {"somebody": ["person.gltf"]},
     "symbols": {"bar": {"display": "screen", "content": "letters.png",
                         "uv": [0.1, 0.1, 0.9, 0.9], "polarity": "light-on-dark"},
-                "drawn": {"display": "screen", "mask": "letters.png", "visible": "optional"},
+                "drawn": {"display": "screen", "mask": "letters.png", "visible": "optional",
+                          "must_not_be_read": ["tall"]},
                 "text": {"display": "node:face", "uv": [0, 0, 1, 1], "find": "text",
                          "visible": {"driver": "optional", "tall": "required"}}},
+    "privacy": {"security_min_s": 1.5}, "visibility": {"ages": [40, 70], "glance_s": 0.2},
+    "pane_images": {"within_deg": 20, "contrast_max": 0.1, "against_cd_m2": 0.3,
+                    "areas": [{"name": "mirror", "direction": [-1, 0, -2], "within_deg": 8,
+                               "contrast_max": 0.05}]},
     "profile": "iso-15008",
     "levels": {"night": {"*": 0.04, "screen": 0.1},
                "auto": {"sensor": {"position_m": [0, 0.2, 0.2], "normal": [0, 3, 4]},
@@ -61,7 +68,7 @@ GOOD = {
     "precision": {"contrast": 0.02, "clear": 0.05, "paths": 65536, "seed": 3},
     "frames": {"size": [64, 36], "noise": 0.1, "worst": 2},
     "variants": {
-        "all": {"panels": {"screen": "ips.panel"}, "contents": {"screen": "letters.png"},
+        "all": {"panels": {"screen": "both.panel"}, "states": {"screen": "private"}, "contents": {"screen": "letters.png"},
                 "levels": {"night": {"*": 0.05}}, "brightness": {"screen": 1.5, "*": 1},
                 "coatings": {"coated": {"stack": "mgf2"}}, "glazings": {"coated": None},
                 "materials": {"coated": {"doubleSided": True}},
@@ -96,6 +103,9 @@ GOOD = {
         {"name": "year", "sweep": {"year": 2026, "where": [48, 11, 520], "step_minutes": 720,
                                    "headings_deg": [0, 90], "weather": "clear",
                                    "night": True}}]}
+# The same without a road, which requires a moment.
+PLAIN = {**GOOD, "gaze": [{key: gaze[key] for key in gaze if key != "road"}
+                          for gaze in GOOD["gaze"]]}
 
 
 def is_of_letter(x, y):
@@ -105,11 +115,14 @@ def is_of_letter(x, y):
                                              (y in (23, 24) and column < 8))
 
 
-def write_files(folder):
+def write_files(requests):
     """What the good document names."""
+    folder = requests.folder
+
     def path(name):
         return os.path.join(folder, name)
     shutil.copy(PANEL, path("ips.panel"))
+    requests.run("panel", "join", "shared=ips.panel", "private=ips.panel", "-o", "both.panel")
     dash = dashboard()
     for node, name in enumerate(("face", "shelf")):
         dash.document["nodes"][node]["name"] = name
@@ -355,7 +368,7 @@ WEATHERS = ((EPW + HOURS, None), (MARKED + (EPW + HOURS).encode(), None),
 def check_files(report, requests):
     """One file is wrong at a time; told is which."""
     condition = {"name": "drive", "route": "route.csv", "weather": "weather.epw"}
-    text = json.dumps({**GOOD, "conditions": [condition]})
+    text = json.dumps({**PLAIN, "conditions": [condition]})
     good = {"route.csv": ROUTES[0][0], "weather.epw": WEATHERS[0][0]}
     for name, table in (("route.csv", ROUTES), ("weather.epw", WEATHERS)):
         for number, (contents, words) in enumerate(table):
@@ -372,7 +385,7 @@ def check_files(report, requests):
 def check_pictures(report, requests):
     """Heads that PNG does not have: the library that reads pictures would say it twice."""
     whole = png(60, 30, [[0] * 180] * 30)
-    text = json.dumps({**GOOD, "conditions": [{"name": "noon"}],
+    text = json.dumps({**PLAIN, "conditions": [{"name": "noon"}],
                        "symbols": {"drawn": {"display": "screen", "mask": "head.png"}}})
     for head in ((0, 0, 8, 2, 0, 0, 0), (60, 0, 8, 2, 0, 0, 0), (60, 30, 3, 2, 0, 0, 0),
                  (60, 30, 8, 5, 0, 0, 0), (60, 30, 8, 2, 1, 0, 0), (60, 30, 8, 2, 0, 0, 2)):
@@ -400,7 +413,7 @@ EXPLAIN = ((2, "good.json", "--uv", "0,0,1,1"), (2, "good.json", "--size", "10x1
 
 def check_explain(report, requests):
     with open(requests.path("good.json"), "w", encoding="utf-8") as file:
-        json.dump(GOOD, file)
+        json.dump(PLAIN, file)
     for wanted, *words in EXPLAIN:
         status, said = requests.run("explain", *words)
         report.claim(is_refusal(status, said, wanted), f"explain {words}: {status}: {said}")
@@ -413,7 +426,7 @@ def check_moments(report, requests):
     for symbol, words in (({"display": "none", "content": "letters.png"}, "/symbols/bar"),
                           ({"display": "none"}, "/symbols/bar/display"),
                           ({"display": "screen", "content": "r.csv"}, "/symbols/bar")):
-        document = {**GOOD, "symbols": {"bar": {**symbol, "uv": [0, 0, 1, 1]}},
+        document = {**PLAIN, "symbols": {"bar": {**symbol, "uv": [0, 0, 1, 1]}},
                     "conditions": [{"name": "noon"}]}
         status, said = requests.ask("moment", json.dumps(document))
         report.claim(is_refusal(status, said) and words in said and "moment.json" in said,
@@ -424,7 +437,7 @@ def check_output(report, requests):
     """What cannot be written over is told before any work, and nothing stands beside it."""
     for name in ("review.json", "index.html", "run.json", "cases.csv"):
         os.makedirs(requests.path("out", name))
-        status, said = requests.ask("blocked", json.dumps(GOOD), "-o", "out")
+        status, said = requests.ask("blocked", json.dumps(PLAIN), "-o", "out")
         report.claim(is_refusal(status, said, 4) and name in said and
                      os.listdir(requests.path("out")) == [name],
                      f"{name} is a folder: status {status}: {said}")
@@ -446,7 +459,7 @@ def main(program, step):
     report = Report()
     with tempfile.TemporaryDirectory() as folder:
         requests = Requests(program, folder)
-        write_files(folder)
+        write_files(requests)
         check_whole(report, requests)
         check_keys(report, requests, step)
         check_names(report, requests)

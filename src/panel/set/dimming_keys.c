@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/mathd.h"
 #include "record/rows.h"
 
 static const char *const RULES[] = {"maximum", "mean", NULL};
@@ -77,7 +78,7 @@ bool dimming_keys_check(const JsonView *root, const double size_mm[2], DimmingZo
 /* A file keeps single precision: 7 digits. */
 static json_t *tidy(double value)
 {
-    double digits = value != 0 ? pow(10, 6 - floor(log10(fabs(value)))) : 1;
+    double digits = value != 0 ? pow_d(10, 6 - floor(log10_d(fabs(value)))) : 1;
     return json_real(round(value * digits) / digits);
 }
 

@@ -305,7 +305,7 @@ json_t *review_map_values(const ReviewMap *map, Arena scratch, Error *err)
                                   "hidden", holds(map, VERDICT_UNJUDGED), "gap",
                                   holds(map, GAP)));
     page_set_flag(to, "is_of_vehicle", map->is_of_vehicle);
-    page_set_flag(to, "hides", map->of->worst.must_not_be_read);
+    page_set_flag(to, "hides", map->of && map->of->worst.must_not_be_read);
     page_set_flag(to, "is_between_steps", map->is_between_steps);
     page_set_flag(to, "has_paths", map->path_count > 0);
     return to;
