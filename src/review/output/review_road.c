@@ -125,19 +125,43 @@ static const char *percent(double level, Arena *arena)
     return arena_format(arena, "%.3g %%", 100 * level);
 }
 
+/* Is the limit exceeded there without any display's light? */
+static bool is_beyond_displays(const GazeRoad *road, const RoadDimming *row)
+{
+    for (int i = 0; i < road->dimming_count; i++) {
+        const RoadDimming *all = &road->dimming[i];
+        if (!all->display && all->age_years == row->age_years &&
+            all->road_cd_m2 == row->road_cd_m2)
+            return !(all->level_most > 0) && all->window == ROAD_WINDOW_EMPTY;
+    }
+    return false;
+}
+
+/* What one sentence names: of an age, a display's rows, or those that no display decides. */
+static bool is_told_with(const GazeRoad *road, const RoadDimming *row, const RoadDimming *first)
+{
+    if (row->window != ROAD_WINDOW_EMPTY || row->age_years != first->age_years) return false;
+    return is_beyond_displays(road, first)
+               ? !row->display && is_beyond_displays(road, row)
+               : words_same(row->display, first->display) && !is_beyond_displays(road, row);
+}
+
 /* Rows of one display and age stand apart by their roads. */
 static const char *empty_words(const GazeFinding *gaze, const RoadDimming *first, Arena *arena)
 {
     const GazeRoad *road = gaze->road;
     const char     *roads = "";
     const RoadDimming *last = first;
-    for (const RoadDimming *row = first; row < road->dimming + road->dimming_count; row++) {
-        if (row->window != ROAD_WINDOW_EMPTY || row->age_years != first->age_years ||
-            !words_same(row->display, first->display))
-            continue;
+    const RoadDimming *row = is_beyond_displays(road, first) ? road->dimming : first;
+    for (; row < road->dimming + road->dimming_count; row++) {
+        if (!is_told_with(road, row, first)) continue;
         roads = arena_format(arena, "%s%s%.4g", roads, roads[0] ? ", " : "", row->road_cd_m2);
         last = row;
     }
+    if (is_beyond_displays(road, first))
+        return arena_format(arena, "%s, %.4g years, roads of %s cd/m²: the limit is exceeded "
+                            "without any display's light; no level keeps it.",
+                            road_name(gaze, arena), first->age_years, roads);
     return arena_format(
         arena, "%s, %.4g years, roads of %s cd/m²: no level of %s does both. Its symbols take "
         "%s%s%s%s, and the increment is kept up to %s%s.", road_name(gaze, arena),
@@ -157,11 +181,9 @@ const char **road_empty_windows(const GazeFinding *gaze, int *count, Arena *aren
     *count = 0;
     for (int i = 0; i < road->dimming_count; i++) {
         const RoadDimming *row = &road->dimming[i];
-        bool               is_first = row->window == ROAD_WINDOW_EMPTY;
+        bool               is_first = is_told_with(road, row, row);
         for (int k = 0; k < i && is_first; k++)
-            is_first = road->dimming[k].window != ROAD_WINDOW_EMPTY ||
-                       road->dimming[k].age_years != row->age_years ||
-                       !words_same(road->dimming[k].display, row->display);
+            is_first = !is_told_with(road, &road->dimming[k], row);
         if (is_first) list[(*count)++] = empty_words(gaze, row, arena);
     }
     return list;

@@ -130,12 +130,25 @@ static const RecordFormat frames_format = {"frames", sizeof(OWNER), FRAMES, .doc
 
 #define OWNER ReviewRequest
 
+/* A name, or a path as seen from the request's folder. */
+static bool read_profile(const JsonView *view, const RecordRow *row, void *item, Error *err)
+{
+    ReviewRequest  *request = item;
+    const RecordRow text = {row->key, RECORD_TEXT, row->flags, RECORD_AT(OWNER, profile)};
+    if (!record_read_value(view, &text, item, err)) return false;
+    if (strchr(request->profile, '/') || !strcmp(path_ending(request->profile), ".json"))
+        request->profile = path_beside(view->file, request->profile, view->arena);
+    return true;
+}
+
 /* In the order in which they need each other: names before who uses them. */
 static const RecordRow REVIEW[] = {
     TEXT("title", 0, title, "Default: the file's name."),
     FILES("scene", MUST, scenes, scene_count, 256, "The first holds the displays."),
-    TEXT("profile", MUST | RECORD_FILLED, profile,
-         "A list of limits: NAME of assets/profiles/NAME.json."),
+    {"profile", RECORD_TEXT, MUST | RECORD_FILLED, RECORD_AT(OWNER, profile),
+     .read = read_profile,
+     .doc = "A list of limits: NAME of assets/profiles/NAME.json, or the path of a file, which "
+            "holds a '/' or ends in .json."},
     MAP("eyes", MUST, eyes, eye_count, 256, review_eye_format, "Who looks, by name."),
     VECTOR("forward", RECORD_UNIT, forward, 3, -1e6, 1e6,
            "Where the vehicle points to; not vertical."),

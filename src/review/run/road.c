@@ -304,7 +304,7 @@ static void set_least(const Dimming *dimming, RoadDimming *row)
     for (int i = 0; i < dimming->case_count; i++) {
         const ReviewCase *c = &dimming->cases[i];
         if (!c->eye || strcmp(c->eye, dimming->gaze->eye) != 0 || !c->display ||
-            strcmp(c->display, row->display) != 0)
+            strcmp(c->display, row->display) != 0 || c->must_not_be_read)
             continue;
         CaseLeast least = case_least_level(dimming->profile, c, *dimming->arena);
         if (isnan(least.sure) || least.sure <= row->level_least_sure) continue;
