@@ -186,7 +186,9 @@ static SunFigures under_suns(bool is_private, Arena *arena)
                                   .security = {.kind = LIMIT_VISUAL_SECURITY, .value = 0.5}};
     Scene         scene = {.displays = &display, .display_count = 1};
     ReviewRequest request = {.title = ""};
-    Setup         setup = {.scene = &scene, .request = &request, .scene_levels = &level};
+    ReviewCondition condition = {.name = "suns"};
+    Setup         setup = {.scene = &scene, .request = &request, .condition = &condition,
+                           .scene_levels = &level};
     ReviewRun     run = {.request = &request, .profile = &profile, .means = {.threads = 1}};
     Sweep         sweep = {.run = &run, .setup = &setup, .suns = {.count = SUNS}};
     SetupSymbol   symbol = {.display_name = "screen"};
