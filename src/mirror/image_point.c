@@ -6,6 +6,8 @@
 
 #include <math.h>
 
+#include "mirror/d3.h"
+
 #define STEPS_MAX 16
 #define DIFFERENCE 1e-5 /* of the weights, for derivatives */
 #define ON_POINT 1e-9   /* radians, from r to s */
@@ -13,72 +15,48 @@
 #define RIM 1e-6        /* of the weights: two triangles leave no gap between them */
 #define FARTHEST 4.0    /* a start farther outside than that leads to no point inside */
 
-typedef struct P3 {
-    double x, y, z;
-} P3;
-
 typedef struct Solve {
-    P3 corner[3], normal[3], from, source;
+    D3 corner[3], normal[3], from, source;
 } Solve;
 
-static P3 p3_of(Vec3 a)
+static D3 unit(D3 a)
 {
-    return (P3){(double)a.x, (double)a.y, (double)a.z};
+    double length = sqrt(d3_dot(a, a));
+    return length > 0 ? d3_along((D3){0, 0, 0}, a, 1 / length) : a;
 }
 
-static P3 along(P3 a, P3 b, double s)
+static D3 weighted(const D3 p[3], double u, double v)
 {
-    return (P3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
-}
-
-static double dot(P3 a, P3 b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-static P3 cross(P3 a, P3 b)
-{
-    return (P3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-static P3 unit(P3 a)
-{
-    double length = sqrt(dot(a, a));
-    return length > 0 ? along((P3){0, 0, 0}, a, 1 / length) : a;
-}
-
-static P3 weighted(const P3 p[3], double u, double v)
-{
-    return along(along(along((P3){0, 0, 0}, p[0], 1 - u - v), p[1], u), p[2], v);
+    return d3_along(d3_along(d3_along((D3){0, 0, 0}, p[0], 1 - u - v), p[1], u), p[2], v);
 }
 
 /* r's parts across s; is_ahead: r points along s, not against it. */
 static void off_source(const Solve *solve, double u, double v, double out[2], bool *is_ahead)
 {
-    P3 p = weighted(solve->corner, u, v), n = unit(weighted(solve->normal, u, v));
-    P3 d = unit(along(p, solve->from, -1)), s = unit(along(solve->source, p, -1));
-    P3 r = along(d, n, -2 * dot(n, d));
-    P3 axis = fabs(s.x) < 0.6 ? (P3){1, 0, 0} : (P3){0, 1, 0};
-    P3 a = unit(cross(s, axis)), b = cross(s, a);
-    out[0] = dot(r, a);
-    out[1] = dot(r, b);
-    *is_ahead = dot(r, s) > 0;
+    D3 p = weighted(solve->corner, u, v), n = unit(weighted(solve->normal, u, v));
+    D3 d = unit(d3_along(p, solve->from, -1)), s = unit(d3_along(solve->source, p, -1));
+    D3 r = d3_along(d, n, -2 * d3_dot(n, d));
+    D3 axis = fabs(s.x) < 0.6 ? (D3){1, 0, 0} : (D3){0, 1, 0};
+    D3 a = unit(d3_cross(s, axis)), b = d3_cross(s, a);
+    out[0] = d3_dot(r, a);
+    out[1] = d3_dot(r, b);
+    *is_ahead = d3_dot(r, s) > 0;
 }
 
 /* The weights of where the line to the mirrored source meets the plane; false: both points are
  * not on one side. */
 static bool start(const Solve *solve, double *u, double *v)
 {
-    P3     e1 = along(solve->corner[1], solve->corner[0], -1);
-    P3     e2 = along(solve->corner[2], solve->corner[0], -1);
-    P3     n = cross(e1, e2), to = along(solve->from, solve->corner[0], -1);
-    double nn = dot(n, n), h = dot(n, to);
-    double k = dot(n, along(solve->source, solve->corner[0], -1));
+    D3     e1 = d3_along(solve->corner[1], solve->corner[0], -1);
+    D3     e2 = d3_along(solve->corner[2], solve->corner[0], -1);
+    D3     n = d3_cross(e1, e2), to = d3_along(solve->from, solve->corner[0], -1);
+    double nn = d3_dot(n, n), h = d3_dot(n, to);
+    double k = d3_dot(n, d3_along(solve->source, solve->corner[0], -1));
     if (!(nn > 0) || !(h * k > 0)) return false;
-    P3 mirrored = along(solve->source, n, -2 * k / nn);
-    P3 p = along(to, along(mirrored, solve->from, -1), h / (h + k));
-    *u = dot(cross(p, e2), n) / nn;
-    *v = dot(cross(e1, p), n) / nn;
+    D3 mirrored = d3_along(solve->source, n, -2 * k / nn);
+    D3 p = d3_along(to, d3_along(mirrored, solve->from, -1), h / (h + k));
+    *u = d3_dot(d3_cross(p, e2), n) / nn;
+    *v = d3_dot(d3_cross(e1, p), n) / nn;
     return fabs(*u - 1 / 3.0) < FARTHEST && fabs(*v - 1 / 3.0) < FARTHEST;
 }
 
@@ -102,12 +80,12 @@ static bool newton(const Solve *solve, const double f[2], double *u, double *v)
 
 bool image_point_find(const MirrorTriangle *triangle, Vec3 from, Vec3 source, ImagePoint *out)
 {
-    Solve  solve = {.from = p3_of(from), .source = p3_of(source)};
+    Solve  solve = {.from = d3_of(from), .source = d3_of(source)};
     double u, v, f[2], off = INFINITY;
     bool   is_ahead = false;
     for (int k = 0; k < 3; k++) {
-        solve.corner[k] = p3_of(triangle->position[k]);
-        solve.normal[k] = unit(p3_of(triangle->normal[k]));
+        solve.corner[k] = d3_of(triangle->position[k]);
+        solve.normal[k] = unit(d3_of(triangle->normal[k]));
     }
     if (!start(&solve, &u, &v)) return false;
     for (int i = 0; i < STEPS_MAX; i++) {
@@ -117,7 +95,7 @@ bool image_point_find(const MirrorTriangle *triangle, Vec3 from, Vec3 source, Im
         if (!newton(&solve, f, &u, &v)) return false;
     }
     if (!(off < NEAR) || !is_ahead || u < -RIM || v < -RIM || u + v > 1 + RIM) return false;
-    P3 p = weighted(solve.corner, u, v);
+    D3 p = weighted(solve.corner, u, v);
     *out = (ImagePoint){(float)u, (float)v, vec3((float)p.x, (float)p.y, (float)p.z)};
     return true;
 }

@@ -27,6 +27,8 @@
 
 #include <stdint.h>
 
+#include "mirror/d3.h"
+
 #define DEPTH_MAX 20
 #define NEARLY_LINEAR 0.25 /* with it a fresh derivative is one to two thirds, too */
 #define STEPS_MAX 16
@@ -34,10 +36,6 @@
 #define ON_ROOT 1e-9       /* of the patch: the last step's length */
 #define BERNSTEIN 10
 #define DIFFERENCES 6
-
-typedef struct D3 {
-    double x, y, z;
-} D3;
 
 typedef struct D2 {
     double a, b;
@@ -63,31 +61,6 @@ typedef struct Search {
     ReflectionPoint *out;
     int   count;
 } Search;
-
-static D3 d3_of(Vec3 a)
-{
-    return (D3){(double)a.x, (double)a.y, (double)a.z};
-}
-
-static D3 d3_sub(D3 a, D3 b)
-{
-    return (D3){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-static D3 d3_along(D3 a, D3 b, double s)
-{
-    return (D3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
-}
-
-static double d3_dot(D3 a, D3 b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-static D3 d3_cross(D3 a, D3 b)
-{
-    return (D3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 static double determinant(const Slope *s)
 {
