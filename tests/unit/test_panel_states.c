@@ -77,7 +77,8 @@ ARENA_TEST(what_is_no_state_is_refused)
     assert_false(panel_open(in_folder("two.panel#secret"), &arena, &panel, why()));
     assert_non_null(strstr(why()->text, "has no state 'secret', required: shared, private"));
     assert_false(panel_open(SHARED "#private", &arena, &panel, why()));
-    assert_non_null(strstr(why()->text, "required: no state: this file has one only"));
+    assert_non_null(strstr(why()->text,
+                           "required: no state: this file has one only"));
     const PanelStateFile again[] = {{"a", path}, {"b", PRIVATE}};
     const PanelStateFile same[] = {{"a", SHARED}, {"a", PRIVATE}};
     const PanelStateFile odd[] = {{"a b", SHARED}, {"b", PRIVATE}};

@@ -498,7 +498,8 @@ static bool open_whole(const PanelBytes *bytes, Arena *arena, Panel **out)
 
 static bool refuse_state(const PanelBytes *bytes, const Panel *panel, const char *state)
 {
-    char names[PANEL_STATES_MAX * (sizeof(PanelStateStored) + 2)] = "no state: this file has one only";
+    char names[PANEL_STATES_MAX * (sizeof(PanelStateStored) + 2)] =
+        "no state: this file has one only";
     for (int i = 0, length = 0; i < panel->states; i++)
         length += snprintf(names + length, sizeof names - (size_t)length, "%s%s",
                            i ? ", " : "", panel->state_names[i].name);
