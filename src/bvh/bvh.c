@@ -146,7 +146,7 @@ bool bvh_has_sheets(const Bvh *bvh)
     return bvh->sheets != NULL;
 }
 
-void bvh_ask_sheets(const Bvh *bvh, Ray ray, BvhPasses *asked, void *user)
+void bvh_find_sheets(const Bvh *bvh, Ray ray, BvhPasses *asked, void *user)
 {
     if (!ray_is_valid(ray)) return;
     struct RTCRay query = embree_ray(ray);
@@ -167,7 +167,7 @@ static void skip_sheets(const struct RTCFilterFunctionNArguments *args)
 }
 
 /* Called by Embree for every tested triangle along a shadow ray (always one ray at a time). */
-static void ask_passes(const struct RTCFilterFunctionNArguments *args)
+static void report_passes(const struct RTCFilterFunctionNArguments *args)
 {
     const QueryContext *context = (const QueryContext *)args->context;
     if (!args->valid[0] || !context->passes) return;
@@ -222,7 +222,7 @@ static void attach_triangles(Bvh *bvh, const Scene *scene, int geometry_id, uint
     rtcSetGeometryMask(geometry, ~0u); /* the default differs between Embree 3 and 4 */
     bool is_sheet = geometry_id == GEOMETRY_ASKED && bvh->sheets;
     if (geometry_id == GEOMETRY_ASKED)
-        rtcSetGeometryOccludedFilterFunction(geometry, ask_passes);
+        rtcSetGeometryOccludedFilterFunction(geometry, report_passes);
     if (is_sheet) rtcSetGeometryIntersectFilterFunction(geometry, skip_sheets);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(bvh->scene, geometry, (unsigned)geometry_id);

@@ -41,13 +41,13 @@ typedef bool BvhPasses(void *user, const Hit *hit);
 bool bvh_occluded(const Bvh *bvh, Ray ray, BvhPasses *passes, void *user);
 
 /* Has the scene sheets, that is triangles whose material may have holes (MASK, BLEND)? Two of
- * them, or one and what it lies on, may lie at one depth; bvh_ask_sheets is for that case, and
+ * them, or one and what it lies on, may lie at one depth; bvh_find_sheets is for that case, and
  * may only be called then. */
 bool bvh_has_sheets(const Bvh *bvh);
 
 /* Calls `asked` for every triangle in [t_min, t_max] that may let light through, past opaque
  * ones too, until it returns false. */
-void bvh_ask_sheets(const Bvh *bvh, Ray ray, BvhPasses *asked, void *user);
+void bvh_find_sheets(const Bvh *bvh, Ray ray, BvhPasses *asked, void *user);
 
 /* For measuring: every ray traced from now on is kept until the recorder is full, with whether
  * it was a shadow ray. One thread only. NULL: stop. */

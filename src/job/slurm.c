@@ -96,7 +96,7 @@ static const char *find_id(const char *said, Arena *arena)
 }
 
 /* What it said, in the arena; false where it cannot be started or failed. */
-static bool ask(Tool tool, char *words[], Arena *arena, char **said, Error *err)
+static bool query(Tool tool, char *words[], Arena *arena, char **said, Error *err)
 {
     int   status = 0;
     char *heard = ARENA_NEW(arena, char, SAID_MAX);
@@ -120,7 +120,7 @@ bool slurm_submit(const SlurmScript *script, Arena *arena, const char **id, Erro
     if (script->after)
         words[count++] = arena_format(&scratch, "--dependency=afterany:%s", script->after);
     words[count] = arena_string(&scratch, script->file, strlen(script->file));
-    if (!ask(TOOL_SUBMIT, words, &scratch, &said, err)) return false;
+    if (!query(TOOL_SUBMIT, words, &scratch, &said, err)) return false;
     const char *found = find_id(said, &scratch);
     if (!found)
         return error_set(err, ERROR_INPUT, "sbatch gave no number of a job: %.500s",
@@ -133,7 +133,7 @@ bool slurm_queue(const char *jobs, Arena *arena, const char **lines, Error *err)
 {
     char *said, *words[] = {NULL, "--noheader", "--array", "--format=%i %T",
                             arena_format(arena, "--jobs=%s", jobs), NULL};
-    if (!ask(TOOL_QUEUE, words, arena, &said, err)) return false;
+    if (!query(TOOL_QUEUE, words, arena, &said, err)) return false;
     *lines = said;
     return true;
 }
@@ -146,7 +146,7 @@ bool slurm_features(Arena *arena, const char **lines, Error *err)
     char       *said, *words[5] = {NULL, "--noheader", "--format=%f"};
     if (partition && partition[0])
         words[3] = arena_format(arena, "--partition=%s", partition);
-    if (!ask(TOOL_NODES, words, arena, &said, err)) return false;
+    if (!query(TOOL_NODES, words, arena, &said, err)) return false;
     *lines = said;
     return true;
 }

@@ -70,12 +70,12 @@ typedef struct Kernel {
                  PathStatistics *statistics);
     void (*trace)(const ProbeAim *aim, int first, int end, const PathListener *listener,
                  PathStatistics *statistics);
-    void (*ask_cells)(const ProbeAim *aim, const ProbeCells *cells, int first, int end,
-                      ProbeAnswers *out, PathStatistics *statistics);
-    void (*ask_suns)(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
-                     ProbeAnswers *out, PathStatistics *statistics);
-    void (*ask_images)(const ProbeAim *aim, int first, int end, const ProbeImages *images,
-                       PathStatistics *statistics);
+    void (*sample_cells)(const ProbeAim *aim, const ProbeCells *cells, int first, int end,
+                         ProbeAnswers *out, PathStatistics *statistics);
+    void (*sample_suns)(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
+                        ProbeAnswers *out, PathStatistics *statistics);
+    void (*sample_images)(const ProbeAim *aim, int first, int end, const ProbeImages *images,
+                          PathStatistics *statistics);
 } Kernel;
 
 /* isa: a name from above, or NULL for the best that this processor and program have. Fails,

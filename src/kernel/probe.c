@@ -193,7 +193,7 @@ void probe_trace(const ProbeAim *asked, int first, int end, const PathListener *
 /* ---- by light from anywhere -------------------------------------------------------------- */
 
 /* Traces a dark path (PathManner), which gets light by the collector. */
-static void ask(const ProbeAim *aim, int path, PathCollector *collector,
+static void trace(const ProbeAim *aim, int path, PathCollector *collector,
                 PathStatistics *statistics)
 {
     ProbePath one;
@@ -283,8 +283,8 @@ static void draw_cells(const ProbeAim *aim, const ProbeCells *cells, int path, V
     }
 }
 
-void probe_ask_cells(const ProbeAim *asked, const ProbeCells *cells, int first, int end,
-                     ProbeAnswers *out, PathStatistics *statistics)
+void probe_sample_cells(const ProbeAim *asked, const ProbeCells *cells, int first, int end,
+                        ProbeAnswers *out, PathStatistics *statistics)
 {
     PathContext context;
     ProbeAim    own = aim_of_first(asked, &context), *aim = &own;
@@ -295,7 +295,7 @@ void probe_ask_cells(const ProbeAim *asked, const ProbeCells *cells, int first, 
     for (int path = first; path < end; path++) {
         draw_cells(aim, cells, path, out->towards);
         DistantCollector questions = distant_collector(&distant);
-        ask(aim, path, &questions.base, statistics);
+        trace(aim, path, &questions.base, statistics);
     }
 }
 
@@ -360,8 +360,8 @@ static void draw_suns(const ProbeAim *aim, const SunSums *to, int path, Vec3 *to
     }
 }
 
-void probe_ask_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
-                    ProbeAnswers *out, PathStatistics *statistics)
+void probe_sample_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
+                       ProbeAnswers *out, PathStatistics *statistics)
 {
     double      half = sin_d((double)suns->radius / 2);
     float       chord2 = (float)(4 * half * half);
@@ -377,7 +377,7 @@ void probe_ask_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int e
     for (int path = first; path < end; path++) {
         if (!suns->by_mirror) draw_suns(aim, &to, path, out->towards);
         DistantCollector questions = distant_collector(&distant);
-        ask(&direct, path, &questions.base, statistics);
+        trace(&direct, path, &questions.base, statistics);
     }
 }
 
@@ -404,8 +404,8 @@ static void add_image(void *user, const PathHistory *history, Vec3 direction,
     if (part_id != NO_ID) images->found(images->user, part_id, direction, share);
 }
 
-void probe_ask_images(const ProbeAim *aim, int first, int end, const ProbeImages *images,
-                      PathStatistics *statistics)
+void probe_sample_images(const ProbeAim *aim, int first, int end, const ProbeImages *images,
+                         PathStatistics *statistics)
 {
     ProbeImages listener = *images;
     PathImages  wanted = {add_image, &listener};
@@ -415,6 +415,6 @@ void probe_ask_images(const ProbeAim *aim, int first, int end, const ProbeImages
     direct.context = &once;
     for (int path = first; path < end; path++) {
         HistoryCollector ways = image_collector(&wanted);
-        ask(&direct, path, &ways.base, statistics);
+        trace(&direct, path, &ways.base, statistics);
     }
 }

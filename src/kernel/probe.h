@@ -94,8 +94,8 @@ typedef struct ProbeAnswers {
 
 /* HOT. Adds the sum over paths to sums[order][cell][lane]: what comes to the eye of a radiance
  * of 1 from all of the cell. */
-void probe_ask_cells(const ProbeAim *aim, const ProbeCells *cells, int first, int end,
-                     ProbeAnswers *out, PathStatistics *statistics);
+void probe_sample_cells(const ProbeAim *aim, const ProbeCells *cells, int first, int end,
+                        ProbeAnswers *out, PathStatistics *statistics);
 
 /* Discs of one size in the sky. */
 typedef struct ProbeSuns {
@@ -107,8 +107,8 @@ typedef struct ProbeSuns {
 
 /* HOT. Adds the sum over paths to sums[sun][lane]: what the first vertex sends to the eye of an
  * irradiance of 1 on a plane that faces the sun. */
-void probe_ask_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
-                    ProbeAnswers *out, PathStatistics *statistics);
+void probe_sample_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
+                       ProbeAnswers *out, PathStatistics *statistics);
 
 /* ---- mirror images ----------------------------------------------------------------------- */
 
@@ -122,5 +122,5 @@ typedef struct ProbeImages {
 } ProbeImages;
 
 /* HOT. For paths [first, end) of an eye. */
-void probe_ask_images(const ProbeAim *aim, int first, int end, const ProbeImages *images,
-                      PathStatistics *statistics);
+void probe_sample_images(const ProbeAim *aim, int first, int end, const ProbeImages *images,
+                         PathStatistics *statistics);

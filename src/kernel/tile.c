@@ -326,5 +326,5 @@ static void train_try_lights(const TrainingJob *job, uint32_t cell, PathStatisti
 extern const Kernel KERNEL_NAME;
 const Kernel KERNEL_NAME = {
     KERNEL_ISA, tile_render, tile_find_displays, train_find_places, train_cell,
-    train_try_lights, probe_look, probe_trace, probe_ask_cells, probe_ask_suns,
-    probe_ask_images};
+    train_try_lights, probe_look, probe_trace, probe_sample_cells, probe_sample_suns,
+    probe_sample_images};

@@ -84,19 +84,19 @@ static bool may_be_normal(const MirrorNode *node, Vec3 h, float reach)
 }
 
 /* A query on its way through the tree. */
-typedef struct Asking {
+typedef struct MirrorSearch {
     const MirrorQuery *query;
     float  lean;      /* by how much facets of alpha 1 lean; 0: of smooth mirrors */
     Vec2   direction; /* and along which slopes, unit */
     MirrorFound *found;
     void        *user;
-} Asking;
+} MirrorSearch;
 
 /* Where a mirror turns w, the direction from the point to it, into s, its normal lies along
  * h = s - w, on one side or the other. Over the node w stays within a chord of the direction to
  * its centre: sin beta = radius / distance, chord = 2 sin(beta / 2); and so does h. A leaning
  * facet's normal is off by no more than its slope. */
-static bool may_reflect(const MirrorNode *node, const Asking *asking)
+static bool may_reflect(const MirrorNode *node, const MirrorSearch *asking)
 {
     Vec3  to = vec3_sub(node->centre, asking->query->from);
     float far2 = vec3_dot(to, to), radius2 = node->radius * node->radius * 1.0001f;
@@ -118,7 +118,7 @@ static bool is_on_one_side(const MirrorTriangle *t, Vec3 from, Vec3 towards)
 
 /* Slopes m of GGX facets lie at density alpha^2 / (pi (alpha^2 + m^2)^2) (Walter 2007, written
  * by slopes): m^2 = alpha^2 u / (1 - u). */
-static int leaning_points(const MirrorPatch *patch, const Asking *asking,
+static int leaning_points(const MirrorPatch *patch, const MirrorSearch *asking,
                           ReflectionPoint points[REFLECTION_POINTS_MAX])
 {
     const MirrorQuery *query = asking->query;
@@ -133,7 +133,7 @@ static int leaning_points(const MirrorPatch *patch, const Asking *asking,
     return count;
 }
 
-static void ask_patch(const MirrorPatch *patch, const Asking *asking)
+static void find_on_patch(const MirrorPatch *patch, const MirrorSearch *asking)
 {
     const MirrorQuery *query = asking->query;
     ReflectionPoint points[REFLECTION_POINTS_MAX];
@@ -154,7 +154,7 @@ uint32_t mirrors_find(const Mirrors *mirrors, const MirrorQuery *query, MirrorFo
                       void *user)
 {
     uint32_t stack[STACK], depth = 1, taken = 0;
-    Asking   asking = {.query = query, .found = found, .user = user};
+    MirrorSearch   asking = {.query = query, .found = found, .user = user};
     stack[0] = mirrors->roots[mirror_root(query->part_id, query->is_rough)];
     if (stack[0] == MIRROR_NO_TREE) return 0;
     if (query->is_rough) {
@@ -169,7 +169,7 @@ uint32_t mirrors_find(const Mirrors *mirrors, const MirrorQuery *query, MirrorFo
             stack[depth++] = node->children + 1;
             stack[depth++] = node->children;
         } else {
-            ask_patch(&mirrors->patches[node->patch], &asking);
+            find_on_patch(&mirrors->patches[node->patch], &asking);
         }
     }
     return taken;

@@ -63,7 +63,7 @@ static bool passes_before_emitter(void *user, const Hit *hit)
 
 /* Sheets in the last bit of the way, by which the shadow ray ended before the emitter, and as
  * far behind. */
-static void ask_sheets_at_emitter(const Bvh *bvh, Ray to_light, ShadowRay *ray)
+static void find_sheets_at_emitter(const Bvh *bvh, Ray to_light, ShadowRay *ray)
 {
     const TrianglePoint *at = &ray->light->point;
     float cosine = vec3_dot(to_light.direction, at->ng);
@@ -71,7 +71,7 @@ static void ask_sheets_at_emitter(const Bvh *bvh, Ray to_light, ShadowRay *ray)
     ray->rounding = at->rounding + at->slant * ray->light->distance;
     to_light.t_min = to_light.t_max;
     to_light.t_max = fmaxf(2 * ray->end - to_light.t_min, to_light.t_min);
-    bvh_ask_sheets(bvh, to_light, passes_before_emitter, ray);
+    bvh_find_sheets(bvh, to_light, passes_before_emitter, ray);
 }
 
 Spectrum direct_visibility(PathState *path, const Surface *surface, const LightSample *light,
@@ -86,7 +86,7 @@ Spectrum direct_visibility(PathState *path, const Surface *surface, const LightS
     ray->hit_count = 0;
     path->statistics->shadow_rays++;
     if (bvh_occluded(bvh, to_light, passes, ray)) return spectrum_all(0);
-    if (light->is_emitter && bvh_has_sheets(bvh)) ask_sheets_at_emitter(bvh, to_light, ray);
+    if (light->is_emitter && bvh_has_sheets(bvh)) find_sheets_at_emitter(bvh, to_light, ray);
     return ray->passed;
 }
 

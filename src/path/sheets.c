@@ -101,8 +101,8 @@ void sheets_at(const Scene *scene, const Bvh *bvh, const Hit *met, Vec3 directio
     float step = ray_step(&point);
     SheetSearch search = {scene, out, step, point.rounding};
     *out = (SheetStack){.hit = {{0, met->u, met->v, met->triangle}}, .count = 1};
-    bvh_ask_sheets(bvh, (Ray){vec3_along(point.position, down, -step), down, 0, 2 * step},
-                   found, &search);
+    bvh_find_sheets(bvh, (Ray){vec3_along(point.position, down, -step), down, 0, 2 * step},
+                    found, &search);
     order_by_depth(out, search.rounding);
     end_at_opaque(scene, met->t, out);
 }

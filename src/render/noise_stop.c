@@ -24,7 +24,7 @@ struct NoisePixel {
 };
 
 typedef struct NoiseSearch {
-    const NoiseAsk *ask;
+    const NoiseArgs *args;
     NoisePixel      *of;
     int              count, area_count;
     double           stands_for[2]; /* pixels of the frame: those beside the area, its own */
@@ -80,47 +80,47 @@ static bool takes_next(NoisePicks *picks)
 }
 
 /* 0: out of view, 1: in view, 2: of the area. */
-static uint8_t *find_kinds(const NoiseAsk *ask, size_t of_kind[3], Arena *arena)
+static uint8_t *find_kinds(const NoiseArgs *args, size_t of_kind[3], Arena *arena)
 {
-    FilmRect crop = ask->crop;
+    FilmRect crop = args->crop;
     uint8_t *kinds = ARENA_NEW(arena, uint8_t, pixel_count(crop)), *next = kinds;
     Arena    scratch = *arena;
-    const Favour favour = {ask->kernel, ask->context, ask->camera, &ask->area, crop,
-                           ask->threads};
-    const uint8_t *shows = ask->area.display == FILM_ALL_PIXELS
+    const Favour favour = {args->kernel, args->context, args->camera, &args->area, crop,
+                           args->threads};
+    const uint8_t *shows = args->area.display == FILM_ALL_PIXELS
                                ? NULL : favour_shows(&favour, &scratch);
     for (int y = crop.y0; y < crop.y1; y++)
         for (int x = crop.x0; x < crop.x1; x++, next++) {
-            bool counts = holds(ask->area.rect, x, y) && (!shows || shows[next - kinds]);
-            *next = !camera_sees_pixel(ask->camera, x, y) ? 0 : counts ? 2 : 1;
+            bool counts = holds(args->area.rect, x, y) && (!shows || shows[next - kinds]);
+            *next = !camera_sees_pixel(args->camera, x, y) ? 0 : counts ? 2 : 1;
             of_kind[*next]++;
         }
     return kinds;
 }
 
-static NoisePixel pixel_at(const NoiseAsk *ask, int x, int y, Arena *arena)
+static NoisePixel pixel_at(const NoiseArgs *args, int x, int y, Arena *arena)
 {
-    const Camera  *camera = ask->camera;
+    const Camera  *camera = args->camera;
     const FilmRect rect = {x, y, x + 1, y + 1};
     return (NoisePixel){
-        .x = x, .y = y, .share = sample_shares_at(&ask->shares, x, y),
+        .x = x, .y = y, .share = sample_shares_at(&args->shares, x, y),
         .film = film_create(camera->width, camera->height, rect, 0, NULL, arena)};
 }
 
 static void choose_pixels(NoiseSearch *search, Arena *arena)
 {
-    const NoiseAsk *ask = search->ask;
-    FilmRect         crop = ask->crop;
+    const NoiseArgs *args = search->args;
+    FilmRect         crop = args->crop;
     size_t           of_kind[3] = {0};
     search->of = ARENA_NEW(arena, NoisePixel, 2 * NOISE_PIXELS_MOST);
-    const uint8_t *next = find_kinds(ask, of_kind, arena);
+    const uint8_t *next = find_kinds(args, of_kind, arena);
     NoisePicks picks[3] = {{0}, picks_of(of_kind[1], SPREAD),
                            picks_of(of_kind[2], SPREAD + 1)};
     for (int y = crop.y0; y < crop.y1; y++)
         for (int x = crop.x0; x < crop.x1; x++) {
             int kind = *next++;
             if (!kind || !takes_next(&picks[kind])) continue;
-            NoisePixel pixel = pixel_at(ask, x, y, arena);
+            NoisePixel pixel = pixel_at(args, x, y, arena);
             pixel.counts = kind == 2;
             search->of[search->count++] = pixel;
             search->area_count += pixel.counts;
@@ -151,14 +151,14 @@ static double luminance_sum(const FilmPixel *pixel)
 /* The frame's samples [first, end) of a pixel, one by one. */
 static void sample_pixel(const NoiseSearch *search, NoisePixel *pixel, PathStatistics *counts)
 {
-    const NoiseAsk *ask = search->ask;
+    const NoiseArgs *args = search->args;
     const FilmRect   rect = {pixel->x, pixel->y, pixel->x + 1, pixel->y + 1};
-    TileJob job = {.context = ask->context, .camera = ask->camera, .film = pixel->film,
-                   .seed = hash_combine(ask->seed, SEED), .shares = ask->shares};
+    TileJob job = {.context = args->context, .camera = args->camera, .film = pixel->film,
+                   .seed = hash_combine(args->seed, SEED), .shares = args->shares};
     for (uint32_t i = search->first_sample; i < search->end_sample; i++) {
         job.first_sample = i;
         job.end_sample = i + 1;
-        ask->kernel->render(&job, rect, counts);
+        args->kernel->render(&job, rect, counts);
         FilmPixel now = film_pixel(pixel->film, pixel->x, pixel->y);
         if (now.samples == pixel->samples) continue; /* not its share, or dropped */
         double sum = luminance_sum(&now);
@@ -172,7 +172,7 @@ static void sample_item(void *context, int item, int worker)
     const NoiseSearch *search = context;
     NoisePixel        *pixel = &search->of[item];
     if (search->area_alone && !pixel->counts) return;
-    if (search->ask->stops_at_once && signals_stop_requested()) return;
+    if (search->args->stops_at_once && signals_stop_requested()) return;
     sample_pixel(search, pixel, &search->counts[worker].statistics);
 }
 
@@ -180,8 +180,8 @@ static void sample_item(void *context, int item, int worker)
 static void sample_to(NoiseSearch *search, uint32_t end)
 {
     search->first_sample = search->end_sample;
-    search->end_sample = search->ask->first_sample + end;
-    parallel_for(search->ask->threads, search->count, sample_item, search);
+    search->end_sample = search->args->first_sample + end;
+    parallel_for(search->args->threads, search->count, sample_item, search);
 }
 
 /* ---- errors ------------------------------------------------------------------------------ */
@@ -237,27 +237,27 @@ static MeanError mean_error(const NoiseSearch *search, double lowest)
 /* Passes as the frame's, until the error is small enough or there are no more samples. */
 static void find_samples(NoiseSearch *search, NoiseStop *stop)
 {
-    const NoiseAsk *ask = search->ask;
-    size_t   pixels = pixel_count(ask->crop);
+    const NoiseArgs *args = search->args;
+    size_t   pixels = pixel_count(args->crop);
     Forecast forecast = {0};
-    Progress progress = progress_start(ask->progress, "noise", "samples",
-                                       (double)ask->most * search->count);
-    while (!stop->reached && stop->samples < ask->most) {
-        if (ask->stops_at_once && signals_stop_requested()) {
-            stop->samples = ask->most;
+    Progress progress = progress_start(args->progress, "noise", "samples",
+                                       (double)args->most * search->count);
+    while (!stop->reached && stop->samples < args->most) {
+        if (args->stops_at_once && signals_stop_requested()) {
+            stop->samples = args->most;
             break;
         }
         uint32_t next = render_pass_samples(stop->samples, pixels);
-        uint32_t left = ask->most - stop->samples;
+        uint32_t left = args->most - stop->samples;
         stop->samples += next < left ? next : left;
         sample_to(search, stop->samples);
         stop->lowest = lowest_luminance(search);
         MeanError error = mean_error(search, stop->lowest);
         stop->error = error.mean;
         stop->reached = stop->samples >= NOISE_LEAST_SAMPLES &&
-                        error.mean + error.sigma <= ask->error;
-        double end = forecast_samples(&forecast, stop->samples, stop->error / ask->error);
-        progress.total = fmin(fmax(end, stop->samples), ask->most) * search->count;
+                        error.mean + error.sigma <= args->error;
+        double end = forecast_samples(&forecast, stop->samples, stop->error / args->error);
+        progress.total = fmin(fmax(end, stop->samples), args->most) * search->count;
         progress_update(&progress, (double)stop->samples * search->count);
     }
     progress_end(&progress, (double)stop->samples * search->count);
@@ -275,13 +275,13 @@ static uint32_t samples_to_look(const NoiseSearch *search, uint32_t samples)
     return looked > samples ? (uint32_t)looked : samples;
 }
 
-NoiseStop noise_stop_find(const NoiseAsk *ask, Arena *arena)
+NoiseStop noise_stop_find(const NoiseArgs *args, Arena *arena)
 {
     const double begun_s = monotonic_seconds();
-    NoiseStop    stop = {.samples = ask->most, .error = (double)NAN,
-                         .first_sample = ask->first_sample};
-    NoiseSearch  search = {.ask = ask, .end_sample = ask->first_sample,
-                           .counts = ARENA_NEW(arena, WorkerCounts, ask->threads)};
+    NoiseStop    stop = {.samples = args->most, .error = (double)NAN,
+                         .first_sample = args->first_sample};
+    NoiseSearch  search = {.args = args, .end_sample = args->first_sample,
+                           .counts = ARENA_NEW(arena, WorkerCounts, args->threads)};
     choose_pixels(&search, arena);
     if (search.area_count) {
         stop.samples = 0;
@@ -292,7 +292,7 @@ NoiseStop noise_stop_find(const NoiseAsk *ask, Arena *arena)
     stop.of = search.of;
     stop.count = search.count;
     stop.pixels = search.area_count;
-    stop.paths = worker_counts_sum(search.counts, ask->threads).samples;
+    stop.paths = worker_counts_sum(search.counts, args->threads).samples;
     stop.seconds = monotonic_seconds() - begun_s;
     return stop;
 }

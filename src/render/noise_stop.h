@@ -38,7 +38,7 @@
 #define NOISE_PIXELS_MOST 4096
 #define NOISE_PIXELS_SHARE 64  /* else one in so many of it */
 
-typedef struct NoiseAsk {
+typedef struct NoiseArgs {
     const Kernel      *kernel;
     const PathContext *context; /* with its guide */
     const Camera      *camera;
@@ -51,7 +51,7 @@ typedef struct NoiseAsk {
     int          threads;
     bool         stops_at_once; /* at a signal: what is found then is worth nothing */
     ProgressMode progress;
-} NoiseAsk;
+} NoiseArgs;
 
 typedef struct NoisePixel NoisePixel;
 
@@ -69,7 +69,7 @@ typedef struct NoiseStop {
     uint32_t first_sample;
 } NoiseStop;
 
-NoiseStop noise_stop_find(const NoiseAsk *ask, Arena *arena);
+NoiseStop noise_stop_find(const NoiseArgs *args, Arena *arena);
 
 /* The relative error that there may be, if what few samples brought is everywhere in the area;
  * spikes: of the frame, after so many samples. NaN: no pixel shows the area. */

@@ -298,14 +298,14 @@ static SampleShares find_shares(const RenderSetup *setup, const RenderOptions *o
 static NoiseStop find_stop(const RenderSetup *setup, const RenderOptions *options,
                            const SampleShares *shares, Arena *arena)
 {
-    const NoiseAsk ask = {
+    const NoiseArgs args = {
         .kernel = setup->kernel, .context = &setup->context, .camera = &setup->camera,
         .crop = options->crop, .area = options->noise_area, .shares = *shares,
         .seed = options->seed, .first_sample = options->first_sample,
         .most = options->end_sample - options->first_sample, .error = options->noise,
         .threads = options->threads, .stops_at_once = options->stops_at_once,
         .progress = options->within ? PROGRESS_NONE : options->progress};
-    return noise_stop_find(&ask, arena);
+    return noise_stop_find(&args, arena);
 }
 
 bool render_prepared(const RenderSetup *setup, const RenderOptions *options, Arena *arena,

@@ -9,14 +9,14 @@
 static atomic_int stop_signal;
 static atomic_bool snapshot_wanted;
 
-static void ask_to_stop(int signal_number)
+static void request_stop(int signal_number)
 {
     int none = 0;
     if (!atomic_compare_exchange_strong(&stop_signal, &none, signal_number))
         _exit(128 + signal_number);
 }
 
-static void ask_for_snapshot(int signal_number)
+static void request_snapshot(int signal_number)
 {
     (void)signal_number;
     atomic_store(&snapshot_wanted, true);
@@ -24,9 +24,9 @@ static void ask_for_snapshot(int signal_number)
 
 void signals_watch(void)
 {
-    struct sigaction stop = {.sa_handler = ask_to_stop, .sa_flags = SA_RESTART};
+    struct sigaction stop = {.sa_handler = request_stop, .sa_flags = SA_RESTART};
     struct sigaction hang_up;
-    struct sigaction snapshot = {.sa_handler = ask_for_snapshot, .sa_flags = SA_RESTART};
+    struct sigaction snapshot = {.sa_handler = request_snapshot, .sa_flags = SA_RESTART};
     atomic_store(&stop_signal, 0);
     atomic_store(&snapshot_wanted, false);
     sigaction(SIGINT, &stop, NULL);

@@ -138,13 +138,13 @@ static void cover_explain(const Moment *m, Arena arena)
     ProbeAim aim = m->aim;
     ChainKey key;
     int      found = 0;
-    ChainAsk ask = {.aim = &aim, .tools = &m->setup->tools, .paths = EXPLAIN_PATHS,
+    ChainArgs args = {.aim = &aim, .tools = &m->setup->tools, .paths = EXPLAIN_PATHS,
                     .most = CAUSES_MOST};
     memset(&key, 0, sizeof key);
     for (int i = 0; i < m->runs; i++) {
         Arena room = m->scratch;
         aim.seed = 7000 + (uint32_t)i;
-        Chains chains = chains_find(&ask, &room);
+        Chains chains = chains_find(&args, &room);
         all[i] = trial_of(chains.all, chains.paths);
         if (i == 0 && chains.count) key = chains.list[0].key;
         const Chain *chain = find_chain(&chains, &key);

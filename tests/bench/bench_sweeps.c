@@ -72,9 +72,9 @@ static void read_steps(SweepTrials *t, bool is_full, double own, unsigned seed,
     probe.aim.seed = seed;
     distant_probe_respond(&probe, &tools, &room);
     Error err;
-    if (!distant_probes_ask_skies((DistantProbe *[]){&probe}, 1, &tools, &room, &err))
+    if (!distant_probes_sample_skies((DistantProbe *[]){&probe}, 1, &tools, &room, &err))
         trials_stop(&err);
-    distant_probe_ask_suns(&probe, &tools, &room);
+    distant_probe_sample_suns(&probe, &tools, &room);
     for (int i = 0; i < t->suns.count; i++) {
         DistantReading r = distant_probe_read(&probe, &tools, i);
         out[i] = (Trial){r.sky + r.sun_first + r.sun_rest + own, r.interval.low + own,

@@ -73,8 +73,8 @@ static Chains find(World *world, uint32_t seed, long paths, int threads)
 {
     ReadingTools tools = tools_of(threads);
     ProbeAim     aim = aim_of(world, seed);
-    ChainAsk     ask = {.aim = &aim, .tools = &tools, .paths = paths, .most = MOST};
-    return chains_find(&ask, &world->arena);
+    ChainArgs     args = {.aim = &aim, .tools = &tools, .paths = paths, .most = MOST};
+    return chains_find(&args, &world->arena);
 }
 
 /* ---- they add up ------------------------------------------------------------------------- */
@@ -276,9 +276,9 @@ static Outlook look_out(World *world)
 {
     static ReadingTools tools;
     tools = tools_of(2);
-    OutlookAsk ask = {&world->context, &tools, vec3(0, 0, 1e-4f), vec3(0, 0, 1),
+    OutlookArgs args = {&world->context, &tools, vec3(0, 0, 1e-4f), vec3(0, 0, 1),
                       outlook_up(vec3(0, 0, 1)), eye};
-    return outlook_take(&ask, &world->arena);
+    return outlook_take(&args, &world->arena);
 }
 
 TEST(an_outlook_is_what_a_luxmeter_reads)

@@ -44,10 +44,10 @@ static Failures failures_of(Daily daily, bool with_ask)
                             .heading_count = 2, .step_minutes = daily.step_minutes};
     SweepSuns      suns = sweep_suns(&year, 2, &arena);
     unsigned char *states = ARENA_NEW(&arena, unsigned char, suns.count);
-    FailureAsk     ask = {tell, &daily};
+    FailureArgs     args = {tell, &daily};
     tell(&daily, &suns, states, arena);
     steps_told = suns.count;
-    Failures found = sweep_failures(&year, &suns, states, with_ask ? &ask : NULL, arena);
+    Failures found = sweep_failures(&year, &suns, states, with_ask ? &args : NULL, arena);
     found.share *= suns.count * daily.step_minutes / 2; /* minutes of one heading */
     arena_release(&arena);
     return found;

@@ -118,7 +118,7 @@ TEST(a_facet_that_dazzles_for_minutes_a_year_is_found)
     DaylightInput clear = daylight_input_default(DAYLIGHT_CLEAR);
     DistantTools  tools = {.table = &sweep.table};
     sweep.table = sky_table_start(&clear, 16, 36, &scratch);
-    assert_done(distant_probes_ask_skies(NULL, 0, &tools, &scratch, &err));
+    assert_done(distant_probes_sample_skies(NULL, 0, &tools, &scratch, &err));
     for (int b = 0; b < LIGHT_BANDS; b++) bands[b] = 1;
     false_suns_search(&setup, vec3(0, 0, 0), &scratch, &rays);
     images = false_suns_of(&rays, bands, &scratch);

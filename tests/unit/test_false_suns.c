@@ -114,12 +114,12 @@ static const FalseSunRays *ask_twice(SunSearches *kept, const World *world)
     setup.identity = "a scene";
     other.identity = "another";
     other.tools.threads = 1;
-    const FalseSunRays *rays = sun_searches_ask(kept, &setup, eye);
-    const FalseSunRays *again = sun_searches_ask(kept, &other, eye);
+    const FalseSunRays *rays = sun_searches_find(kept, &setup, eye);
+    const FalseSunRays *again = sun_searches_find(kept, &other, eye);
     assert_true(rays != again && rays->count == again->count && rays->count > 0);
     assert_memory_equal(rays->list, again->list, (size_t)rays->count * sizeof *rays->list);
-    assert_ptr_equal(sun_searches_ask(kept, &setup, eye), rays);
-    assert_ptr_equal(sun_searches_ask(kept, &other, eye), again);
+    assert_ptr_equal(sun_searches_find(kept, &setup, eye), rays);
+    assert_ptr_equal(sun_searches_find(kept, &other, eye), again);
     return rays;
 }
 

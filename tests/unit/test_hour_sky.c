@@ -169,7 +169,7 @@ static void sun_is_the_atmospheres(double elevation_deg, Arena arena)
     Daylight      sky;
     float         bands[LIGHT_BANDS], wanted[LIGHT_BANDS];
     double        sum = 0, off = 0;
-    assert_done(distant_probes_ask_skies(NULL, 0, &tools, &arena, &err));
+    assert_done(distant_probes_sample_skies(NULL, 0, &tools, &arena, &err));
     input.has_sun = input.no_moon = input.has_time = true;
     input.when = (SkyTime){2026, 1, 4, 12, 0, 0, 0}; /* the earth is near */
     input.sun_elevation = radians_from_degrees(elevation_deg);

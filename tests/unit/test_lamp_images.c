@@ -22,8 +22,8 @@ static LampImages find_by(World *world, int threads, double least_cd_m2)
     Setup       setup = {.request = &request, .tools = {.kernel = kernel, .threads = threads},
                          .scene = world->scene, .context = world->context};
     BrightLamps lamps = bright_lamps(world->scene, least_cd_m2, &world->arena);
-    LampImagesAsk ask = {&setup, &head, &lamps, PIXELS, 7};
-    return lamp_images_find(&ask, &world->arena);
+    LampImagesArgs args = {&setup, &head, &lamps, PIXELS, 7};
+    return lamp_images_find(&args, &world->arena);
 }
 
 static LampImages find(World *world)

@@ -71,9 +71,9 @@ static void set_side(int pixels)
     camera = (Camera){.width = pixels, .height = pixels};
 }
 
-static NoiseAsk ask_of(uint32_t seed, double error)
+static NoiseArgs ask_of(uint32_t seed, double error)
 {
-    return (NoiseAsk){.kernel = &made_up, .camera = &camera, .crop = all,
+    return (NoiseArgs){.kernel = &made_up, .camera = &camera, .crop = all,
                       .area = {all, FILM_ALL_PIXELS}, .shares = {NULL, all}, .seed = seed,
                       .most = 4096, .error = error, .threads = 1,
                       .progress = PROGRESS_NONE};
@@ -101,10 +101,10 @@ MEMORY_TEST(no_sample_of_the_frame_decides)
     for (uint32_t seed = 1; seed <= 8; seed++)
         for (int k = 0; k < COUNT_OF(errors); k++) {
             Arena     scratch = *arena;
-            NoiseAsk  ask = ask_of(seed, errors[k]);
-            NoiseStop stop = noise_stop_find(&ask, &scratch), again;
+            NoiseArgs  args = ask_of(seed, errors[k]);
+            NoiseStop stop = noise_stop_find(&args, &scratch), again;
             dark_seed = seed;
-            again = noise_stop_find(&ask, &scratch);
+            again = noise_stop_find(&args, &scratch);
             dark_seed = 0;
             assert_true(stop.reached && stop.samples >= NOISE_LEAST_SAMPLES);
             assert_int_equal(again.samples, stop.samples);
@@ -116,10 +116,10 @@ MEMORY_TEST(any_threads_find_the_same)
 {
     glints = 1u << 27;
     set_side(40); /* not all pixels are looked at */
-    NoiseAsk  ask = ask_of(5, 0.2);
-    NoiseStop one = noise_stop_find(&ask, arena), three;
-    ask.threads = 3;
-    three = noise_stop_find(&ask, arena);
+    NoiseArgs  args = ask_of(5, 0.2);
+    NoiseStop one = noise_stop_find(&args, arena), three;
+    args.threads = 3;
+    three = noise_stop_find(&args, arena);
     assert_int_equal(one.pixels, NOISE_PIXELS_LEAST);
     assert_int_equal(one.samples, three.samples);
     assert_true(one.error == three.error);
@@ -136,14 +136,14 @@ MEMORY_TEST(samples_are_found_between_least_and_most)
     set_side(12);
     for (double error = 0.8; error > 0.001; error /= 2) {
         Arena     scratch = *arena;
-        NoiseAsk  ask = ask_of(3, error);
-        NoiseStop stop = noise_stop_find(&ask, &scratch);
+        NoiseArgs  args = ask_of(3, error);
+        NoiseStop stop = noise_stop_find(&args, &scratch);
         assert_true(stop.samples >= before && stop.samples >= NOISE_LEAST_SAMPLES);
-        assert_true(stop.reached ? stop.error <= error : stop.samples == ask.most);
+        assert_true(stop.reached ? stop.error <= error : stop.samples == args.most);
         before = stop.samples;
     }
     assert_int_equal(before, 4096);
-    NoiseAsk none = ask_of(3, 0.5);
+    NoiseArgs none = ask_of(3, 0.5);
     none.area.rect = (FilmRect){12, 12, 13, 13};
     NoiseStop stop = noise_stop_find(&none, arena);
     assert_true(!stop.reached && stop.samples == none.most && isnan(stop.error));
@@ -162,11 +162,11 @@ static void check_told(uint32_t some, double error, Arena arena)
     glints = some;
     for (int seed = 0; seed < count; seed++) {
         Arena      scratch = arena;
-        NoiseAsk   ask = ask_of(1000 + (uint32_t)seed, error);
-        NoiseStop  stop = noise_stop_find(&ask, &scratch);
-        Film      *film = frame_of(ask.seed, stop.samples, &scratch);
-        double     told = film_area_error(film, ask.area);
-        FilmSpikes spikes = film_area_spikes(film, ask.area);
+        NoiseArgs   args = ask_of(1000 + (uint32_t)seed, error);
+        NoiseStop  stop = noise_stop_find(&args, &scratch);
+        Film      *film = frame_of(args.seed, stop.samples, &scratch);
+        double     told = film_area_error(film, args.area);
+        FilmSpikes spikes = film_area_spikes(film, args.area);
         double     doubt = noise_stop_doubt(&stop, spikes, stop.samples);
         if (noise_stop_is_rare(&stop, told, doubt)) continue;
         ratio += told / true_error(stop.samples);

@@ -127,8 +127,8 @@ ARENA_TEST(damaged_states_do_no_harm)
         unsigned char before = data[where];
         data[where] ^= 0x91;
         repair_checksum(data, bytes.size);
-        PanelOpenAsk ask = {data, bytes.size, "x", "private"};
-        refused += !panel_open_state(&ask, &room, &panel, why());
+        PanelOpenArgs args = {data, bytes.size, "x", "private"};
+        refused += !panel_open_state(&args, &room, &panel, why());
         data[where] = before;
         tried++;
     }

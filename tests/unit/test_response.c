@@ -337,9 +337,9 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
     DistantProbe probe = {.aim = aim_of(&world)};
     probe.aim.context = &setup.context;
     distant_probe_respond(&probe, &tools, &world.arena);
-    assert_done(distant_probes_ask_skies((DistantProbe *[]){&probe}, 1, &tools, &world.arena,
-                                         &err));
-    distant_probe_ask_suns(&probe, &tools, &world.arena);
+    assert_done(distant_probes_sample_skies((DistantProbe *[]){&probe}, 1, &tools, &world.arena,
+                                            &err));
+    distant_probe_sample_suns(&probe, &tools, &world.arena);
     for (int i = 0; i < 4; i++) {
         SunAngles at = suns[i].at;
         world.scene->environment = clear_sky(at.azimuth_deg, at.elevation_deg, 0);

@@ -399,10 +399,10 @@ static void look(const ProbeWords *words, const RenderSetup *setup, Arena *arena
     float    x = (float)pixel.x + 0.5f, y = (float)pixel.y + 0.5f;
     ProbeAim aim = {.context = &setup->context, .eye = camera_ray(&setup->camera, x, y).origin,
                     .pixel = &pixel, .seed = words->render.seed};
-    ChainAsk ask = {&aim, &tools, words->spp, (int)words->ways, true, NULL, true};
+    ChainArgs args = {&aim, &tools, words->spp, (int)words->ways, true, NULL, true};
     *out = (Probed){.pixel = {pixel.x, pixel.y}, .size = {words->size[0], words->size[1]},
-                    .eye = aim.eye, .chains = chains_find(&ask, arena),
-                    .light = pixel_light_find(&ask)};
+                    .eye = aim.eye, .chains = chains_find(&args, arena),
+                    .light = pixel_light_find(&args)};
 }
 
 /* A sum that has met one number that is none is none. */

@@ -225,69 +225,69 @@ json_t *weather_option_json(const Environment *environment)
                      number_or_null(lux[1] >= 0, lux[1]));
 }
 
-typedef struct WeatherAsk {
+typedef struct WeatherArgs {
     const char   *file;
     SkyTime       when;
     bool          has_place;    /* the user's own: the station's is not taken */
     const double *offset_h;     /* --weather-offset, or NULL */
     WeatherLux    lux;
-} WeatherAsk;
+} WeatherArgs;
 
-static bool check_row(const WeatherAsk *ask, const WeatherHour *hour, double apart_min,
+static bool check_row(const WeatherArgs *args, const WeatherHour *hour, double apart_min,
                       Arena *arena, Error *err)
 {
-    const SkyTime *when = &ask->when;
+    const SkyTime *when = &args->when;
     if (!hour)
-        return error_at(err, ERROR_INPUT, ask->file, "",
+        return error_at(err, ERROR_INPUT, args->file, "",
                         "has no hour for month %d, day %d, %02d:%02d", when->month,
                         when->day, when->hour, when->minute);
-    WeatherRowState state = weather_row_state(hour, ask->lux);
+    WeatherRowState state = weather_row_state(hour, args->lux);
     const char *place = arena_format(arena, "line %d", hour->line);
     if (state == WEATHER_ROW_DARK)
-        return error_at(err, ERROR_INPUT, ask->file, place,
+        return error_at(err, ERROR_INPUT, args->file, place,
                         "month %d, day %d, hour %g (its instant is %+.0f min from --when) is "
                         "dark (0 W/m2 diffuse), required: an hour by day — for a night use "
                         "--environment sky:clear", hour->month, hour->day, hour->label_h,
                         apart_min);
     return state == WEATHER_ROW_LIT ||
-           error_at(err, ERROR_INPUT, ask->file, place,
+           error_at(err, ERROR_INPUT, args->file, place,
                     "month %d, day %d, hour %g %s; required direct and diffuse daylight%s",
                     hour->month, hour->day, hour->label_h,
                     weather_row_lacks(hour, state, arena),
                     state == WEATHER_ROW_WITHOUT_LUX ? ", or --weather-lux perez" : "");
 }
 
-static void warn_of_water(const WeatherAsk *ask, const WeatherHour *hour, Arena *arena,
+static void warn_of_water(const WeatherArgs *args, const WeatherHour *hour, Arena *arena,
                           Problems *problems)
 {
-    if (hour->has_dew_point || ask->lux == WEATHER_LUX_FILE) return;
-    problems_add(problems, SEVERITY_WARNING, ask->file, arena_format(arena, "line %d",
-                                                                     hour->line),
+    if (hour->has_dew_point || args->lux == WEATHER_LUX_FILE) return;
+    problems_add(problems, SEVERITY_WARNING, args->file, arena_format(arena, "line %d",
+                                                                      hour->line),
                  "has no dew point (99.9): %g cm of water vapour are assumed for its lux",
                  WATER_USUAL_CM);
 }
 
 /* Sets the light, the place and how they were found. A file that closes nowhere, or whose clock
  * is hours off, goes to *problems as a warning. */
-static bool apply_weather(const WeatherAsk *ask, Environment *environment, Arena *arena,
+static bool apply_weather(const WeatherArgs *args, Environment *environment, Arena *arena,
                           Problems *problems, Error *err)
 {
     Weather weather;
     double  apart_min = 0;
-    if (!weather_read(ask->file, arena, &weather, err)) return false;
-    WeatherClock clock = weather_clock_find(&weather, ask->offset_h, *arena);
-    const WeatherHour *hour = weather_clock_row(&weather, &clock, &ask->when, &apart_min);
-    if (!check_row(ask, hour, apart_min, arena, err)) return false;
+    if (!weather_read(args->file, arena, &weather, err)) return false;
+    WeatherClock clock = weather_clock_find(&weather, args->offset_h, *arena);
+    const WeatherHour *hour = weather_clock_row(&weather, &clock, &args->when, &apart_min);
+    if (!check_row(args, hour, apart_min, arena, err)) return false;
     environment->weather = (EnvironmentWeather){
-        ask->file, hour->line, hour->month, hour->day, hour->label_h, apart_min,
+        args->file, hour->line, hour->month, hour->day, hour->label_h, apart_min,
         {hour->direct_normal_lx, hour->diffuse_horizontal_lx}, clock};
-    weather_light_take(hour, ask->lux, &environment->daylight);
-    if (!ask->has_place) environment->daylight.where = weather.place;
+    weather_light_take(hour, args->lux, &environment->daylight);
+    if (!args->has_place) environment->daylight.where = weather.place;
     warn_of_clock(&environment->weather, problems);
-    warn_of_water(ask, hour, arena, problems);
+    warn_of_water(args, hour, arena, problems);
     const char *doubt = weather_clock_row_doubt(&weather, &clock, hour, arena);
     if (doubt)
-        problems_add(problems, SEVERITY_WARNING, ask->file,
+        problems_add(problems, SEVERITY_WARNING, args->file,
                      arena_format(arena, "line %d", hour->line),
                      "%s; the direct and diffuse light are taken", doubt);
     return true;
@@ -361,11 +361,11 @@ static bool set_weather(Change *change, Error *err)
     SkyTime when = daylight->when;
     if (change->asked->when && !sky_time_parse(change->asked->when, "", &when, err))
         return false;
-    WeatherAsk ask = {file, when, change->asked->where != NULL,
+    WeatherArgs args = {file, when, change->asked->where != NULL,
                       change->asked->has_weather_offset ? &change->asked->weather_offset_h
                                                         : NULL,
                       (WeatherLux)change->asked->weather_lux};
-    if (!apply_weather(&ask, change->environment, change->arena, change->problems, err))
+    if (!apply_weather(&args, change->environment, change->arena, change->problems, err))
         return false;
     FileBytes bytes;
     if (!file_read(file, HDRI_BYTES_MAX, change->arena, &bytes, err)) return false;

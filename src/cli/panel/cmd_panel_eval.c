@@ -106,7 +106,7 @@ static void print_list_names(const Panel *panel, const PanelQuestion *q)
         print("theta,phi,X,Y,Z\n");
         return;
     }
-    panel_ask_reflection(panel, q, &r);
+    panel_query_reflection(panel, q, &r);
     print("theta,phi");
     for (int i = 0; i < r.count; i++) print(",%.9g", (double)r.nm[i]);
     print("\n");
@@ -117,11 +117,11 @@ static void print_list_row(const Panel *panel, const PanelQuestion *q)
     print("%.10g,%.10g", q->theta, q->phi);
     if (q->is_brdf) {
         PanelReflected r;
-        panel_ask_reflection(panel, q, &r);
+        panel_query_reflection(panel, q, &r);
         for (int i = 0; i < r.count; i++) print(",%.9g", (double)r.brdf[i]);
     } else {
         float xyz[3];
-        panel_ask_emission(panel, q, xyz);
+        panel_query_emission(panel, q, xyz);
         for (int j = 0; j < 3; j++) print(",%.9g", (double)xyz[j]);
     }
     print("\n");
@@ -148,10 +148,10 @@ static double quantity_at(const Panel *panel, const PanelQuestion *q, Quantity q
     PanelReflected r;
     float xyz[3];
     if (q->is_brdf) {
-        panel_ask_reflection(panel, q, &r);
+        panel_query_reflection(panel, q, &r);
         return (double)r.brdf[0];
     }
-    panel_ask_emission(panel, q, xyz);
+    panel_query_emission(panel, q, xyz);
     double d = (double)xyz[0] + 15 * (double)xyz[1] + 3 * (double)xyz[2];
     switch (quantity) {
     case QUANTITY_U: return d > 0 ? 4 * (double)xyz[0] / d : 0;
@@ -199,8 +199,8 @@ static json_t *range_json(const PanelRange *range)
 static bool channels_at(const Panel *panel, const PanelQuestion *q, float *out)
 {
     PanelReflected r;
-    if (!q->is_brdf) return panel_ask_emission(panel, q, out);
-    panel_ask_reflection(panel, q, &r);
+    if (!q->is_brdf) return panel_query_emission(panel, q, out);
+    panel_query_reflection(panel, q, &r);
     memcpy(out, r.brdf, sizeof *out * (size_t)r.count);
     return r.is_measured;
 }
@@ -243,7 +243,7 @@ static json_t *reflection_grid_json(const Panel *panel, const PanelQuestion *q,
     json_t *table[PANEL_INFO_WAVELENGTHS_MAX], *nm = json_array();
     json_t *brdf = json_array(), *mirror = json_array();
     PanelReflected r;
-    panel_ask_reflection(panel, q, &r);
+    panel_query_reflection(panel, q, &r);
     for (int i = 0; i < r.count; i++) {
         table[i] = json_array();
         json_array_append_new(brdf, table[i]);

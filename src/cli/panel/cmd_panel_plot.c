@@ -29,7 +29,7 @@ static bool add_numbers(const PlotRequest *request, const PlotInput *input, Aren
                         json_t *answer, Error *err)
 {
     json_t     *report = NULL;
-    PlotData *data = plot_ask(input, &request->options, arena, &report, err);
+    PlotData *data = plot_query(input, &request->options, arena, &report, err);
     if (!data) return false;
     plot_answer_add(data, request->options.kind, answer);
     json_decref(report);

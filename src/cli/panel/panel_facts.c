@@ -79,22 +79,22 @@ typedef struct ConeQuestion {
 
 /* The first theta, in tenths of a degree inside the measured cone, that has less; null: none.
  * */
-static json_t *cone_to(const Panel *panel, ConeQuestion ask, double phi)
+static json_t *cone_to(const Panel *panel, ConeQuestion question, double phi)
 {
     double normal = luminance(panel, WHITE, 0, 0);
     double cone = degrees_from_radians(panel_info_emission_cone(panel));
     for (double theta = 0; theta <= cone + 1e-6; theta += 0.1) {
         double white = luminance(panel, WHITE, theta, phi);
-        double over = ask.is_contrast ? luminance(panel, BLACK, theta, phi) : normal;
-        if (white < ask.least * over) return json_real(round(10 * theta) / 10);
+        double over = question.is_contrast ? luminance(panel, BLACK, theta, phi) : normal;
+        if (white < question.least * over) return json_real(round(10 * theta) / 10);
     }
     return json_null();
 }
 
-static json_t *cones(const Panel *panel, ConeQuestion ask)
+static json_t *cones(const Panel *panel, ConeQuestion question)
 {
     json_t *list = json_array();
-    for (int i = 0; i < 4; i++) json_array_append_new(list, cone_to(panel, ask, 90.0 * i));
+    for (int i = 0; i < 4; i++) json_array_append_new(list, cone_to(panel, question, 90.0 * i));
     return list;
 }
 

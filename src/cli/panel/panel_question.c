@@ -69,7 +69,7 @@ bool panel_question_check(const PanelQuestion *q, Error *err)
     return true;
 }
 
-bool panel_ask_emission(const Panel *panel, const PanelQuestion *q, float xyz[3])
+bool panel_query_emission(const Panel *panel, const PanelQuestion *q, float xyz[3])
 {
     float rgb[3] = {(float)q->rgb[0], (float)q->rgb[1], (float)q->rgb[2]};
     float at[2] = {(float)q->at[0], (float)q->at[1]};
@@ -86,7 +86,7 @@ static PanelMix panel_asked(const Panel *panel, const PanelQuestion *q)
     return (PanelMix){.count = 1, .panel = {panel}, .weight = {1}};
 }
 
-void panel_ask_reflection(const Panel *panel, const PanelQuestion *q, PanelReflected *out)
+void panel_query_reflection(const Panel *panel, const PanelQuestion *q, PanelReflected *out)
 {
     Vec3 wo = panel_direction(q->theta, q->phi);
     Vec3 wi = panel_direction(q->incidence, q->incidence_phi);
@@ -120,7 +120,7 @@ void panel_ask_reflection(const Panel *panel, const PanelQuestion *q, PanelRefle
 static json_t *emission_json(const Panel *panel, const PanelQuestion *q)
 {
     float  xyz[3];
-    bool   measured = panel_ask_emission(panel, q, xyz);
+    bool   measured = panel_query_emission(panel, q, xyz);
     double x = (double)xyz[0], y = (double)xyz[1], z = (double)xyz[2], d = x + 15 * y + 3 * z;
     return json_pack("{s:f, s:f, s:[f,f,f], s:[f,f,f], s:f, s:[f,f], s:b}",
         "theta_deg", q->theta, "phi_deg", q->phi, "rgb", q->rgb[0], q->rgb[1], q->rgb[2],
@@ -134,7 +134,7 @@ static json_t *reflection_json(const Panel *panel, const PanelQuestion *q)
     json_t *nm = json_array(), *brdf = json_array(), *mirror = json_array();
     json_t *lambertian = json_array();
     PanelReflected r;
-    panel_ask_reflection(panel, q, &r);
+    panel_query_reflection(panel, q, &r);
     for (int i = 0; i < r.count; i++) {
         json_array_append_new(nm, json_real((double)r.nm[i]));
         json_array_append_new(brdf, json_real((double)r.brdf[i]));
@@ -160,7 +160,7 @@ json_t *panel_answer_json(const Panel *panel, const PanelQuestion *q)
 static void print_emission(const Panel *panel, const PanelQuestion *q)
 {
     float  xyz[3];
-    bool   measured = panel_ask_emission(panel, q, xyz);
+    bool   measured = panel_query_emission(panel, q, xyz);
     double x = (double)xyz[0], y = (double)xyz[1], z = (double)xyz[2], d = x + 15 * y + 3 * z;
     print("%.6g cd/m2  XYZ %.6g %.6g %.6g  u'v' %.4f %.4f%s\n", y, x, y, z,
           d > 0 ? 4 * x / d : 0, d > 0 ? 9 * y / d : 0, measured ? "" : "  (extrapolated)");
@@ -169,7 +169,7 @@ static void print_emission(const Panel *panel, const PanelQuestion *q)
 static void print_reflection(const Panel *panel, const PanelQuestion *q)
 {
     PanelReflected r;
-    panel_ask_reflection(panel, q, &r);
+    panel_query_reflection(panel, q, &r);
     for (int i = 0; i < r.count; i++)
         print("%g nm  %.6g sr^-1  mirror %.6g%s\n", (double)r.nm[i], (double)r.brdf[i],
               (double)r.mirror[i], r.is_measured ? "" : "  (extrapolated)");
@@ -195,7 +195,7 @@ void panel_answer_csv_header(const PanelQuestion *q, FILE *out)
 static void csv_reflection(const Panel *panel, const PanelQuestion *q, FILE *out)
 {
     PanelReflected r;
-    panel_ask_reflection(panel, q, &r);
+    panel_query_reflection(panel, q, &r);
     for (int i = 0; i < r.count; i++)
         print_to(out, "%.10g,%.10g,%.10g,%.10g,%.9g,%.9g,%.9g,%d\n", q->theta, q->phi,
                  q->incidence, q->incidence_phi, (double)r.nm[i], (double)r.brdf[i],
@@ -209,7 +209,7 @@ void panel_answer_csv(const Panel *panel, const PanelQuestion *q, FILE *out)
         csv_reflection(panel, q, out);
         return;
     }
-    bool measured = panel_ask_emission(panel, q, xyz);
+    bool measured = panel_query_emission(panel, q, xyz);
     print_to(out, "%.10g,%.10g,%g,%g,%g,%.9g,%.9g,%.9g,%d\n", q->theta, q->phi, q->rgb[0],
              q->rgb[1], q->rgb[2], (double)xyz[0], (double)xyz[1], (double)xyz[2],
              (int)measured);

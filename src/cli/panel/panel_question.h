@@ -43,9 +43,9 @@ double *panel_question_member(PanelQuestion *question, const char *name);
 bool panel_question_check(const PanelQuestion *question, Error *err);
 
 /* True where the value is measured. */
-bool panel_ask_emission(const Panel *panel, const PanelQuestion *question, float xyz[3]);
-void panel_ask_reflection(const Panel *panel, const PanelQuestion *question,
-                          PanelReflected *out);
+bool panel_query_emission(const Panel *panel, const PanelQuestion *question, float xyz[3]);
+void panel_query_reflection(const Panel *panel, const PanelQuestion *question,
+                            PanelReflected *out);
 
 /* A new document (cli.md: panel eval --json). */
 json_t *panel_answer_json(const Panel *panel, const PanelQuestion *question);

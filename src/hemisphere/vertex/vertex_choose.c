@@ -35,27 +35,27 @@ static void go_beyond(const VertexJudge *judge, uint32_t vertex, const float *ro
         farther[i] = value[i] + factor * (row[i] - value[i]);
 }
 
-static bool ask(const VertexJudge *judge, uint32_t vertex, const float *row)
+static bool row_passes(const VertexJudge *judge, uint32_t vertex, const float *row)
 {
     return judge->options->accepts(judge->options->context, vertex, row);
 }
 
 /* Queries add up in another order than the coder: what is near the bound is refused where that
  * happened to matter. */
-static bool ask_strictly(const VertexJudge *judge, uint32_t vertex, const float *row)
+static bool judge_strictly(const VertexJudge *judge, uint32_t vertex, const float *row)
 {
     float farther[TREE_MAX_COMPONENTS];
     go_beyond(judge, vertex, row, 1.001f, farther);
-    return ask(judge, vertex, row) && ask(judge, vertex, farther);
+    return row_passes(judge, vertex, row) && row_passes(judge, vertex, farther);
 }
 
 bool vertex_accepts(VertexJudge *judge, uint32_t vertex, const float *row)
 {
-    if (judge->safe[vertex] < 0) return ask_strictly(judge, vertex, row);
-    if (judge->is_exact) return ask(judge, vertex, row);
+    if (judge->safe[vertex] < 0) return judge_strictly(judge, vertex, row);
+    if (judge->is_exact) return row_passes(judge, vertex, row);
     float reach = distance(judge, vertex, row);
     if (reach <= 0.5f * judge->safe[vertex]) return true;
-    if (!ask(judge, vertex, row)) return false;
+    if (!row_passes(judge, vertex, row)) return false;
     judge->safe[vertex] = fmaxf(judge->safe[vertex], reach);
     return true;
 }

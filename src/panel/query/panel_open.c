@@ -521,16 +521,16 @@ static bool open_other_state(const PanelBytes *bytes, int state, Arena *arena, P
     return true;
 }
 
-bool panel_open_state(const PanelOpenAsk *ask, Arena *arena, Panel **out, Error *err)
+bool panel_open_state(const PanelOpenArgs *args, Arena *arena, Panel **out, Error *err)
 {
-    PanelBytes bytes = {ask->data, ask->size, ask->name, err};
+    PanelBytes bytes = {args->data, args->size, args->name, err};
     Panel     *panel;
     int        state = 0;
     if (!open_whole(&bytes, arena, &panel)) return false;
-    while (ask->state && state < panel->states &&
-           strcmp(panel->state_names[state].name, ask->state) != 0)
+    while (args->state && state < panel->states &&
+           strcmp(panel->state_names[state].name, args->state) != 0)
         state++;
-    if (ask->state && state == panel->states) return refuse_state(&bytes, panel, ask->state);
+    if (args->state && state == panel->states) return refuse_state(&bytes, panel, args->state);
     if (state && !open_other_state(&bytes, state, arena, &panel)) return false;
     *out = panel;
     return true;
@@ -539,8 +539,8 @@ bool panel_open_state(const PanelOpenAsk *ask, Arena *arena, Panel **out, Error 
 bool panel_open_memory(const void *data, size_t size, const char *name, Arena *arena,
                        Panel **out, Error *err)
 {
-    PanelOpenAsk ask = {data, size, name, NULL};
-    return panel_open_state(&ask, arena, out, err);
+    PanelOpenArgs args = {data, size, name, NULL};
+    return panel_open_state(&args, arena, out, err);
 }
 
 /* A copy, not a mapping: a file that shrinks under a mapping kills the process, and one that
@@ -551,15 +551,15 @@ bool panel_open(const char *path, Arena *arena, Panel **out, Error *err)
     FileBytes    bytes;
     const char  *hash = strrchr(path, '#');
     bool         has_state = hash && !file_exists(path);
-    PanelOpenAsk ask = {.name = path};
+    PanelOpenArgs args = {.name = path};
     if (has_state) {
-        ask.name = arena_string(arena, path, (size_t)(hash - path));
-        ask.state = arena_string(arena, hash + 1, strlen(hash + 1));
+        args.name = arena_string(arena, path, (size_t)(hash - path));
+        args.state = arena_string(arena, hash + 1, strlen(hash + 1));
     }
-    bool ok = file_read(ask.name, PANEL_FILE_BYTES_MAX, &copy, &bytes, err);
-    ask.data = ok ? bytes.data : NULL;
-    ask.size = ok ? bytes.size : 0;
-    if (!ok || !panel_open_state(&ask, arena, out, err)) {
+    bool ok = file_read(args.name, PANEL_FILE_BYTES_MAX, &copy, &bytes, err);
+    args.data = ok ? bytes.data : NULL;
+    args.size = ok ? bytes.size : 0;
+    if (!ok || !panel_open_state(&args, arena, out, err)) {
         arena_release(&copy);
         return false;
     }

@@ -26,14 +26,14 @@ bool panel_open_memory(const void *data, size_t size, const char *name, Arena *a
 void panel_close(Panel *panel); /* NULL is fine */
 
 /* The same of one of its states. */
-typedef struct PanelOpenAsk {
+typedef struct PanelOpenArgs {
     const void *data;
     size_t      size;
     const char *name;  /* of the file, for messages */
     const char *state; /* NULL: the first */
-} PanelOpenAsk;
+} PanelOpenArgs;
 
-bool panel_open_state(const PanelOpenAsk *ask, Arena *arena, Panel **out, Error *err);
+bool panel_open_state(const PanelOpenArgs *args, Arena *arena, Panel **out, Error *err);
 
 /* As panel_open_memory, before the sampling of the reflection is there. */
 bool panel_from_bytes(const void *bytes, size_t size, const char *name, Arena *arena,

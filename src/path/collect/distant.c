@@ -85,8 +85,8 @@ static void send_ways(const DistantCollector *questions, const PathState *path,
 
 /* ---- questions --------------------------------------------------------------------------- */
 
-static void ask_all(const DistantCollector *questions, PathState *path, const Surface *surface,
-                    Vec3 wo, const Guiding *guiding)
+static void sample_all(const DistantCollector *questions, PathState *path,
+                       const Surface *surface, Vec3 wo, const Guiding *guiding)
 {
     const PathDistant *distant = questions->distant;
     Vec3 local_wo = surface->local_wo;
@@ -108,12 +108,12 @@ static void ask_all(const DistantCollector *questions, PathState *path, const Su
     }
 }
 
-static bool ask(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
+static bool at_hit(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
                 const Guiding *guiding)
 {
     const DistantCollector *questions = (const DistantCollector *)c;
     if (path->bounce < path->context->max_bounces && bsdf_scatters(&surface->bsdf)) {
-        ask_all(questions, path, surface, wo, guiding);
+        sample_all(questions, path, surface, wo, guiding);
         send_ways(questions, path, surface, wo, guiding);
     }
     return true;
@@ -156,7 +156,7 @@ DistantCollector distant_collector(const PathDistant *distant)
 {
     static const CollectorKind kind = {
         .size = sizeof(DistantCollector),
-        .steer = {.vertex = ask, .choose = choose_mirror, .escape = leave},
+        .steer = {.vertex = at_hit, .choose = choose_mirror, .escape = leave},
         .turn = turn_from};
     return (DistantCollector){{&kind, NULL}, distant, false};
 }

@@ -70,8 +70,8 @@ static void turn(PathCollector *c, PathState *path, const Surface *surface, Vec3
 }
 
 /* Of a lit surface the sun alone is sampled, or nothing. */
-static bool ask_less(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
-                     const Guiding *guiding)
+static bool sample_less(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
+                        const Guiding *guiding)
 {
     static const float SUN_ALONE[LIGHT_CHOICES] = {[LIGHTS_SUN] = 1};
     PathReach          reach = ((HistoryCollector *)c)->listener->reach;
@@ -165,7 +165,7 @@ HistoryCollector history_collector(const PathListener *listener, PathCollector *
 {
     static const CollectorKind kind = {
         .size = sizeof(HistoryCollector),
-        .steer = {.vertex = ask_less, .choose = choose_mirror, .refuse = refuse_beyond},
+        .steer = {.vertex = sample_less, .choose = choose_mirror, .refuse = refuse_beyond},
         .start = start, .meet = meet, .behind = behind, .turn = turn, .on_light = on_light};
     return (HistoryCollector){{&kind, next}, history_start(), listener, NULL};
 }

@@ -94,7 +94,7 @@ static bool can_be_lit(const PlotData *s, Error *err)
                     s->emits ? "reflection" : "emission", s->emits ? "reflection" : "emission");
 }
 
-PlotData *plot_ask(const PlotInput *input, const PlotOptions *options, Arena *arena,
+PlotData *plot_query(const PlotInput *input, const PlotOptions *options, Arena *arena,
                       json_t **report, Error *err)
 {
     if (!panel_report(input->panel, report, err)) {
@@ -124,7 +124,7 @@ bool plot_write(const PlotInput *input, const PlotOptions *options, const char *
     if (!is_svg && strcmp(ending, ".png"))
         return error_set(err, ERROR_USAGE, "-o is '%s', required: a name that ends in .svg or "
                          ".png", path);
-    PlotData *data = plot_ask(input, options, arena, &report, err);
+    PlotData *data = plot_query(input, options, arena, &report, err);
     if (!data) return false;
     PanelChartList *list = plot_charts(data, options->kind, arena);
     keep_kind(list, options->kind);

@@ -35,7 +35,7 @@ bool plot_write(const PlotInput *input, const PlotOptions *options, const char *
 
 /* Evaluates the panel for what options->kind shows; *report is the caller's to release. NULL:
  * *err has the reason. */
-PlotData *plot_ask(const PlotInput *input, const PlotOptions *options, Arena *arena,
+PlotData *plot_query(const PlotInput *input, const PlotOptions *options, Arena *arena,
                        json_t **report, Error *err);
 
 /* Every chart that this panel's data allow, in the order of the page. */

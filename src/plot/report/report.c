@@ -162,7 +162,7 @@ bool panel_report_write(const PlotInput *input, const PlotOptions *options,
     PlotOptions all = *options;
     all.kind = PLOT_ALL;
     all.wants_reflectance = true;
-    PlotData *data = plot_ask(input, &all, arena, &source, err);
+    PlotData *data = plot_query(input, &all, arena, &source, err);
     if (!data) return false;
     const Report *report = make_tables(data, arena);
     json_t       *document = facts_json(data);

@@ -219,20 +219,20 @@ static void set_luminances(const Chains *chains, CaseLuminances *l)
     l->scattered = l->reflected - l->mirror;
 }
 
-CauseFacts case_causes(const CauseAsk *ask, ReviewCase *c, Arena *arena)
+CauseFacts case_causes(const CauseArgs *args, ReviewCase *c, Arena *arena)
 {
     CaseCause *causes = ARENA_NEW(arena, CaseCause, CAUSES_MOST + 1);
     Arena    scratch = arena_reserve((size_t)1 << 28);
-    ChainAsk chain_ask = {.aim = ask->aim, .tools = ask->tools, .paths = ask->paths,
-                          .most = CAUSES_MOST, .with_direct = ask->with_direct,
-                          .places = ask->places};
-    Chains   chains = chains_find(&chain_ask, &scratch);
-    if (ask->sets_luminances) set_luminances(&chains, &c->luminance_cd_m2);
+    ChainArgs chain_args = {.aim = args->aim, .tools = args->tools, .paths = args->paths,
+                          .most = CAUSES_MOST, .with_direct = args->with_direct,
+                          .places = args->places};
+    Chains   chains = chains_find(&chain_args, &scratch);
+    if (args->sets_luminances) set_luminances(&chains, &c->luminance_cd_m2);
     for (int i = 0; i < chains.count; i++) {
         const Chain *chain = &chains.list[i];
         causes[i] = cause_of(chain->figure, &chains, c);
         causes[i].chain = chain_words(chains.scene, &chain->key, &causes[i].links, arena);
-        causes[i].rays = rays_of(chain, ask->rays, &causes[i].ray_count, arena);
+        causes[i].rays = rays_of(chain, args->rays, &causes[i].ray_count, arena);
     }
     c->causes = causes;
     c->cause_count = chains.count;
@@ -243,9 +243,9 @@ CauseFacts case_causes(const CauseAsk *ask, ReviewCase *c, Arena *arena)
     return facts;
 }
 
-double case_data_share(const CauseAsk *ask, Arena scratch)
+double case_data_share(const CauseArgs *args, Arena scratch)
 {
-    ChainAsk chains = {.aim = ask->aim, .tools = ask->tools, .paths = ask->paths,
+    ChainArgs chains = {.aim = args->aim, .tools = args->tools, .paths = args->paths,
                        .most = CAUSES_MOST};
     Chains   found = chains_find(&chains, &scratch);
     return without_data(&found);
@@ -300,7 +300,7 @@ typedef struct ChunkLight {
 } ChunkLight;
 
 typedef struct LightSearch {
-    const ChainAsk *ask;
+    const ChainArgs *args;
     ChunkLight     *chunks;
 } LightSearch;
 
@@ -336,7 +336,7 @@ static void trace_chunk(void *user, int item, int worker)
     PathListener   listener = {.on_light = on_light, .user = &search->chunks[item],
                                .with_lanes = true};
     PathStatistics statistics = {0};
-    search->ask->tools->kernel->trace(search->ask->aim, item * CHAIN_CHUNK,
+    search->args->tools->kernel->trace(search->args->aim, item * CHAIN_CHUNK,
                                      (item + 1) * CHAIN_CHUNK, &listener, &statistics);
 }
 
@@ -350,13 +350,13 @@ static PixelFigure figure_of(const ChunkLight *chunks, int count, int k)
     return (PixelFigure){estimate.mean, estimate.sigma};
 }
 
-PixelLight pixel_light_find(const ChainAsk *ask)
+PixelLight pixel_light_find(const ChainArgs *args)
 {
-    int         count = (int)((ask->paths + CHAIN_CHUNK - 1) / CHAIN_CHUNK);
+    int         count = (int)((args->paths + CHAIN_CHUNK - 1) / CHAIN_CHUNK);
     Arena       own = arena_reserve((size_t)1 << 30);
-    LightSearch search = {ask, ARENA_NEW(&own, ChunkLight, count)};
+    LightSearch search = {args, ARENA_NEW(&own, ChunkLight, count)};
     PixelLight  out;
-    parallel_for(ask->tools->threads, count, trace_chunk, &search);
+    parallel_for(args->tools->threads, count, trace_chunk, &search);
     for (int i = 0; i < 3; i++) out.xyz[i] = figure_of(search.chunks, count, i);
     for (int i = 0; i < PIXEL_BANDS; i++)
         out.radiance[i] = figure_of(search.chunks, count, 3 + i);

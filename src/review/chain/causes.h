@@ -19,7 +19,7 @@
 #define CAUSE_RAYS 4
 #define MATT_BLACK 0.04 /* reflectance of matt black trim, as of the shipped black plastic */
 
-typedef struct CauseAsk {
+typedef struct CauseArgs {
     const ReadingTools *tools;
     const ProbeAim     *aim;
     long                paths;
@@ -28,7 +28,7 @@ typedef struct CauseAsk {
     bool                with_direct; /* what the eye sees by itself counts, too */
     bool                sets_luminances; /* the case has no reading: these paths give what is
                                             reflected */
-} CauseAsk;
+} CauseArgs;
 
 /* A node and its material; `what` NULL: none is worth a word. */
 typedef struct CausePart {
@@ -49,11 +49,11 @@ typedef struct CauseFacts {
 
 /* Sets the case's causes: the greatest CAUSES_MOST, and "all other ways", which add up to the
  * reflected light by these paths, and the groups; that light itself where requested. */
-CauseFacts case_causes(const CauseAsk *ask, ReviewCase *c, Arena *arena);
+CauseFacts case_causes(const CauseArgs *args, ReviewCase *c, Arena *arena);
 
 /* The share of that light that comes via materials without data, alone: as the causes have it,
  * by the aim, tools and paths of the question. */
-double case_data_share(const CauseAsk *ask, Arena scratch);
+double case_data_share(const CauseArgs *args, Arena scratch);
 
 /* Sets the case's hiders, by the names of nodes and materials; what has the same name counts as
  * one. */
@@ -90,4 +90,4 @@ typedef struct PixelLight {
 } PixelLight;
 
 /* ask: of a pixel (ProbeAim.pixel). As many paths as chains_find takes of it, the same ones. */
-PixelLight pixel_light_find(const ChainAsk *ask);
+PixelLight pixel_light_find(const ChainArgs *args);

@@ -39,7 +39,7 @@ typedef struct ChainChunk {
 
 /* Shared by all chunks. */
 typedef struct ChainSearch {
-    const ChainAsk *ask;
+    const ChainArgs *args;
     const Scene    *scene;
     const int      *alike;
     const bool     *lacks_data, *is_guessed; /* [part] */
@@ -63,7 +63,7 @@ static int alike_or_none(const int *alike, int part_id)
 static ChainKey key_of(const ChainSearch *search, const PathHistory *history)
 {
     const int *alike = search->alike;
-    bool       with_first = search->ask->with_first_pane;
+    bool       with_first = search->args->with_first_pane;
     ChainKey key;
     memset(&key, 0, sizeof key);
     for (int i = 0; i < path_steps_kept(history) && i < CHAIN_STEPS; i++) {
@@ -108,7 +108,7 @@ static ChainRay ray_of(const ChainSearch *search, const PathHistory *history)
 {
     ChainRay ray = {.count = 0};
     int      kept = path_steps_kept(history);
-    ray.point[ray.count++] = search->ask->aim->eye;
+    ray.point[ray.count++] = search->args->aim->eye;
     for (int i = 0; i < kept; i++) ray.point[ray.count++] = history->step[i].position;
     ray.is_cut = history->count > kept;
     if (!ray.is_cut)
@@ -206,7 +206,7 @@ static void on_light(void *user, const PathHistory *history, const float xyz[3])
     const Scene         *scene = to->search->scene;
     ChainChunk           *sums = to->sums;
     double               y = (double)xyz[1];
-    if (!(y > 0) || (history->count == 0 && !to->search->ask->with_direct)) return;
+    if (!(y > 0) || (history->count == 0 && !to->search->args->with_direct)) return;
     ChainKey    key = key_of(to->search, history);
     ChunkChain *chain = chunk_chain(sums, &key);
     int         display = history->count ? display_of(scene, history->step[0].part_id) : NO_ID;
@@ -218,8 +218,8 @@ static void on_light(void *user, const PathHistory *history, const float xyz[3])
         sums->own += y;
     add_parts(to, history, y);
     add_groups(to, history, y);
-    if (display != NO_ID && to->search->ask->places)
-        place_add(to->search->ask->places, to->search->alike, history, y, &sums->places);
+    if (display != NO_ID && to->search->args->places)
+        place_add(to->search->args->places, to->search->alike, history, y, &sums->places);
     if (!chain) return;
     chain->sum += y;
     bright_add(&chain->bright, y);
@@ -241,13 +241,13 @@ static void trace_chunk(void *user, int item, int worker)
     PathListener   listener = {.on_light = on_light, .user = &to,
                                    .with_extrapolated = true};
     PathStatistics statistics = {0};
-    ProbeAim       aim = *search->ask->aim;
+    ProbeAim       aim = *search->args->aim;
     if (!aim.pixel) {
         aim.seed = hash_combine(hash_u32(aim.seed), (uint32_t)batch_of(search, chunk));
         aim.is_spread = true;
         place = chunk / search->batches;
     }
-    search->ask->tools->kernel->trace(&aim, place * CHAIN_CHUNK, (place + 1) * CHAIN_CHUNK,
+    search->args->tools->kernel->trace(&aim, place * CHAIN_CHUNK, (place + 1) * CHAIN_CHUNK,
                                      &listener, &statistics);
 }
 
@@ -442,7 +442,7 @@ static void keep_greatest(const FoundChains *found, const ChainSearch *search, A
                           Chains *out)
 {
     FoundChain **list = ARENA_NEW(&own, FoundChain *, found->count);
-    int          most = search->ask->most;
+    int          most = search->args->most;
     for (int i = 0; i < found->count; i++) {
         list[i] = found->by_id[i];
         list[i]->chain.figure = figure_of(&list[i]->sums, search);
@@ -485,16 +485,16 @@ static float far_length(const Scene *scene)
 /* Address space: what is not touched costs nothing. */
 #define OWN_BYTES ((size_t)1 << 32)
 
-Chains chains_find(const ChainAsk *ask, Arena *arena)
+Chains chains_find(const ChainArgs *args, Arena *arena)
 {
-    const Scene *scene = ask->aim->context->scene;
-    int    chunks = (int)((ask->paths + CHAIN_CHUNK - 1) / CHAIN_CHUNK);
+    const Scene *scene = args->aim->context->scene;
+    int    chunks = (int)((args->paths + CHAIN_CHUNK - 1) / CHAIN_CHUNK);
     Arena  own = arena_reserve(OWN_BYTES);
-    Chains out = {.scene = scene, .list = ARENA_NEW(arena, Chain, ask->most),
+    Chains out = {.scene = scene, .list = ARENA_NEW(arena, Chain, args->most),
                   .by_part = ARENA_NEW(arena, double, scene->part_count),
                   .groups = fresh_groups(scene, arena), .places = place_sums(scene, arena),
                   .alike = alike_parts(scene, arena), .paths = (long)chunks * CHAIN_CHUNK};
-    ChainSearch search = {.ask = ask, .scene = scene, .alike = out.alike,
+    ChainSearch search = {.args = args, .scene = scene, .alike = out.alike,
                           .lacks_data = parts_without_data(scene, &own),
                           .is_guessed = guessed_parts(scene, &own), .chunks = chunks,
                           .batches = chunks < CHAIN_BATCHES ? chunks : CHAIN_BATCHES,
@@ -506,7 +506,7 @@ Chains chains_find(const ChainAsk *ask, Arena *arena)
         int   count = chunks - search.first < ROUND ? chunks - search.first : ROUND;
         Arena room = rounds;
         search.sums = fresh_sums(count, scene, &room);
-        parallel_for(ask->tools->threads, count, trace_chunk, &search);
+        parallel_for(args->tools->threads, count, trace_chunk, &search);
         for (int i = 0; i < count; i++) {
             add_chunk(&found, &search.sums[i], batch_of(&search, search.first + i), &own);
             add_all(out.by_part, search.sums[i].by_part, scene->part_count,

@@ -97,7 +97,7 @@ typedef struct Chains {
     long        paths;
 } Chains;
 
-typedef struct ChainAsk {
+typedef struct ChainArgs {
     const ProbeAim     *aim;         /* not a luxmeter */
     const ReadingTools *tools;
     long                paths;       /* at least CHAIN_PATHS_LEAST; rounded up to a chunk */
@@ -105,11 +105,11 @@ typedef struct ChainAsk {
     bool                with_direct; /* sources that the eye sees by themselves count, too */
     const ChainPlaces  *places;      /* light that comes by these is kept apart; NULL: none */
     bool                with_first_pane; /* a pane before the first surface is in the key */
-} ChainAsk;
+} ChainArgs;
 
 #define CHAIN_PATHS_LEAST (2 * CHAIN_CHUNK) /* an error takes two batches */
 
-Chains chains_find(const ChainAsk *ask, Arena *arena);
+Chains chains_find(const ChainArgs *args, Arena *arena);
 
 /* A chain in words, in the order in which the eye's ray meets it: "display cluster: reflects",
  * "Window_FL (glass): through", "sky". Texts and list live in the arena. */

@@ -32,7 +32,7 @@ typedef struct ThingList {
 } ThingList;
 
 typedef struct OutlookWork {
-    const OutlookAsk *ask;
+    const OutlookArgs *args;
     Frame      frame;   /* x right, y up, z along the normal */
     Vec3       mirror;  /* towards what the eye sees mirrored */
     ProbeAim   aim;
@@ -144,7 +144,7 @@ static void see_pixel(const OutlookWork *work, int column, int row)
                          .is_mirrored = degrees_from_radians(apart) <= OUTLOOK_MIRROR_DEG};
     PathListener   listener = {.on_light = add_pixel, .user = &sums};
     PathStatistics statistics = {0};
-    work->ask->tools->kernel->trace(&work->aim, first, first + PATHS, &listener, &statistics);
+    work->args->tools->kernel->trace(&work->aim, first, first + PATHS, &listener, &statistics);
     *out = (float)sums.cd_m2;
 }
 
@@ -175,17 +175,17 @@ static void add_small(void *user, const PathHistory *history, const float xyz[3]
         lights->sun = vec3_along(lights->sun, history->towards, (float)lux);
 }
 
-static SmallLights small_lights(const OutlookAsk *ask, Vec3 from, Arena *arena)
+static SmallLights small_lights(const OutlookArgs *args, Vec3 from, Arena *arena)
 {
-    LitPoint       head = {from, ask->ng, false};
-    PathContext    lights_only = *ask->context;
+    LitPoint       head = {from, args->ng, false};
+    PathContext    lights_only = *args->context;
     ProbeAim       aim = {.context = &lights_only, .meter = &head, .seed = SEED + 1};
     SmallLights    out = {.things = {ARENA_NEW(arena, Thing, THINGS), 0, THINGS}};
     PathListener   listener = {.on_light = add_small, .user = &out};
     PathStatistics statistics = {0};
     lights_only.strategy = PATH_LIGHTS_ONLY;
     lights_only.max_bounces = 1;
-    ask->tools->kernel->trace(&aim, 0, PASSES, &listener, &statistics);
+    args->tools->kernel->trace(&aim, 0, PASSES, &listener, &statistics);
     return out;
 }
 
@@ -266,26 +266,26 @@ static void aim_paths(OutlookWork *work, Arena *arena)
     work->aim.target_count = SIZE * SIZE * PATHS;
 }
 
-Outlook outlook_take(const OutlookAsk *ask, Arena *arena)
+Outlook outlook_take(const OutlookArgs *args, Arena *arena)
 {
     Outlook     out = {.cd_m2 = ARENA_NEW(arena, float, SIZE * SIZE)};
     Arena       own = arena_reserve((size_t)1 << 28);
-    Vec3        from = ask->point;
-    Vec3        to_eye = vec3_normalize(vec3_sub(ask->eye, ask->point));
-    OutlookWork work = {.ask = ask, .frame = frame_of(ask->ng, ask->up), .cd_m2 = out.cd_m2,
-                        .aim = {.context = ask->context, .eye = from, .seed = SEED},
+    Vec3        from = args->point;
+    Vec3        to_eye = vec3_normalize(vec3_sub(args->eye, args->point));
+    OutlookWork work = {.args = args, .frame = frame_of(args->ng, args->up), .cd_m2 = out.cd_m2,
+                        .aim = {.context = args->context, .eye = from, .seed = SEED},
                         .rows = ARENA_NEW(&own, ThingList, SIZE)};
-    work.mirror = vec3_sub(vec3_scale(ask->ng, 2 * vec3_dot(ask->ng, to_eye)), to_eye);
+    work.mirror = vec3_sub(vec3_scale(args->ng, 2 * vec3_dot(args->ng, to_eye)), to_eye);
     for (int i = 0; i < SIZE; i++)
         work.rows[i] = (ThingList){ARENA_NEW(&own, Thing, THINGS), 0, THINGS};
     aim_paths(&work, &own);
-    parallel_for(ask->tools->threads, SIZE, see_row, &work);
-    SmallLights   small = small_lights(ask, from, &own);
+    parallel_for(args->tools->threads, SIZE, see_row, &work);
+    SmallLights   small = small_lights(args, from, &own);
     OutlookShare *all = ARENA_NEW(&own, OutlookShare, ALL_THINGS);
     int           count = 0;
     for (int i = 0; i < SIZE; i++)
-        add_things(ask->context->scene, &work.rows[i], all, &count, arena);
-    add_things(ask->context->scene, &small.things, all, &count, arena);
+        add_things(args->context->scene, &work.rows[i], all, &count, arena);
+    add_things(args->context->scene, &small.things, all, &count, arena);
     find_mirrored(&work, all, count, &out);
     place_of(&work.frame, work.mirror, &out.mirror_x, &out.mirror_y);
     set_shares(all, count, &out);

@@ -14,13 +14,13 @@
 #include "image/picture.h"
 #include "review/light/reading.h"
 
-typedef struct OutlookAsk {
+typedef struct OutlookArgs {
     const PathContext  *context;
     const ReadingTools *tools;
     Vec3 point, ng; /* where rays start off the surface; ng on the side that looks */
     Vec3 up;        /* not along ng */
     Vec3 eye;       /* sees the surface from its front: its mirror image is marked */
-} OutlookAsk;
+} OutlookArgs;
 
 /* One thing that is seen first, by node and material, or a source, via a pane. */
 typedef struct OutlookShare {
@@ -50,7 +50,7 @@ typedef struct Outlook {
 /* The world's up, or ahead where the surface lies flat. */
 Vec3 outlook_up(Vec3 ng);
 
-Outlook outlook_take(const OutlookAsk *ask, Arena *arena);
+Outlook outlook_take(const OutlookArgs *args, Arena *arena);
 
 /* In false colour with its scale; the mirror direction is ringed, the sun a disc with rays. */
 Picture outlook_picture(const Outlook *outlook, Arena *arena);

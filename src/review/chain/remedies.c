@@ -25,12 +25,12 @@
  * Memory   from the arena; the context that it is made of must outlive it.
  * Threads  any. */
 
-typedef struct LeaningAsk {
+typedef struct LeaningArgs {
     const PathContext   *context;
     const ReviewDisplay *display;
     Vec3                 normal; /* unit, of its middle */
     const double        *ahead;  /* [3] of the vehicle: counts where the display lies flat */
-} LeaningAsk;
+} LeaningArgs;
 
 typedef struct LeaningDisplay {
     Scene       scene;
@@ -51,12 +51,12 @@ static Vec3 turned(const Turn *turn, Vec3 v)
     return vec3_along(sum, turn->axis, (1 - turn->cosine) * vec3_dot(turn->axis, v));
 }
 
-static Turn turn_of(const LeaningAsk *ask, double back_deg)
+static Turn turn_of(const LeaningArgs *args, double back_deg)
 {
     const Vec3 up = vec3(0, 1, 0);
     double     angle = radians_from_degrees(back_deg);
-    Vec3       n = ask->normal;
-    if (fabsf(n.y) >= UPRIGHT) n = vec3_neg(vec3_from_doubles(ask->ahead));
+    Vec3       n = args->normal;
+    if (fabsf(n.y) >= UPRIGHT) n = vec3_neg(vec3_from_doubles(args->ahead));
     return (Turn){vec3_normalize(vec3_cross(n, up)), (float)cos_d(angle), (float)sin_d(angle)};
 }
 
@@ -98,20 +98,20 @@ static Vec3 *turned_normals(const Scene *scene, const Part *part, const Turn *tu
     return normals;
 }
 
-static LeaningDisplay *display_leaning(const LeaningAsk *ask, double back_deg, Arena *arena)
+static LeaningDisplay *display_leaning(const LeaningArgs *args, double back_deg, Arena *arena)
 {
-    const Scene    *scene = ask->context->scene;
+    const Scene    *scene = args->context->scene;
     LeaningDisplay *out = ARENA_NEW(arena, LeaningDisplay, 1);
     Part *parts = ARENA_NEW(arena, Part, scene->part_count);
-    Turn  turn = turn_of(ask, back_deg);
+    Turn  turn = turn_of(args, back_deg);
     memcpy(parts, scene->parts, (size_t)scene->part_count * sizeof *parts);
-    for (int i = 0; i < ask->display->part_count; i++) {
-        Part *part = &parts[ask->display->part_ids[i]];
+    for (int i = 0; i < args->display->part_count; i++) {
+        Part *part = &parts[args->display->part_ids[i]];
         part->normals = turned_normals(scene, part, &turn, arena);
     }
     out->scene = *scene;
     out->scene.parts = parts;
-    out->context = *ask->context;
+    out->context = *args->context;
     out->context.scene = &out->scene;
     return out;
 }
@@ -124,7 +124,7 @@ static LeaningDisplay *display_leaning(const LeaningAsk *ask, double back_deg, A
 
 /* What all remedies share: one case. */
 typedef struct Remedying {
-    const RemedyAsk  *ask;
+    const RemedyArgs  *args;
     const CauseFacts *facts;
     ReviewCase       *c;
     int               limit; /* that they are for */
@@ -159,7 +159,7 @@ static ReviewCase judged_with(const Remedying *m, Remedied with)
     out.level *= with.brighter;
     judge_contrasts(&out, (MeanInterval){scale * m->c->reflected_range.low,
                                          scale * m->c->reflected_range.high});
-    judge_case(&out, m->ask->profile, m->arena);
+    judge_case(&out, m->args->profile, m->arena);
     return out;
 }
 
@@ -233,7 +233,7 @@ static double ratio_needed(const Remedying *m)
 static double veil_of(const Remedying *m)
 {
     double veil = m->c->luminance_cd_m2.veil;
-    bool   counts = m->ask->profile->uses_veil && !m->c->must_not_be_read;
+    bool   counts = m->args->profile->uses_veil && !m->c->must_not_be_read;
     return counts && veil > 0 ? veil : 0;
 }
 
@@ -366,9 +366,9 @@ static double surely_from(const Remedying *m, double from, double other)
 CaseLeast case_least_level(const Profile *profile, const ReviewCase *c, Arena scratch)
 {
     ReviewCase of = *c;
-    RemedyAsk  ask = {.profile = profile};
+    RemedyArgs  args = {.profile = profile};
     CauseFacts facts = {.own_cd_m2 = isnan(c->own_reflected) ? 0 : c->own_reflected};
-    Remedying  m = {.ask = &ask, .facts = &facts, .c = &of, .arena = &scratch};
+    Remedying  m = {.args = &args, .facts = &facts, .c = &of, .arena = &scratch};
     double own = own_light(&m), other = of.luminance_cd_m2.reflected - own, least = -1;
     double veil = veil_of(&m), grows = veil > 0 ? of.veil_displays : 0;
     if (of.verdict == VERDICT_UNJUDGED || !(of.level > 0)) return (CaseLeast){NAN, NAN};
@@ -403,14 +403,14 @@ static double shown_share(double after, double before)
 static ReviewCase judged_leaning(const Remedying *m, double back_deg, uint32_t seed,
                                  ReadingGoal goal)
 {
-    const RemedyAsk *ask = m->ask;
+    const RemedyArgs *args = m->args;
     Arena            own = arena_reserve((size_t)1 << 28);
-    LeaningAsk       how = {ask->aim->context, ask->display, ask->middle.ns, ask->forward};
+    LeaningArgs       how = {args->aim->context, args->display, args->middle.ns, args->forward};
     LeaningDisplay  *leaning = display_leaning(&how, back_deg, &own);
-    SymbolSurface    surface = *ask->look.surface;
-    SymbolLook       look = ask->look;
-    ProbeAim         aim = *ask->aim;
-    ReadingTools     tools = *ask->tools;
+    SymbolSurface    surface = *args->look.surface;
+    SymbolLook       look = args->look;
+    ProbeAim         aim = *args->aim;
+    ReadingTools     tools = *args->tools;
     tools.journal = NULL; /* it knows the scene by its files */
     aim.context = &leaning->context;
     aim.seed ^= seed;
@@ -425,7 +425,7 @@ static ReviewCase judged_leaning(const Remedying *m, double back_deg, uint32_t s
     l->background *= shown_share(after.background_xyz[1], before.background_xyz[1]);
     l->reflected = reading.reflected;
     judge_contrasts(&out, reading.interval);
-    judge_case(&out, ask->profile, m->arena);
+    judge_case(&out, args->profile, m->arena);
     arena_release(&own);
     return out;
 }
@@ -459,15 +459,15 @@ static void add_tilt(Remedying *m)
 
 static const float HOOD_M[PLACE_HOODS] = {0.03f, 0.06f, 0.1f};
 
-static PlaceFace face_of(const RemedyAsk *ask)
+static PlaceFace face_of(const RemedyArgs *args)
 {
-    return place_face(ask->aim->context->scene, ask->display->part_ids,
-                      ask->display->part_count);
+    return place_face(args->aim->context->scene, args->display->part_ids,
+                      args->display->part_count);
 }
 
-static bool hides_symbol(const RemedyAsk *ask, const PlaceFace *face, float depth_m)
+static bool hides_symbol(const RemedyArgs *args, const PlaceFace *face, float depth_m)
 {
-    const ProbeAim *aim = ask->aim;
+    const ProbeAim *aim = args->aim;
     for (int i = 0; i < aim->target_count; i++) {
         Vec3 to_eye = vec3_sub(aim->eye, aim->targets[i]);
         if (place_is_hooded(face, depth_m, aim->targets[i], vec3_normalize(to_eye),
@@ -480,10 +480,10 @@ static bool hides_symbol(const RemedyAsk *ask, const PlaceFace *face, float dept
 /* The least that is enough; else that which gives most. */
 static void add_hood(Remedying *m)
 {
-    PlaceFace face = face_of(m->ask);
+    PlaceFace face = face_of(m->args);
     int       best = -1;
     for (int i = 0; i < PLACE_HOODS && face.is_upright; i++) {
-        if (hides_symbol(m->ask, &face, HOOD_M[i])) break;
+        if (hides_symbol(m->args, &face, HOOD_M[i])) break;
         ReviewCase then = with_light(m, left_without(m, m->facts->hooded[i]));
         best = i;
         if (keeps_limit(m, &then)) break;
@@ -544,10 +544,10 @@ static void add_trim(Remedying *m)
 /* ---- all of them ------------------------------------------------------------------------- */
 
 /* Where who sits there faces: ahead, unless the display is far from there. */
-static Vec3 ahead_of(const RemedyAsk *ask)
+static Vec3 ahead_of(const RemedyArgs *args)
 {
-    Vec3 gaze = vec3_sub(ask->middle.position, ask->aim->eye);
-    Vec3 ahead = vec3_from_doubles(ask->forward);
+    Vec3 gaze = vec3_sub(args->middle.position, args->aim->eye);
+    Vec3 ahead = vec3_from_doubles(args->forward);
     gaze.y = ahead.y = 0;
     gaze = vec3_normalize(gaze);
     ahead = vec3_normalize(ahead);
@@ -555,40 +555,40 @@ static Vec3 ahead_of(const RemedyAsk *ask)
     return is_aside ? gaze : ahead;
 }
 
-static const bool *occupant_parts(const RemedyAsk *ask, Arena *arena)
+static const bool *occupant_parts(const RemedyArgs *args, Arena *arena)
 {
-    const Scene *scene = ask->aim->context->scene;
+    const Scene *scene = args->aim->context->scene;
     bool        *is_occupant = ARENA_NEW(arena, bool, scene->part_count);
-    for (int k = 0; ask->occupant && k < ask->occupant->path_count; k++)
+    for (int k = 0; args->occupant && k < args->occupant->path_count; k++)
         for (int i = 0; i < scene->part_count; i++) {
             const char *file = scene->parts[i].file;
-            is_occupant[i] |= file && !strcmp(file, ask->occupant->paths[k]);
+            is_occupant[i] |= file && !strcmp(file, args->occupant->paths[k]);
         }
     return is_occupant;
 }
 
-ChainPlaces remedy_places(const RemedyAsk *ask, Arena *arena)
+ChainPlaces remedy_places(const RemedyArgs *args, Arena *arena)
 {
-    ChainPlaces places = {.scene = ask->aim->context->scene, .eye = ask->aim->eye,
-                          .is_occupant = occupant_parts(ask, arena),
-                          .ahead = ahead_of(ask),
-                          .face = face_of(ask)};
+    ChainPlaces places = {.scene = args->aim->context->scene, .eye = args->aim->eye,
+                          .is_occupant = occupant_parts(args, arena),
+                          .ahead = ahead_of(args),
+                          .face = face_of(args)};
     memcpy(places.hood_m, HOOD_M, sizeof HOOD_M);
     return places;
 }
 
-static void find_empty_seat(const RemedyAsk *ask, const CauseFacts *facts, ReviewCase *c)
+static void find_empty_seat(const RemedyArgs *args, const CauseFacts *facts, ReviewCase *c)
 {
     double share = facts->seat.what ? facts->seat.cd_m2 / facts->all.cd_m2 : 0;
-    if (ask->occupant || !(share >= SEAT_LEAST)) return;
+    if (args->occupant || !(share >= SEAT_LEAST)) return;
     c->empty_seat = facts->seat.what;
     c->empty_seat_share = fmin(share, 1);
 }
 
-void case_remedies(const RemedyAsk *ask, const CauseFacts *facts, ReviewCase *c, Arena *arena)
+void case_remedies(const RemedyArgs *args, const CauseFacts *facts, ReviewCase *c, Arena *arena)
 {
-    Remedying m = {ask, facts, c, limit_to_mend(c), NULL, arena};
-    find_empty_seat(ask, facts, c);
+    Remedying m = {args, facts, c, limit_to_mend(c), NULL, arena};
+    find_empty_seat(args, facts, c);
     if (c->verdict == VERDICT_UNJUDGED || m.limit < 0) return;
     c->remedies = m.list = ARENA_NEW(arena, CaseRemedy, REMEDY_KINDS);
     add_brightness(&m);

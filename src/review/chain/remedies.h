@@ -23,7 +23,7 @@
 #include "review/profile.h"
 #include "review/symbol/symbol_sight.h"
 
-typedef struct RemedyAsk {
+typedef struct RemedyArgs {
     const ReadingTools *tools;
     const ProbeAim     *aim;     /* at what is visible of the symbol */
     SymbolLook          look;    /* at all of it */
@@ -32,10 +32,10 @@ typedef struct RemedyAsk {
     const double       *forward; /* [3] where the vehicle points, as the request says */
     const Profile      *profile; /* limits */
     const ReviewWith   *occupant; /* who was put there under this condition; NULL: nobody */
-} RemedyAsk;
+} RemedyArgs;
 
 /* What the search for causes is to keep apart. */
-ChainPlaces remedy_places(const RemedyAsk *ask, Arena *arena);
+ChainPlaces remedy_places(const RemedyArgs *args, Arena *arena);
 
 /* The least level of the display at which a case keeps all of its limits of contrast that count
  * and are not upper ones, as it is reckoned for the remedy of brightness; its own light that is
@@ -55,4 +55,5 @@ CaseLeast case_least_level(const Profile *profile, const ReviewCase *c, Arena sc
  * is: dimmer, not below a hundredth, and tilted. A brightness, and a panel, is that with which
  * the limit is judged to be kept although as much more (or less, where less contrast is
  * required) is reflected as the interval is wide. */
-void case_remedies(const RemedyAsk *ask, const CauseFacts *facts, ReviewCase *c, Arena *arena);
+void case_remedies(const RemedyArgs *args, const CauseFacts *facts, ReviewCase *c,
+                   Arena *arena);

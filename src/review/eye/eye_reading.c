@@ -493,7 +493,7 @@ static GlareReading read_glare(const EyePaths *paths, const EyeSums *sums, Arena
 {
     Vec3    *towards = ARENA_NEW(&scratch, Vec3, paths->count);
     double  *told = ARENA_NEW(&scratch, double, paths->count);
-    GlareAsk ask = {.setup = paths->setup,
+    GlareArgs args = {.setup = paths->setup,
                     .head = {paths->aim.eye, paths->right, paths->up, paths->gaze},
                     .told = {towards, paths->solid_angles, told, paths->count},
                     .rest = {towards, paths->solid_angles, sums->rest, paths->count},
@@ -504,8 +504,8 @@ static GlareReading read_glare(const EyePaths *paths, const EyeSums *sums, Arena
         towards[i] = direction_of(paths, i);
         told[i] = paths->found[i].told;
     }
-    for (int set = 0; set < LIGHT_SETS; set++) ask.samples[set] = paths->samples[set];
-    return glare_read(&ask, scratch);
+    for (int set = 0; set < LIGHT_SETS; set++) args.samples[set] = paths->samples[set];
+    return glare_read(&args, scratch);
 }
 
 static EyeReading sum_up(const EyePaths *paths, const PupilSums *pupils, Arena scratch)

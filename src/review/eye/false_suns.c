@@ -64,7 +64,7 @@ static void follow(SearchRay *ray, int first, int end)
                           .targets = &target, .target_count = 1, .seed = SEED};
     ProbeImages    images = {add_image, ray};
     PathStatistics statistics = {0};
-    search->setup->tools.kernel->ask_images(&aim, first, end, &images, &statistics);
+    search->setup->tools.kernel->sample_images(&aim, first, end, &images, &statistics);
 }
 
 typedef struct SearchBlock {
@@ -382,7 +382,7 @@ static void keep(const Setup *setup, Vec3 eye, const FalseSunRays *rays, Arena s
                 sizeof rays->count);
 }
 
-const FalseSunRays *sun_searches_ask(SunSearches *searches, const Setup *setup, Vec3 eye)
+const FalseSunRays *sun_searches_find(SunSearches *searches, const Setup *setup, Vec3 eye)
 {
     Arena *arena = &searches->arena;
     for (const SunSearch *search = searches->last; search; search = search->before)

@@ -96,4 +96,4 @@ SunSearches sun_searches_start(void);
 void        sun_searches_end(SunSearches *searches);
 
 /* The setup's scene, lit or dark, as the eye (m, scene) sees it: found before, or now. */
-const FalseSunRays *sun_searches_ask(SunSearches *searches, const Setup *setup, Vec3 eye);
+const FalseSunRays *sun_searches_find(SunSearches *searches, const Setup *setup, Vec3 eye);

@@ -54,7 +54,7 @@ typedef struct FieldRay {
 } FieldRay;
 
 typedef struct LookedAt {
-    const GlareFieldAsk *ask;
+    const GlareFieldArgs *args;
     ProbeAim  aim;
     PathContext context;
     PathReach   reach;
@@ -67,17 +67,17 @@ typedef struct LookedAt {
 } LookedAt;
 
 /* Somewhere in cell `cell` of a raster of `count` by `count` over the field. */
-static FieldRay place_of(const GlareFieldAsk *ask, int count, int cell, uint32_t seed)
+static FieldRay place_of(const GlareFieldArgs *args, int count, int cell, uint32_t seed)
 {
     double   step = PI / count;
-    uint32_t hash = hash_combine(hash_u32(ask->seed + seed), (uint32_t)cell);
+    uint32_t hash = hash_combine(hash_u32(args->seed + seed), (uint32_t)cell);
     double   u = hash * 0x1p-32, v = hash_u32(hash) * 0x1p-32;
     double   x = (cell % count + u) * step - PI / 2, y = PI / 2 - (cell / count + v) * step;
     double   t = hypot(x, y);
     FieldRay ray = {0};
     if (!(t < PI / 2)) return ray;
     ray.sr = (float)(step * step * (t > 0 ? sin(t) / t : 1));
-    ray.towards = glare_head_direction(&ask->rest->head, x, y);
+    ray.towards = glare_head_direction(&args->rest->head, x, y);
     return ray;
 }
 
@@ -100,8 +100,8 @@ static FieldRay look(const LookedAt *field, const FieldRay *place, uint32_t seed
     aim.targets = &target;
     aim.target_count = 1;
     aim.seed += seed;
-    field->ask->setup->tools.kernel->trace(&aim, index, index + 1, &listener, &statistics);
-    if ((double)ray.sky > field->ask->peak_cd_m2) ray.sky = 0;
+    field->args->setup->tools.kernel->trace(&aim, index, index + 1, &listener, &statistics);
+    if ((double)ray.sky > field->args->peak_cd_m2) ray.sky = 0;
     return ray;
 }
 
@@ -109,9 +109,9 @@ static void look_chunk(void *user, int item, int worker)
 {
     (void)worker;
     const LookedAt *field = user;
-    int count = field->ask->pixels, first = item * PIXELS_A_CHUNK;
+    int count = field->args->pixels, first = item * PIXELS_A_CHUNK;
     for (int i = first; i < first + PIXELS_A_CHUNK && i < count * count; i++) {
-        FieldRay place = place_of(field->ask, count, i, 0);
+        FieldRay place = place_of(field->args, count, i, 0);
         field->rays[i] = look(field, &place, 0, i);
     }
 }
@@ -121,11 +121,11 @@ static void look_again(void *user, int item, int worker)
 {
     (void)worker;
     const LookedAt *field = user;
-    int at = field->seen_again + item, count = field->ask->pixels, pixel = field->pixels[at];
+    int at = field->seen_again + item, count = field->args->pixels, pixel = field->pixels[at];
     for (int k = 0; k < RAYS; k++) {
         int x = pixel % count * SIDE + k % SIDE, y = pixel / count * SIDE + k / SIDE;
         int cell = y * count * SIDE + x;
-        FieldRay place = place_of(field->ask, count * SIDE, cell, AGAIN_SEED);
+        FieldRay place = place_of(field->args, count * SIDE, cell, AGAIN_SEED);
         field->others[at * RAYS + k] = look(field, &place, AGAIN_SEED, cell);
     }
 }
@@ -134,15 +134,15 @@ static void look_again(void *user, int item, int worker)
 
 static double luminance_of(const LookedAt *field, const FieldRay *ray)
 {
-    return (double)ray->sky + (double)ray->lit + glare_rest_at(field->ask->rest, ray->towards);
+    return (double)ray->sky + (double)ray->lit + glare_rest_at(field->args->rest, ray->towards);
 }
 
 static FieldClass class_of(const LookedAt *field, const FieldRay *ray)
 {
     if (!(ray->sr > 0)) return FIELD_DIM;
     double luminance = luminance_of(field, ray);
-    if (!(luminance > field->ask->threshold_cd_m2)) return FIELD_DIM;
-    return luminance > field->ask->peak_cd_m2 ? FIELD_PEAK : FIELD_SOURCE;
+    if (!(luminance > field->args->threshold_cd_m2)) return FIELD_DIM;
+    return luminance > field->args->peak_cd_m2 ? FIELD_PEAK : FIELD_SOURCE;
 }
 
 static bool is_inside(int count, int x, int y)
@@ -170,7 +170,7 @@ static void join(int *parent, int i, int k)
 static int *sets_of(const LookedAt *field, int bits, Arena *scratch)
 {
     static const int beside[4][2] = {{-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
-    int  count = field->ask->pixels, total = count * count;
+    int  count = field->args->pixels, total = count * count;
     int *parent = ARENA_NEW(scratch, int, total);
     for (int i = 0; i < total; i++) {
         parent[i] = i;
@@ -194,7 +194,7 @@ static int *sets_of(const LookedAt *field, int bits, Arena *scratch)
 
 static bool is_edge(const LookedAt *field, int pixel)
 {
-    int count = field->ask->pixels, x = pixel % count, y = pixel / count;
+    int count = field->args->pixels, x = pixel % count, y = pixel / count;
     for (int k = 0; k < 9; k++) {
         int i = x + k % 3 - 1, j = y + k / 3 - 1;
         if (is_inside(count, i, j) && field->classes[j * count + i] != field->classes[pixel])
@@ -206,7 +206,7 @@ static bool is_edge(const LookedAt *field, int pixel)
 /* Marks the pixel and those about it. */
 static void mark(LookedAt *field, int pixel)
 {
-    int count = field->ask->pixels, x = pixel % count, y = pixel / count;
+    int count = field->args->pixels, x = pixel % count, y = pixel / count;
     for (int k = 0; k < 9; k++) {
         int i = x + k % 3 - 1, j = y + k / 3 - 1, at = j * count + i;
         if (!is_inside(count, i, j) || !(field->rays[at].sr > 0) || field->again[at] != NO_ID)
@@ -219,7 +219,7 @@ static void mark(LookedAt *field, int pixel)
 /* What a ray adds to the sum of UGR and DGP, L^2 w/P^2. */
 static double weight_of(const LookedAt *field, const FieldRay *ray)
 {
-    const GlareHead *head = &field->ask->rest->head;
+    const GlareHead *head = &field->args->rest->head;
     double luminance = luminance_of(field, ray);
     double p = position_index((double)vec3_dot(ray->towards, head->right),
                               (double)vec3_dot(ray->towards, head->up),
@@ -230,7 +230,7 @@ static double weight_of(const LookedAt *field, const FieldRay *ray)
 /* The rims of sources of few pixels, but for those that hardly count. */
 static void mark_small(LookedAt *field, Arena scratch)
 {
-    int     total = field->ask->pixels * field->ask->pixels;
+    int     total = field->args->pixels * field->args->pixels;
     int    *sets = sets_of(field, BRIGHT, &scratch), *sizes = ARENA_NEW(&scratch, int, total);
     double *weights = ARENA_NEW(&scratch, double, total), all = 0;
     for (int i = 0; i < total; i++) {
@@ -248,25 +248,25 @@ static void mark_small(LookedAt *field, Arena scratch)
     }
 }
 
-static int pixel_of(const GlareFieldAsk *ask, Vec3 d)
+static int pixel_of(const GlareFieldArgs *args, Vec3 d)
 {
-    const GlareHead *head = &ask->rest->head;
+    const GlareHead *head = &args->rest->head;
     double x = (double)vec3_dot(d, head->right), y = (double)vec3_dot(d, head->up);
     double beside = hypot(x, y), t = atan2(beside, (double)vec3_dot(d, head->gaze));
     double scale = beside > 0 ? t / beside : 1;
-    int    i = (int)((scale * x / PI + 0.5) * ask->pixels);
-    int    j = (int)((0.5 - scale * y / PI) * ask->pixels);
-    return is_inside(ask->pixels, i, j) ? j * ask->pixels + i : NO_ID;
+    int    i = (int)((scale * x / PI + 0.5) * args->pixels);
+    int    j = (int)((0.5 - scale * y / PI) * args->pixels);
+    return is_inside(args->pixels, i, j) ? j * args->pixels + i : NO_ID;
 }
 
 /* What a path found bright, and no ray about it. */
 static void mark_found(LookedAt *field)
 {
-    const GlareFieldAsk *ask = field->ask;
-    for (int i = 0; i < ask->found.count; i++) {
-        FieldRay ray = {(float)ask->found.cd_m2[i], 0, 1, ask->found.towards[i]};
-        if ((double)ray.sky > ask->peak_cd_m2 || class_of(field, &ray) == FIELD_DIM) continue;
-        int pixel = pixel_of(ask, ray.towards);
+    const GlareFieldArgs *args = field->args;
+    for (int i = 0; i < args->found.count; i++) {
+        FieldRay ray = {(float)args->found.cd_m2[i], 0, 1, args->found.towards[i]};
+        if ((double)ray.sky > args->peak_cd_m2 || class_of(field, &ray) == FIELD_DIM) continue;
+        int pixel = pixel_of(args, ray.towards);
         if (pixel != NO_ID && !(field->classes[pixel] & BRIGHT) && !is_edge(field, pixel))
             mark(field, pixel);
     }
@@ -274,7 +274,7 @@ static void mark_found(LookedAt *field)
 
 static void find_edges(LookedAt *field, Arena *scratch)
 {
-    int total = field->ask->pixels * field->ask->pixels;
+    int total = field->args->pixels * field->args->pixels;
     field->again = ARENA_NEW(scratch, int, total);
     field->pixels = ARENA_NEW(scratch, int, total);
     for (int i = 0; i < total; i++) {
@@ -304,7 +304,7 @@ static void look_at_edges(LookedAt *field, Arena *scratch)
     for (int round = 0; round < 2 && field->seen_again < field->again_count; round++) {
         int first = field->seen_again, end = field->again_count;
         field->others = ARENA_GROW(scratch, FieldRay, field->others, first * RAYS, end * RAYS);
-        parallel_for(field->ask->setup->tools.threads, end - first, look_again, field);
+        parallel_for(field->args->setup->tools.threads, end - first, look_again, field);
         field->seen_again = end;
         set_classes(field, first, end);
     }
@@ -336,12 +336,12 @@ static GlareSum *sum_of(const FieldSums *sums, FieldClass class, int pixel, int 
 
 static void add_ray(const FieldSums *sums, const FieldRay *ray, int pixel, int group)
 {
-    const GlareHead *head = &sums->field->ask->rest->head;
+    const GlareHead *head = &sums->field->args->rest->head;
     if (!(ray->sr > 0)) return;
     double     sr = (double)ray->sr, forward = (double)vec3_dot(ray->towards, head->gaze);
     FieldClass class = class_of(sums->field, ray);
     if (class == FIELD_DIM) {
-        double rest = glare_rest_at(sums->field->ask->rest, ray->towards);
+        double rest = glare_rest_at(sums->field->args->rest, ray->towards);
         sums->background->rest_lx += rest * sr * forward;
         sums->background->told_lx[group] +=
             ((double)ray->sky + (double)ray->lit) * sr * forward;
@@ -355,7 +355,7 @@ static void add_ray(const FieldSums *sums, const FieldRay *ray, int pixel, int g
 static void add_pixel(const FieldSums *sums, int pixel)
 {
     const LookedAt *field = sums->field;
-    int          count = field->ask->pixels, again = field->again[pixel];
+    int          count = field->args->pixels, again = field->again[pixel];
     if (again == NO_ID)
         add_ray(sums, &field->rays[pixel], pixel, glare_group_at(pixel % count, pixel / count));
     for (int k = 0; again != NO_ID && k < RAYS; k++)
@@ -366,7 +366,7 @@ static void add_pixel(const FieldSums *sums, int pixel)
 static void add_all(const LookedAt *field, GlareTable *table, GlareBackground *background,
                     Arena *arena, Arena scratch)
 {
-    int       total = field->ask->pixels * field->ask->pixels;
+    int       total = field->args->pixels * field->args->pixels;
     FieldSums sums = {.field = field, .table = table, .background = background, .arena = arena};
     for (int c = FIELD_SOURCE; c < FIELD_CLASSES; c++) {
         sums.sets[c] = sets_of(field, 1 << c, &scratch);
@@ -378,7 +378,7 @@ static void add_all(const LookedAt *field, GlareTable *table, GlareBackground *b
 /* Rays need no light samples but the sun's, by the first surface. */
 static void set_aim(LookedAt *field)
 {
-    const Setup *setup = field->ask->setup;
+    const Setup *setup = field->args->setup;
     field->context = setup->context;
     field->context.strategy = PATH_LIGHTS_ONLY;
     field->context.max_bounces = BOUNCES;
@@ -386,15 +386,15 @@ static void set_aim(LookedAt *field)
     field->context.beams.mirrors = NULL;
     field->reach = lights_has(setup->context.lights, LIGHTS_SUN) ? PATH_TO_SUNLIT_SURFACE
                                                                  : PATH_TO_SURFACE;
-    field->aim = (ProbeAim){.context = &field->context, .eye = field->ask->rest->head.eye,
-                            .seed = field->ask->seed};
+    field->aim = (ProbeAim){.context = &field->context, .eye = field->args->rest->head.eye,
+                            .seed = field->args->seed};
 }
 
-void glare_field_add(const GlareFieldAsk *ask, GlareTable *table, GlareBackground *background,
+void glare_field_add(const GlareFieldArgs *args, GlareTable *table, GlareBackground *background,
                      Arena *arena)
 {
-    int   total = ask->pixels * ask->pixels, threads = ask->setup->tools.threads;
-    LookedAt field = {.ask = ask};
+    int   total = args->pixels * args->pixels, threads = args->setup->tools.threads;
+    LookedAt field = {.args = args};
     Arena scratch = arena_reserve(FIELD_BYTES);
     field.rays = ARENA_NEW(&scratch, FieldRay, total);
     field.classes = ARENA_NEW(&scratch, uint8_t, total);

@@ -18,7 +18,7 @@
  * that is seen so. */
 bool glare_field_tells(const PathHistory *history);
 
-typedef struct GlareFieldAsk {
+typedef struct GlareFieldArgs {
     const Setup     *setup;
     const GlareRest *rest;
     GlarePaths       found; /* what glare_field_tells of paths: they find what rays miss */
@@ -26,7 +26,7 @@ typedef struct GlareFieldAsk {
     double peak_cd_m2;      /* sky that is brighter counts by light samples: it is left out */
     int    pixels;          /* over 180 degrees */
     uint32_t seed;
-} GlareFieldAsk;
+} GlareFieldArgs;
 
 /* Adds the sources; *background_lx: light from all else, what the rays show and the rest. */
 typedef struct GlareBackground {
@@ -34,5 +34,5 @@ typedef struct GlareBackground {
     double rest_lx;
 } GlareBackground;
 
-void glare_field_add(const GlareFieldAsk *ask, GlareTable *table, GlareBackground *background,
+void glare_field_add(const GlareFieldArgs *args, GlareTable *table, GlareBackground *background,
                      Arena *arena);

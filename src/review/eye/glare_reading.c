@@ -25,7 +25,7 @@ void glare_sample_note(const PathHistory *history, float lx, Vec3 eye, GlareSamp
 }
 
 typedef struct GlareWork {
-    const GlareAsk *ask;
+    const GlareArgs *args;
     GlareTable      table;
     GlareBackground background;
     double          samples_lx[GLARE_GROUPS]; /* of the background, by samples */
@@ -35,28 +35,28 @@ typedef struct GlareWork {
 
 /* Blocks of samples are each as well spread as all of them (base/sampler.h): dealt out by
  * chance, intervals would be 20 times too wide. */
-static int sample_group(const GlareAsk *ask, int i)
+static int sample_group(const GlareArgs *args, int i)
 {
-    return i / (ask->rest.count / GLARE_GROUPS);
+    return i / (args->rest.count / GLARE_GROUPS);
 }
 
 /* Rounds are groups where there are enough. Those of one round are Hammersley's points: the
  * first bits of the index stand for the angle, its last ones for the direction about the gaze,
  * so that those in the middle leave each group a raster of its own over both. */
-static int path_group(const GlareAsk *ask, int i)
+static int path_group(const GlareArgs *args, int i)
 {
-    if (ask->rounds % GLARE_GROUPS == 0) return sample_group(ask, i);
+    if (args->rounds % GLARE_GROUPS == 0) return sample_group(args, i);
     return i / GLARE_GROUPS % GLARE_GROUPS;
 }
 
 static double forward_of(const GlareWork *work, Vec3 d)
 {
-    return (double)vec3_dot(d, work->ask->head.gaze);
+    return (double)vec3_dot(d, work->args->head.gaze);
 }
 
 static void add_piece(const GlareWork *work, Vec3 d, double luminance, double sr, GlareSum *to)
 {
-    const GlareHead *head = &work->ask->head;
+    const GlareHead *head = &work->args->head;
     glare_sum_add(to, luminance, sr, (double)vec3_dot(d, head->right),
                   (double)vec3_dot(d, head->up), forward_of(work, d));
 }
@@ -65,14 +65,14 @@ static void add_piece(const GlareWork *work, Vec3 d, double luminance, double sr
  * 0: none yet). */
 static void add_samples(GlareWork *work, LightSet set, int *sources, double least)
 {
-    const GlareAsk *ask = work->ask;
-    double share = 1.0 / ask->rest.count;
-    for (int i = 0; i < ask->rest.count; i++) {
-        const GlareSample *s = &ask->samples[set][i];
+    const GlareArgs *args = work->args;
+    double share = 1.0 / args->rest.count;
+    for (int i = 0; i < args->rest.count; i++) {
+        const GlareSample *s = &args->samples[set][i];
         double forward = forward_of(work, s->towards);
         if (!(s->lx > 0) || !(s->sr > 0) || !(forward > 0)) continue;
         double luminance = (double)s->lx / ((double)s->sr * forward);
-        int    group = sample_group(ask, i), *source = &sources[s->source_id];
+        int    group = sample_group(args, i), *source = &sources[s->source_id];
         if (luminance <= least) {
             if (set != LIGHTS_SKY) work->samples_lx[group] += (double)s->lx * share;
             continue;
@@ -90,8 +90,8 @@ static void add_samples(GlareWork *work, LightSet set, int *sources, double leas
 
 static void add_surfaces(GlareWork *work, Arena scratch)
 {
-    const GlareSettings *settings = &work->ask->setup->request->glare;
-    int   *parts = ARENA_NEW(&scratch, int, work->ask->setup->scene->part_count + 1);
+    const GlareSettings *settings = &work->args->setup->request->glare;
+    int   *parts = ARENA_NEW(&scratch, int, work->args->setup->scene->part_count + 1);
     int    sun = 0, sky = 0;
     double peak = fmax(settings->peak_cd_m2, work->threshold);
     add_samples(work, LIGHTS_EMITTERS, parts, work->threshold);
@@ -112,7 +112,7 @@ typedef struct LampSums {
 
 static double lamp_sr(const GlareWork *work, int id, const LampSums *sums)
 {
-    const PunctualLight *light = &work->ask->setup->scene->lights[id];
+    const PunctualLight *light = &work->args->setup->scene->lights[id];
     double sine = sin(radians_from_degrees(SUN_MEAN_RADIUS_DEG));
     double distance = sums->distance / sums->total;
     if (!isfinite(distance)) return PI * sine * sine;
@@ -142,7 +142,7 @@ static void add_lamp(GlareWork *work, int id, const LampSums *sums)
 
 static void add_to_lamp(const GlareWork *work, const GlareSample *s, int group, LampSums *to)
 {
-    double   forward = forward_of(work, s->towards), share = 1.0 / work->ask->rest.count;
+    double   forward = forward_of(work, s->towards), share = 1.0 / work->args->rest.count;
     double   lx = (double)s->lx * share, facing = lx / forward;
     GlareSum one = {0};
     add_piece(work, s->towards, 0, 1, &one);
@@ -156,13 +156,13 @@ static void add_to_lamp(const GlareWork *work, const GlareSample *s, int group, 
 
 static void add_lamps(GlareWork *work, Arena scratch)
 {
-    const GlareAsk *ask = work->ask;
-    int       count = ask->setup->scene->light_count;
+    const GlareArgs *args = work->args;
+    int       count = args->setup->scene->light_count;
     LampSums *lamps = ARENA_NEW(&scratch, LampSums, count);
-    for (int i = 0; i < ask->rest.count; i++) {
-        const GlareSample *s = &ask->samples[LIGHTS_PUNCTUAL][i];
+    for (int i = 0; i < args->rest.count; i++) {
+        const GlareSample *s = &args->samples[LIGHTS_PUNCTUAL][i];
         if (s->lx > 0 && forward_of(work, s->towards) > 0)
-            add_to_lamp(work, s, sample_group(ask, i), &lamps[s->source_id]);
+            add_to_lamp(work, s, sample_group(args, i), &lamps[s->source_id]);
     }
     for (int id = 0; id < count; id++) add_lamp(work, id, &lamps[id]);
 }
@@ -182,7 +182,7 @@ static int by_place(const void *a, const void *b)
 /* Images [first, end) are one direction's: each of its rays found the sun or did not. */
 static void add_direction(GlareWork *work, int first, int end, int *source)
 {
-    const GlareImage *images = work->ask->images;
+    const GlareImage *images = work->args->images;
     double step = radians_from_degrees(FALSE_SUN_STEP_DEG), sr = step * step, lx = 0;
     for (int i = first; i < end; i++) lx += (double)images[i].facing_lx;
     double forward = forward_of(work, images[first].seen);
@@ -202,8 +202,8 @@ static void add_direction(GlareWork *work, int first, int end, int *source)
 
 static void add_images(GlareWork *work)
 {
-    GlareImage *images = work->ask->images;
-    int         count = work->ask->image_count, source = 0;
+    GlareImage *images = work->args->images;
+    int         count = work->args->image_count, source = 0;
     if (count) qsort(images, (size_t)count, sizeof *images, by_place);
     for (int first = 0, end; first < count; first = end) {
         for (end = first + 1; end < count && !by_place(&images[first], &images[end]);) end++;
@@ -216,9 +216,9 @@ static void add_images(GlareWork *work)
 
 static void add_lamp_images(GlareWork *work, Arena scratch)
 {
-    const GlareAsk *ask = work->ask;
-    LampImagesAsk   wanted = {ask->setup, &ask->head, ask->lamps, PIXELS_ONCE,
-                              review_seed(ask->setup->request, SEED + 1)};
+    const GlareArgs *args = work->args;
+    LampImagesArgs   wanted = {args->setup, &args->head, args->lamps, PIXELS_ONCE,
+                              review_seed(args->setup->request, SEED + 1)};
     LampImages found = lamp_images_find(&wanted, &scratch);
     int       *sources = ARENA_NEW(&scratch, int, found.pairs);
     for (int i = 0; i < found.count; i++) {
@@ -243,12 +243,12 @@ static void add_lamp_images(GlareWork *work, Arena scratch)
 /* The rest of the background is as unsure as the light of its paths. */
 static void add_background(GlareWork *work)
 {
-    const GlareAsk *ask = work->ask;
+    const GlareArgs *args = work->args;
     double rest[GLARE_GROUPS] = {0}, total = 0;
-    for (int i = 0; i < ask->rest.count; i++) {
-        double lx = ask->rest.cd_m2[i] * ask->rest.sr[i] *
-                    forward_of(work, ask->rest.towards[i]);
-        rest[path_group(ask, i)] += lx;
+    for (int i = 0; i < args->rest.count; i++) {
+        double lx = args->rest.cd_m2[i] * args->rest.sr[i] *
+                    forward_of(work, args->rest.towards[i]);
+        rest[path_group(args, i)] += lx;
         total += lx;
     }
     for (int g = 0; g < GLARE_GROUPS; g++) {
@@ -258,18 +258,18 @@ static void add_background(GlareWork *work)
     }
 }
 
-GlareReading glare_read(const GlareAsk *ask, Arena scratch)
+GlareReading glare_read(const GlareArgs *args, Arena scratch)
 {
-    const GlareSettings *settings = &ask->setup->request->glare;
+    const GlareSettings *settings = &args->setup->request->glare;
     Arena     sources = arena_reserve(SOURCE_BYTES);
-    GlareWork work = {.ask = ask, .threshold = glare_threshold(settings, ask->task_cd_m2),
+    GlareWork work = {.args = args, .threshold = glare_threshold(settings, args->task_cd_m2),
                       .arena = &sources};
-    GlareRest rest = glare_rest_build(&ask->head, &ask->rest, work.threshold, &scratch);
-    GlareFieldAsk field = {.setup = ask->setup, .rest = &rest, .found = ask->told,
+    GlareRest rest = glare_rest_build(&args->head, &args->rest, work.threshold, &scratch);
+    GlareFieldArgs field = {.setup = args->setup, .rest = &rest, .found = args->told,
                            .threshold_cd_m2 = work.threshold,
                            .peak_cd_m2 = fmax(settings->peak_cd_m2, work.threshold),
-                           .pixels = ask->rounds > 1 ? PIXELS : PIXELS_ONCE,
-                           .seed = review_seed(ask->setup->request, SEED)};
+                           .pixels = args->rounds > 1 ? PIXELS : PIXELS_ONCE,
+                           .seed = review_seed(args->setup->request, SEED)};
     add_surfaces(&work, scratch);
     add_lamps(&work, scratch);
     add_images(&work);

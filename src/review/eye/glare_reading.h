@@ -41,7 +41,7 @@ typedef struct GlareImage {
     float facing_lx; /* on a plane that faces it */
 } GlareImage;
 
-typedef struct GlareAsk {
+typedef struct GlareArgs {
     const Setup       *setup;
     GlareHead          head;
     GlarePaths         told; /* what glare_field_tells of paths, */
@@ -53,6 +53,6 @@ typedef struct GlareAsk {
     GlareImage        *images;   /* are put in order */
     int                image_count;
     double             task_cd_m2; /* the task's mean luminance */
-} GlareAsk;
+} GlareArgs;
 
-GlareReading glare_read(const GlareAsk *ask, Arena scratch);
+GlareReading glare_read(const GlareArgs *args, Arena scratch);

@@ -211,7 +211,7 @@ static void on_mirror(void *user, const PathHistory *history, Vec3 towards, floa
 }
 
 typedef struct LampSearch {
-    const LampImagesAsk *ask;
+    const LampImagesArgs *args;
     PathContext context;
     int         count; /* cells over 180 degrees */
     struct LampCell *cells;
@@ -220,14 +220,14 @@ typedef struct LampSearch {
 
 static LampRay look(const LampSearch *search, Vec3 towards, uint32_t seed, int index)
 {
-    LampRay        ray = {.lamps = search->ask->lamps};
-    Vec3           eye = search->ask->head->eye, target = vec3_add(eye, towards);
+    LampRay        ray = {.lamps = search->args->lamps};
+    Vec3           eye = search->args->head->eye, target = vec3_add(eye, towards);
     ProbeAim       aim = {.context = &search->context, .eye = eye, .targets = &target,
                           .target_count = 1, .seed = seed};
     PathListener   listener = {.on_light = on_light, .on_mirror = on_mirror, .user = &ray,
                                .reach = PATH_BY_SURE_MIRRORS};
     PathStatistics statistics = {0};
-    search->ask->setup->tools.kernel->trace(&aim, index, index + 1, &listener, &statistics);
+    search->args->setup->tools.kernel->trace(&aim, index, index + 1, &listener, &statistics);
     return ray;
 }
 
@@ -276,7 +276,7 @@ static RayWidth width_of(const LampSearch *search, const MirroredRay *ray, const
                          bool *is_met)
 {
     double step = PI / search->count, apart = step / sqrt(2.0);
-    Vec3   eye = search->ask->head->eye;
+    Vec3   eye = search->args->head->eye;
     double start = apart * (double)vec3_length(vec3_sub(ray->ray.origin, eye)), grows = apart;
     *is_met = false;
     for (int i = 0; i < other->mirrored_count; i++) {
@@ -293,7 +293,7 @@ static RayWidth width_of(const LampSearch *search, const MirroredRay *ray, const
 static void note_near(const LampSearch *search, const LampRay *ray, const LampRay *other,
                       LampCell *cell)
 {
-    const BrightLamps *lamps = search->ask->lamps;
+    const BrightLamps *lamps = search->args->lamps;
     cell->mirror_id = ray->mirrored[0].mirror_id;
     for (int k = 0; k < ray->mirrored_count; k++) {
         const MirroredRay *mirrored = &ray->mirrored[k];
@@ -354,7 +354,7 @@ static bool touches_any(const LampCell *cell)
 static void look_at_cell(const LampSearch *search, LampCell *cell)
 {
     double   step = PI / search->count;
-    uint32_t seed = hash_combine(hash_combine(hash_u32(search->ask->seed), (uint32_t)cell->x),
+    uint32_t seed = hash_combine(hash_combine(hash_u32(search->args->seed), (uint32_t)cell->x),
                                  (uint32_t)cell->y);
     cell->mirror_id = NO_MIRROR;
     double   u = seed * 0x1p-32, v = hash_u32(seed) * 0x1p-32;
@@ -362,10 +362,10 @@ static void look_at_cell(const LampSearch *search, LampCell *cell)
     double   t = hypot(x, y);
     if (!(t < PI / 2)) return;
     cell->sr = (float)(step * step * (t > 0 ? sin(t) / t : 1));
-    cell->towards = glare_head_direction(search->ask->head, x, y);
+    cell->towards = glare_head_direction(search->args->head, x, y);
     LampRay ray = look(search, cell->towards, seed, 0);
     if (!ray.mirrored_count) return;
-    Vec3    beside = glare_head_direction(search->ask->head, x + step / 2, y + step / 2);
+    Vec3    beside = glare_head_direction(search->args->head, x + step / 2, y + step / 2);
     LampRay other = look(search, beside, seed, 0);
     note_near(search, &ray, &other, cell);
     if (ray.found_count || touches_any(cell)) look_well(search, &ray, seed, cell);
@@ -427,7 +427,7 @@ static void add_cell(LampPairs *pairs, const LampCell *cell, Arena *arena)
  * that of a count of n is its root, of none that is seen a cell of the lamp itself. */
 static bool is_well(const LampSearch *search, const LampPair *pair, double all)
 {
-    double step = PI / search->count, cd_m2 = search->ask->lamps->cd_m2[pair->lamp_id];
+    double step = PI / search->count, cd_m2 = search->args->lamps->cd_m2[pair->lamp_id];
     double error = pair->shown ? pair->glare / sqrt((double)pair->shown)
                                : cd_m2 * cd_m2 * step * step;
     return pair->shown >= ENOUGH || pair->touched >= ENOUGH * HIDDEN || error <= SLIGHT * all;
@@ -546,7 +546,7 @@ static void go_finer(LampSearch *search, bool is_last, LampPairs *pairs, LampIma
 
 static void set_first(LampSearch *search, Arena *arena)
 {
-    int side = search->ask->pixels;
+    int side = search->args->pixels;
     search->count = side;
     search->cell_count = side * side;
     search->cells = ARENA_NEW(arena, LampCell, search->cell_count);
@@ -556,12 +556,12 @@ static void set_first(LampSearch *search, Arena *arena)
 
 #define BYTES ((size_t)1 << 34) /* of address space */
 
-LampImages lamp_images_find(const LampImagesAsk *ask, Arena *arena)
+LampImages lamp_images_find(const LampImagesArgs *args, Arena *arena)
 {
     LampImages out = {0};
     LampPairs  pairs = {0};
-    LampSearch search = {.ask = ask, .context = ask->setup->context};
-    if (!ask->lamps->count) return out;
+    LampSearch search = {.args = args, .context = args->setup->context};
+    if (!args->lamps->count) return out;
     Arena  of_pairs = arena_reserve(BYTES), of_cells = arena_reserve(BYTES);
     Arena *arenas[3] = {arena, &of_pairs, &of_cells};
     search.context.max_bounces = BOUNCES;
@@ -569,7 +569,7 @@ LampImages lamp_images_find(const LampImagesAsk *ask, Arena *arena)
     set_first(&search, &of_cells);
     for (int level = 0; level < LEVELS && search.cell_count; level++) {
         int chunks = (search.cell_count + CELLS_A_CHUNK - 1) / CELLS_A_CHUNK;
-        parallel_for(ask->setup->tools.threads, chunks, look_chunk, &search);
+        parallel_for(args->setup->tools.threads, chunks, look_chunk, &search);
         count_pairs(&search, &pairs, &of_pairs);
         go_finer(&search, level == LEVELS - 1, &pairs, &out, arenas);
     }

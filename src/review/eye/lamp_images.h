@@ -77,12 +77,12 @@ typedef struct LampImages {
     int        count, pairs;
 } LampImages;
 
-typedef struct LampImagesAsk {
+typedef struct LampImagesArgs {
     const Setup       *setup;
     const GlareHead   *head;
     const BrightLamps *lamps;
     int      pixels; /* cells over 180 degrees at first */
     uint32_t seed;
-} LampImagesAsk;
+} LampImagesArgs;
 
-LampImages lamp_images_find(const LampImagesAsk *ask, Arena *arena);
+LampImages lamp_images_find(const LampImagesArgs *args, Arena *arena);

@@ -176,24 +176,24 @@ static bool pack(const LiveFrame *frame, int threads, const char **scene, const 
     return ok;
 }
 
-static bool make_layers(const LiveAsk *ask, const FrameImage *frame, LivePicture *out,
+static bool make_layers(const LiveArgs *args, const FrameImage *frame, LivePicture *out,
                         Arena *arena, Error *err)
 {
     Arena     scratch = arena_reserve(LIVE_BYTES);
     LiveFrame split = {0};
     double    yfov = field_of_view(frame);
-    HumanEye  eye = ask->request->observer;
+    HumanEye  eye = args->request->observer;
     bool      ok = live_frame_split(frame, &scratch, &split, err);
     if (ok) {
         split.scene = live_frame_shrink(&split.scene, LIVE_WIDTH, LIVE_HEIGHT, &scratch);
         split.displays = live_frame_shrink(&split.displays, LIVE_WIDTH, LIVE_HEIGHT, &scratch);
         out->width = split.scene.width;
         out->height = split.scene.height;
-        ok = pack(&split, ask->threads, &out->scene, &out->displays, arena, err);
+        ok = pack(&split, args->threads, &out->scene, &out->displays, arena, err);
     }
     if (ok && yfov > 0) {
-        ok = live_frame_spread(&split, yfov, eye, ask->threads, &scratch, err) &&
-             pack(&split, ask->threads, &out->eye_scene, &out->eye_displays, arena, err);
+        ok = live_frame_spread(&split, yfov, eye, args->threads, &scratch, err) &&
+             pack(&split, args->threads, &out->eye_scene, &out->eye_displays, arena, err);
         out->age_years = eye.age_years;
         out->pigment = eye.pigment;
     }
@@ -202,18 +202,18 @@ static bool make_layers(const LiveAsk *ask, const FrameImage *frame, LivePicture
 }
 
 /* The frame lies beside its picture. */
-static bool make_picture(const LiveAsk *ask, const char *name, LivePicture *out, Arena *arena,
+static bool make_picture(const LiveArgs *args, const char *name, LivePicture *out, Arena *arena,
                          Error *err)
 {
     Arena       scratch = arena_reserve(LIVE_BYTES);
     int         stem = (int)(path_ending(name) - name);
-    const char *path = arena_format(&scratch, "%s/%.*s.exr", ask->folder, stem, name);
+    const char *path = arena_format(&scratch, "%s/%.*s.exr", args->folder, stem, name);
     FrameImage  frame;
     *out = (LivePicture){.frame = name};
     bool ok = frame_read(path, &scratch, &frame, err);
     if (ok) {
         look_at(&frame, out, scratch);
-        ok = make_layers(ask, &frame, out, arena, err) || error_in_file(err, path);
+        ok = make_layers(args, &frame, out, arena, err) || error_in_file(err, path);
     }
     arena_release(&scratch);
     return ok;
@@ -234,18 +234,18 @@ static bool is_new(const LivePicture *pictures, int count, const char *frame)
     return true;
 }
 
-static bool make_pictures(const LiveAsk *ask, Arena *arena, ReviewLive *out, Error *err)
+static bool make_pictures(const LiveArgs *args, Arena *arena, ReviewLive *out, Error *err)
 {
-    const Review *review = &ask->outcome->review;
+    const Review *review = &args->outcome->review;
     int           most = review_case_count(review), made = 0;
     size_t        size = 0;
     LivePicture  *pictures = ARENA_NEW(arena, LivePicture, most);
     for (int i = 0; i < most && size < PICTURES_BYTES; i++) {
         const ReviewCase *c = review_case_at(review, i);
         if (!c->frame || !is_new(pictures, made, c->frame)) continue;
-        if (!make_picture(ask, c->frame, &pictures[made], arena, err)) return false;
+        if (!make_picture(args, c->frame, &pictures[made], arena, err)) return false;
         size += packed_size(&pictures[made++]);
-        work_add(ask->work, WORK_LAYERS, work_of_frame(ask->request, WORK_LAYERS));
+        work_add(args->work, WORK_LAYERS, work_of_frame(args->request, WORK_LAYERS));
     }
     out->pictures = pictures;
     out->picture_count = made;
@@ -288,9 +288,9 @@ static const LiveSky *make_sky(const SweepSuns *suns, const ReviewCondition *con
     return sky;
 }
 
-static void make_sweeps(const LiveAsk *ask, Arena *arena, ReviewLive *out)
+static void make_sweeps(const LiveArgs *args, Arena *arena, ReviewLive *out)
 {
-    const ReviewOutcome *outcome = ask->outcome;
+    const ReviewOutcome *outcome = args->outcome;
     LiveSweep       *sweeps = ARENA_NEW(arena, LiveSweep, outcome->table_count);
     const SweepSuns *last = NULL;
     const LiveSky   *sky = NULL;
@@ -298,7 +298,7 @@ static void make_sweeps(const LiveAsk *ask, Arena *arena, ReviewLive *out)
         const SweepTable *t = &outcome->tables[i];
         const char *condition = outcome->review.sweeps[t->sweep_id].condition;
         if (t->suns != last)
-            sky = make_sky(t->suns, review_condition_named(ask->request, condition), arena);
+            sky = make_sky(t->suns, review_condition_named(args->request, condition), arena);
         last = t->suns;
         const SunFigures *f = &t->figures;
         sweeps[i] = (LiveSweep){t->sweep_id, sky, f->worst, f->reflected, f->mirror, f->level,
@@ -311,11 +311,11 @@ static void make_sweeps(const LiveAsk *ask, Arena *arena, ReviewLive *out)
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-bool live_make(const LiveAsk *ask, Arena *arena, ReviewLive *out, Error *err)
+bool live_make(const LiveArgs *args, Arena *arena, ReviewLive *out, Error *err)
 {
     *out = (ReviewLive){.colours = false_colours(arena)};
-    make_sweeps(ask, arena, out);
-    return make_pictures(ask, arena, out, err);
+    make_sweeps(args, arena, out);
+    return make_pictures(args, arena, out, err);
 }
 
 /* ---- x ----------------------------------------------------------------------------------- */

@@ -46,15 +46,15 @@ bool live_frame_spread(LiveFrame *frame, double yfov_deg, HumanEye eye, int thre
 
 enum { LIVE_WIDTH = 960, LIVE_HEIGHT = 540 };
 
-typedef struct LiveAsk {
+typedef struct LiveArgs {
     const ReviewRequest *request;
     const ReviewOutcome *outcome;
     const char          *folder; /* of the frames */
     int                  threads;
     Work                *work;
-} LiveAsk;
+} LiveArgs;
 
-bool live_make(const LiveAsk *ask, Arena *arena, ReviewLive *out, Error *err);
+bool live_make(const LiveArgs *args, Arena *arena, ReviewLive *out, Error *err);
 
 /* What a sweep found of every sun, as a table and as pictures for the page.
  *

@@ -310,9 +310,9 @@ static bool fill_page(const ReviewFolder *folder, const ReviewOutcome *outcome,
                       ReviewPage *page, Arena *arena, Error *err)
 {
     ReviewLive *live = ARENA_NEW(arena, ReviewLive, 1);
-    LiveAsk     ask = {folder->request, outcome, folder->name, folder->threads,
+    LiveArgs     args = {folder->request, outcome, folder->name, folder->threads,
                        folder->work};
-    if (!live_make(&ask, arena, live, err) ||
+    if (!live_make(&args, arena, live, err) ||
         (!folder->is_self_contained && !put_layers_beside(folder, live, arena, err)))
         return false;
     if (!folder->is_self_contained && live->sweep_count + live->picture_count) {

@@ -246,8 +246,8 @@ static bool find_answers(const DistantProbe *probe, const DistantTools *tools, A
 }
 
 /* Those that are not known; *count: how many. */
-static DistantProbe **probes_to_ask(DistantProbe *const *probes, int *count,
-                                    const DistantTools *tools, Arena *arena)
+static DistantProbe **probes_to_sample(DistantProbe *const *probes, int *count,
+                                       const DistantTools *tools, Arena *arena)
 {
     DistantProbe **list = ARENA_NEW(arena, DistantProbe *, *count);
     int            left = 0;
@@ -298,10 +298,10 @@ static bool sum_skies(DistantProbe *const *probes, int count, const DistantTools
     return true;
 }
 
-static bool ask_table(DistantProbe *const *probes, int count, const DistantTools *tools,
-                      Arena *arena, Error *err)
+static bool sample_table(DistantProbe *const *probes, int count, const DistantTools *tools,
+                         Arena *arena, Error *err)
 {
-    DistantProbe **list = probes_to_ask(probes, &count, tools, arena);
+    DistantProbe **list = probes_to_sample(probes, &count, tools, arena);
     if (!count && find_suns(tools, *arena)) return true;
     if (count ? !sum_skies(list, count, tools, *arena, err)
               : !sky_table_make_suns(tools->table, arena, err))
@@ -333,9 +333,9 @@ void distant_probe_respond(DistantProbe *probe, const DistantTools *tools, Arena
     response_trace(&probe->aim, &options, arena, &probe->response);
 }
 
-static const float *ask_suns(const DistantProbe *probe, const ReadingTools *with,
-                             const ResponseOptions *options, const ProbeSuns *suns,
-                             Arena *arena)
+static const float *sample_suns(const DistantProbe *probe, const ReadingTools *with,
+                                const ResponseOptions *options, const ProbeSuns *suns,
+                                Arena *arena)
 {
     const LightParts *parts = probe->parts;
     const ProbeAim   *aim = parts ? &parts->aim : &probe->aim;
@@ -369,9 +369,9 @@ static int *suns_that_reach(const Response *response, const ProbeSuns *suns, int
 }
 
 /* Samples only suns that may light it: most of them stand behind a roof. */
-static const float *ask_scattered(const DistantProbe *probe, const ReadingTools *with,
-                                  const ResponseOptions *options, const ProbeSuns *all,
-                                  Arena *arena)
+static const float *sample_scattered_suns(const DistantProbe *probe, const ReadingTools *with,
+                                          const ResponseOptions *options, const ProbeSuns *all,
+                                          Arena *arena)
 {
     float    *shares = ARENA_NEW(arena, float, (size_t)all->count * RESPONSE_BANDS);
     Arena     scratch = *arena;
@@ -381,24 +381,24 @@ static const float *ask_scattered(const DistantProbe *probe, const ReadingTools 
     for (int i = 0; i < some.count; i++) towards[i] = all->towards[list[i]];
     some.towards = towards;
     if (!some.count) return shares;
-    const float *found = ask_suns(probe, with, options, &some, &scratch);
+    const float *found = sample_suns(probe, with, options, &some, &scratch);
     for (int i = 0; i < some.count; i++)
         memcpy(shares + (size_t)list[i] * RESPONSE_BANDS, found + (size_t)i * RESPONSE_BANDS,
                RESPONSE_BANDS * sizeof(float));
     return shares;
 }
 
-void distant_probe_ask_suns(DistantProbe *probe, const DistantTools *tools, Arena *arena)
+void distant_probe_sample_suns(DistantProbe *probe, const DistantTools *tools, Arena *arena)
 {
     const ReadingTools *with = &tools->setup->tools;
     ResponseOptions options = {with->kernel, RESPONSE_LEVEL, tools->sun_paths, with->threads,
                                0};
     ProbeSuns suns = {.towards = sun_directions(tools, arena), .count = tools->suns.count,
                       .radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG)};
-    probe->scattered = ask_scattered(probe, with, &options, &suns, arena);
+    probe->scattered = sample_scattered_suns(probe, with, &options, &suns, arena);
     suns.by_mirror = true;
     options.paths = response_mirror_paths(&probe->aim, suns.radius);
-    probe->mirror = tools->has_mirror ? ask_suns(probe, with, &options, &suns, arena) : NULL;
+    probe->mirror = tools->has_mirror ? sample_suns(probe, with, &options, &suns, arena) : NULL;
 }
 
 /* Skies of hours are many: their errors are those of an even one. */
@@ -412,19 +412,19 @@ static void read_even_sky(DistantProbe *probe, Arena *arena)
     probe->sky_bright[0] = read_white(&probe->response, &white, 1, probe->sky_without);
 }
 
-static void ask_hours(DistantProbe *probe, const DistantTools *tools, Arena *arena)
+static void sample_hours(DistantProbe *probe, const DistantTools *tools, Arena *arena)
 {
     probe->sky = hour_skies_read(tools->hours, &probe->response, sun_directions(tools, arena),
                                  tools->suns.count, tools->setup->tools.threads, arena);
     read_even_sky(probe, arena);
 }
 
-bool distant_probes_ask_skies(DistantProbe *const *probes, int count, const DistantTools *tools,
-                              Arena *arena, Error *err)
+bool distant_probes_sample_skies(DistantProbe *const *probes, int count,
+                                 const DistantTools *tools, Arena *arena, Error *err)
 {
-    if (!tools->hours) return ask_table(probes, count, tools, arena, err);
-    for (int i = 0; i < count; i++) ask_hours(probes[i], tools, arena);
-    return ask_table(NULL, 0, tools, arena, err);
+    if (!tools->hours) return sample_table(probes, count, tools, arena, err);
+    for (int i = 0; i < count; i++) sample_hours(probes[i], tools, arena);
+    return sample_table(NULL, 0, tools, arena, err);
 }
 
 /* Between four of a table's places. */

@@ -55,12 +55,12 @@ void distant_probe_respond(DistantProbe *probe, const DistantTools *tools, Arena
 /* After that: what the tools' skies give them, and the table's suns. All at once, since a sky
  * is made and looked up but once for all of them. No probes: its suns alone. Fails as
  * daylight_build. */
-bool distant_probes_ask_skies(DistantProbe *const *probes, int count, const DistantTools *tools,
-                              Arena *arena, Error *err);
+bool distant_probes_sample_skies(DistantProbe *const *probes, int count,
+                                 const DistantTools *tools, Arena *arena, Error *err);
 
 /* The first vertex's answers to the tools' suns: after that the probe may be read; once more
  * for other suns of the same clear skies. */
-void distant_probe_ask_suns(DistantProbe *probe, const DistantTools *tools, Arena *arena);
+void distant_probe_sample_suns(DistantProbe *probe, const DistantTools *tools, Arena *arena);
 
 typedef struct DistantReading {
     double sky, sun_first, sun_rest; /* they add up */

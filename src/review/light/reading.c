@@ -513,15 +513,15 @@ static size_t targets_bytes(const ProbeAim *aim)
     return (size_t)aim->target_count * sizeof(TargetLight);
 }
 
-static void trace_field(const ProbeAim *aim, const FieldAsk *ask, const ReadingTools *tools,
+static void trace_field(const ProbeAim *aim, const FieldArgs *args, const ReadingTools *tools,
                         Batch *batches, TargetLight *targets, Arena scratch)
 {
     ReadingGoal goal = {.known = 0};
     size_t      count = (size_t)aim->target_count;
     Stream      stream = stream_start(aim, tools, &scratch);
-    stream.aim.by_display = ask->is_shared;
+    stream.aim.by_display = args->is_shared;
     stream.targets = ARENA_NEW(&scratch, TargetLight, BATCHES * count);
-    stream_read(&stream, ask->paths, &goal);
+    stream_read(&stream, args->paths, &goal);
     for (size_t i = 0; i < BATCHES * count; i++) {
         TargetLight *to = &targets[i % count];
         to->paths += stream.targets[i].paths;
@@ -531,19 +531,19 @@ static void trace_field(const ProbeAim *aim, const FieldAsk *ask, const ReadingT
     memcpy(batches, stream.batches, BATCHES * sizeof *batches);
 }
 
-static JournalKey field_key(const ProbeAim *aim, const FieldAsk *ask,
+static JournalKey field_key(const ProbeAim *aim, const FieldArgs *args,
                             const ReadingTools *tools, Arena scratch)
 {
-    double   numbers[] = {(double)ask->paths, ask->is_shared};
+    double   numbers[] = {(double)args->paths, args->is_shared};
     Question question = {.base = tools->base, .kind = "field", .numbers = numbers,
                          .number_count = COUNT_OF(numbers)};
     return question_key(&question, aim, scratch);
 }
 
-static bool field_is_sound(const ProbeAim *aim, const FieldAsk *ask,
+static bool field_is_sound(const ProbeAim *aim, const FieldArgs *args,
                            const TargetLight *targets, const Batch *batches, int displays)
 {
-    bool ok = reading_batches_are_sound(batches, ask->paths / BATCHES, displays);
+    bool ok = reading_batches_are_sound(batches, args->paths / BATCHES, displays);
     for (int i = 0; i < aim->target_count; i++)
         ok = ok && targets[i].paths >= 0 && isfinite(targets[i].paths) &&
              isfinite(targets[i].sum) && isfinite(targets[i].squares);
@@ -551,35 +551,35 @@ static bool field_is_sound(const ProbeAim *aim, const FieldAsk *ask,
 }
 
 /* Kept: the targets, then the batches. */
-static void find_field(const ProbeAim *aim, const FieldAsk *ask, const ReadingTools *tools,
+static void find_field(const ProbeAim *aim, const FieldArgs *args, const ReadingTools *tools,
                        Batch *batches, TargetLight *targets, Arena scratch)
 {
-    int            displays = ask->is_shared ? displays_of(aim) : 0;
+    int            displays = args->is_shared ? displays_of(aim) : 0;
     size_t         bytes = targets_bytes(aim) + BATCHES * reading_batch_bytes(displays);
     unsigned char *kept = ARENA_NEW(&scratch, unsigned char, bytes);
     unsigned char *to = kept + targets_bytes(aim);
     const unsigned char *from = to;
-    JournalKey     key = field_key(aim, ask, tools, scratch);
+    JournalKey     key = field_key(aim, args, tools, scratch);
     if (journal_find(tools->journal, key, kept, bytes)) {
         memcpy(targets, kept, targets_bytes(aim));
         reading_batches_unpack(&from, displays, batches);
-        if (field_is_sound(aim, ask, targets, batches, displays)) return;
+        if (field_is_sound(aim, args, targets, batches, displays)) return;
         memset(targets, 0, targets_bytes(aim));
     }
-    trace_field(aim, ask, tools, batches, targets, scratch);
+    trace_field(aim, args, tools, batches, targets, scratch);
     memcpy(kept, targets, targets_bytes(aim));
     reading_batches_pack(batches, displays, &to);
     keep(tools->journal, key, kept, bytes);
 }
 
-Reading reading_field(const ProbeAim *aim, const FieldAsk *asked, const ReadingTools *tools,
+Reading reading_field(const ProbeAim *aim, const FieldArgs *asked, const ReadingTools *tools,
                       TargetLight *targets, Arena scratch)
 {
-    FieldAsk ask = *asked;
+    FieldArgs args = *asked;
     Batch   *batches = ARENA_NEW(&scratch, Batch, BATCHES);
-    ask.is_shared = ask.is_shared && displays_of(aim) <= PROBE_DISPLAYS;
-    if (tools->journal) find_field(aim, &ask, tools, batches, targets, scratch);
-    else trace_field(aim, &ask, tools, batches, targets, scratch);
-    if (ask.scale) reading_batches_scale(batches, ask.scale, displays_of(aim));
-    return reading_of(aim, batches, (int)(ask.paths / BATCHES), ask.known);
+    args.is_shared = args.is_shared && displays_of(aim) <= PROBE_DISPLAYS;
+    if (tools->journal) find_field(aim, &args, tools, batches, targets, scratch);
+    else trace_field(aim, &args, tools, batches, targets, scratch);
+    if (args.scale) reading_batches_scale(batches, args.scale, displays_of(aim));
+    return reading_of(aim, batches, (int)(args.paths / BATCHES), args.known);
 }

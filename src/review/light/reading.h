@@ -111,14 +111,14 @@ bool reading_scaled(const ProbeAim *aim, const ReadingGoal *goal, const double *
                     const ReadingTools *tools, Arena scratch, Reading *out);
 
 /* A reading that also reports which target sends how much: to find what is read then. */
-typedef struct FieldAsk {
+typedef struct FieldArgs {
     long          paths;     /* as many, whatever they find: a multiple of READING_BATCHES */
     double        known;     /* as a goal's */
     bool          is_shared; /* displays may be scaled, as in reading_scaled */
     const double *scale;     /* [display]; NULL: by the light that is there */
-} FieldAsk;
+} FieldArgs;
 
 /* targets: [aim->target_count] 0 before; what is known and scaled is not in them. Of a scene
  * with more than PROBE_DISPLAYS displays nothing may be scaled. */
-Reading reading_field(const ProbeAim *aim, const FieldAsk *ask, const ReadingTools *tools,
+Reading reading_field(const ProbeAim *aim, const FieldArgs *args, const ReadingTools *tools,
                       TargetLight *targets, Arena scratch);

@@ -52,7 +52,7 @@ static void set_every(const bool *is_open, ProbeCells *cells, float *every)
 /* A chunk's cells: some of the open ones for all of them, a few of the others for many. Cells
  * that follow each other are neighbours and are sampled by different chunks; later by others
  * again, since chunks come back to the same points of a symbol. asked: room for all. */
-static ProbeCells ask_for(const ProbeCells *cells, int chunk, int *asked)
+static ProbeCells cells_of_chunk(const ProbeCells *cells, int chunk, int *asked)
 {
     ProbeCells asks = *cells;
     asks.asked_count = 0;
@@ -150,10 +150,10 @@ static void trace_chunk(void *user, int item, int worker)
     aim.seed = hash_combine(hash_u32(aim.seed), (uint32_t)group);
     aim.is_spread = true;
     memset(trace->tables[item], 0, size * sizeof(float));
-    ProbeCells     asks = ask_for(trace->cells, chunk - PILOT, trace->asked[item]);
+    ProbeCells     asks = cells_of_chunk(trace->cells, chunk - PILOT, trace->asked[item]);
     ProbeAnswers   answers = {trace->tables[item], trace->towards[item]};
-    trace->options->kernel->ask_cells(&aim, &asks, first, first + RESPONSE_CHUNK, &answers,
-                                      &statistics);
+    trace->options->kernel->sample_cells(&aim, &asks, first, first + RESPONSE_CHUNK, &answers,
+                                         &statistics);
     double sent = 0;
     for (size_t i = 0; i < size; i++) sent += (double)trace->tables[item][i];
     trace->sent[item] = sent;

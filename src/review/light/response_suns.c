@@ -48,9 +48,9 @@ static void trace_suns(void *user, int item, int worker)
                                        : *trace->aim;
     memset(table, 0, count * RESPONSE_BANDS * sizeof(float));
     ProbeAnswers answers = {table, trace->towards + (size_t)item * count};
-    trace->options->kernel->ask_suns(&aim, trace->suns, first,
-                                     end < trace->paths ? end : trace->paths, &answers,
-                                     &statistics);
+    trace->options->kernel->sample_suns(&aim, trace->suns, first,
+                                        end < trace->paths ? end : trace->paths, &answers,
+                                        &statistics);
 }
 
 #define MIRROR_HITS 1024.0 /* paths that meet the sun's image, evenly: 0.6 % */
@@ -215,8 +215,8 @@ static void take_worst(const LightParts *parts, const double *by_target,
 }
 
 /* shares: [sun][band], set. */
-static void ask_block(const LightParts *parts, const ResponseOptions *options,
-                      const ProbeSuns *suns, float *shares, Arena scratch)
+static void sample_block(const LightParts *parts, const ResponseOptions *options,
+                         const ProbeSuns *suns, float *shares, Arena scratch)
 {
     size_t  targets = (size_t)parts->aim.target_count;
     double *by_target = ARENA_NEW(&scratch, double, (size_t)suns->count * targets);
@@ -231,20 +231,20 @@ static void ask_block(const LightParts *parts, const ResponseOptions *options,
                        shares + (size_t)i * RESPONSE_BANDS, scratch);
 }
 
-static void ask_blocks(const LightParts *parts, const ResponseOptions *options,
-                       const ProbeSuns *suns, float *shares, Arena scratch)
+static void sample_blocks(const LightParts *parts, const ResponseOptions *options,
+                          const ProbeSuns *suns, float *shares, Arena scratch)
 {
     for (int first = 0; first < suns->count; first += BLOCK) {
         ProbeSuns block = *suns;
         block.towards += first;
         block.count = suns->count - first < BLOCK ? suns->count - first : BLOCK;
-        ask_block(parts, options, &block, shares + (size_t)first * RESPONSE_BANDS, scratch);
+        sample_block(parts, options, &block, shares + (size_t)first * RESPONSE_BANDS, scratch);
     }
 }
 
 /* Few suns of many have their image in what is looked at: those alone are sampled by target. */
-static void ask_mirrored(const LightParts *parts, const ResponseOptions *options,
-                         const ProbeSuns *suns, float *shares, Arena scratch)
+static void sample_mirrored(const LightParts *parts, const ResponseOptions *options,
+                            const ProbeSuns *suns, float *shares, Arena scratch)
 {
     const float *all = response_suns(&parts->aim, options, suns, &scratch);
     int         *list = ARENA_NEW(&scratch, int, suns->count);
@@ -258,7 +258,7 @@ static void ask_mirrored(const LightParts *parts, const ResponseOptions *options
         list[some.count++] = i;
     }
     float *of_some = ARENA_NEW(&scratch, float, (size_t)some.count * RESPONSE_BANDS);
-    ask_blocks(parts, options, &some, of_some, scratch);
+    sample_blocks(parts, options, &some, of_some, scratch);
     for (int i = 0; i < some.count; i++)
         memcpy(shares + (size_t)list[i] * RESPONSE_BANDS, of_some + (size_t)i * RESPONSE_BANDS,
                RESPONSE_BANDS * sizeof *shares);
@@ -270,7 +270,7 @@ const float *sun_parts_worst(const ProbeAim *aim, const LightParts *parts,
 {
     if (!parts) return response_suns(aim, options, suns, arena);
     float *shares = ARENA_NEW(arena, float, (size_t)suns->count * RESPONSE_BANDS);
-    (suns->by_mirror ? ask_mirrored : ask_blocks)(parts, options, suns, shares, *arena);
+    (suns->by_mirror ? sample_mirrored : sample_blocks)(parts, options, suns, shares, *arena);
     return shares;
 }
 

@@ -332,8 +332,8 @@ void setup_unlight(const Setup *setup)
     if (setup->other) swap_levels(setup);
 }
 
-Reading setup_ask(const Setup *setup, const ProbeAim *aim, const ReadingGoal *asked,
-                  Arena scratch)
+Reading setup_read(const Setup *setup, const ProbeAim *aim, const ReadingGoal *asked,
+                   Arena scratch)
 {
     const SetupOther *other = setup->other;
     ReadingGoal       goal = *asked;
@@ -358,16 +358,16 @@ Reading setup_field(const Setup *setup, const ProbeAim *aim, long paths, double 
 {
     const SetupOther *other = setup->other;
     bool     is_few = setup->scene->display_count <= PROBE_DISPLAYS;
-    FieldAsk ask = {paths, known, setup->is_shared || other, other ? other->scale : NULL};
+    FieldArgs args = {paths, known, setup->is_shared || other, other ? other->scale : NULL};
     if (!other || (other->scale && is_few))
-        return reading_field(aim, &ask, &setup->tools, targets, scratch);
+        return reading_field(aim, &args, &setup->tools, targets, scratch);
     ProbeAim own = *aim;
     Setup    lit = setup_lit(setup);
     lit.context.without_mirrored_sun = aim->context->without_mirrored_sun;
     lit.context.eye = aim->context->eye;
     own.context = &lit.context;
-    ask.scale = NULL;
-    Reading reading = reading_field(&own, &ask, &setup->tools, targets, scratch);
+    args.scale = NULL;
+    Reading reading = reading_field(&own, &args, &setup->tools, targets, scratch);
     setup_unlight(setup);
     return reading;
 }

@@ -113,13 +113,13 @@ SunAngles setup_angles(const Setup *setup, Vec3 towards);
 Vec3 setup_direction(const Setup *setup, SunAngles angles);
 
 /* The setup under another request's levels, which must be all in which that differs from its
- * own. Readings are taken there by setup_ask; the room must outlive it. */
+ * own. Readings are taken there by setup_read; the room must outlive it. */
 Setup setup_beside(const Setup *of, const ReviewRequest *request, Arena *arena, Arena room,
                    SetupOther *other);
 
 /* reading_take of an aim that this setup's context has. */
-Reading setup_ask(const Setup *setup, const ProbeAim *aim, const ReadingGoal *goal,
-                  Arena scratch);
+Reading setup_read(const Setup *setup, const ProbeAim *aim, const ReadingGoal *goal,
+                   Arena scratch);
 
 /* reading_field of such an aim, by so many paths; targets are those of the setup that it
  * stands beside, whose levels do not move the worst part. */

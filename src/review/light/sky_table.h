@@ -51,7 +51,7 @@ typedef struct SkyTable {
 } SkyTable;
 
 /* Elevations that reach from `low` to `high`; `like` gives air and ground. Its skies are made
- * when probes need them (distant_probes_ask_skies), one by one: each takes megabytes. */
+ * when probes need them (distant_probes_sample_skies), one by one: each takes megabytes. */
 SkyTable sky_table_start(const DaylightInput *like, double low_deg, double high_deg,
                          Arena *arena);
 

@@ -59,7 +59,7 @@ static double face_lux(const CaseTools *tools, const SetupSymbol *symbol, Arena 
     ProbeAim    aim = {.context = &setup->context, .meter = &head,
                        .seed = review_seed(setup->request, FACE_SEED)};
     ReadingGoal goal = {.precision = FACE_PRECISION, .most = FACE_PATHS};
-    return setup_ask(setup, &aim, &goal, scratch).reflected;
+    return setup_read(setup, &aim, &goal, scratch).reflected;
 }
 
 /* The display's luminance to the eye by direct sun alone, cd m^-2. */
@@ -115,23 +115,23 @@ typedef struct CaseLook {
 /* ---- until its verdict is clear ---------------------------------------------------------- */
 
 /* A case of which all but the reflected light is known. */
-typedef struct VerdictAsk {
+typedef struct VerdictArgs {
     const CaseTools  *tools;
     const ReviewCase *of;
     DirectSun         direct; /* of the reflected light */
-} VerdictAsk;
+} VerdictArgs;
 
 /* With so much reflected; false: sun or day, which of them is open. */
-static bool judge_with(const VerdictAsk *ask, double reflected, MeanInterval within,
+static bool judge_with(const VerdictArgs *args, double reflected, MeanInterval within,
                        ReviewCase *out, Arena *arena)
 {
-    bool in_sun = is_in_sun(ask->direct, within.low);
-    *out = *ask->of;
-    if (in_sun != is_in_sun(ask->direct, within.high)) return false;
+    bool in_sun = is_in_sun(args->direct, within.low);
+    *out = *args->of;
+    if (in_sun != is_in_sun(args->direct, within.high)) return false;
     out->luminance_cd_m2.reflected = reflected;
     set_contrasts(out, within);
-    judge_ambient(out, ask->tools->profile, in_sun);
-    judge_case(out, ask->tools->profile, arena);
+    judge_ambient(out, args->tools->profile, in_sun);
+    judge_case(out, args->tools->profile, arena);
     return true;
 }
 
@@ -156,28 +156,28 @@ static double known_share(DirectSun direct, MeanInterval reflected)
 /* Would more paths call it? A case that fails by one limit is called, whatever the others. */
 static bool is_worth_paths(void *user, const Reading *reading, Arena scratch)
 {
-    const VerdictAsk *ask = user;
+    const VerdictArgs *args = user;
     ReviewCase        c;
-    if (!judge_with(ask, reading->reflected, reading->interval, &c, &scratch)) return true;
+    if (!judge_with(args, reading->reflected, reading->interval, &c, &scratch)) return true;
     c.paths = reading->paths;
-    judge_paths(&c, known_share(ask->direct, reading->interval));
+    judge_paths(&c, known_share(args->direct, reading->interval));
     return isfinite(c.paths_to_decide);
 }
 
 /* All that decides whether it is, besides the light: whose case it is, and the limits. */
-static const char *name_of(const VerdictAsk *ask, Arena *arena)
+static const char *name_of(const VerdictArgs *args, Arena *arena)
 {
-    const Profile *profile = ask->tools->profile;
+    const Profile *profile = args->tools->profile;
     Text           text = {.arena = arena};
-    text_format(&text, "verdict\n%s\n%s\n%s\n", ask->of->condition, ask->of->eye,
-                ask->of->symbol);
+    text_format(&text, "verdict\n%s\n%s\n%s\n", args->of->condition, args->of->eye,
+                args->of->symbol);
     text_format(&text, "%d %.17g %.17g\n", profile->uses_veil, profile->night_below_lx,
                 profile->twilight_below_lx);
-    for (int i = 0; i < ask->of->visibility_count; i++) {
-        const CaseVisibility *v = &ask->of->visibilities[i];
+    for (int i = 0; i < args->of->visibility_count; i++) {
+        const CaseVisibility *v = &args->of->visibilities[i];
         text_format(&text, "%.17g %.17g\n", v->age_years, v->glance_s);
     }
-    if (ask->of->must_not_be_read)
+    if (args->of->must_not_be_read)
         text_format(&text, "security %d %.17g\n", profile->is_security_own,
                     profile->security.value);
     for (int i = 0; i < profile->limit_count; i++) {
@@ -195,32 +195,32 @@ static const char *name_of(const VerdictAsk *ask, Arena *arena)
 }
 
 /* For a variant: paths of its review's same case, a sweep's worst or a moment's; else 0. */
-static long base_paths(const VerdictAsk *ask)
+static long base_paths(const VerdictArgs *args)
 {
-    const Review     *review = ask->tools->base;
-    const ReviewCase *base = review ? review_case_like(review, ask->of) : NULL;
+    const Review     *review = args->tools->base;
+    const ReviewCase *base = review ? review_case_like(review, args->of) : NULL;
     return base ? base->paths : 0;
 }
 
 /* The sun's image in a display is so small that few paths meet it: it is known by itself, but
  * not as a polariser sees it. */
-static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictAsk *ask,
+static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictArgs *args,
                            Arena scratch)
 {
     PathContext without = *aim->context;
     ProbeAim    rest = *aim;
-    const Setup          *setup = ask->tools->setup;
+    const Setup          *setup = args->tools->setup;
     const ReviewRequest  *request = setup->request;
-    const CaseLuminances *shown = &ask->of->luminance_cd_m2;
-    ReadingQuestion question = {is_verdict_clear, ask, request->precision_clear,
-                                name_of(ask, &scratch)};
+    const CaseLuminances *shown = &args->of->luminance_cd_m2;
+    ReadingQuestion question = {is_verdict_clear, args, request->precision_clear,
+                                name_of(args, &scratch)};
     ReadingGoal     goal = {.brighter = fmax(shown->foreground, shown->background),
                             .darker = fmin(shown->foreground, shown->background),
                             .precision = request->precision_contrast,
                             .most = request->precision_paths,
-                            .known = aim->context->eye ? 0 : ask->direct.mirror,
+                            .known = aim->context->eye ? 0 : args->direct.mirror,
                             .times = request->is_compared ? COMPARED_TIMES : 1,
-                            .least = request->is_compared ? base_paths(ask) : 0,
+                            .least = request->is_compared ? base_paths(args) : 0,
                             .question = &question};
     without.without_mirrored_sun = goal.known > 0;
     rest.context = &without;
@@ -231,7 +231,7 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictAsk
         goal.least = 0;
         goal.question = NULL;
     }
-    ReadOn from = {setup_ask(setup, &rest, &goal, scratch),
+    ReadOn from = {setup_read(setup, &rest, &goal, scratch),
                    request->decide_times * request->precision_paths, is_worth_paths};
     return goal.question ? setup_read_on(setup, &rest, &goal, &from, scratch) : from.reading;
 }
@@ -321,18 +321,18 @@ static void set_mean(const Profile *profile, ReviewCase *c)
 /* Of the worst part, or of all of the symbol where that is the worse (symbols.h). Sets the
  * case's part and what is direct in its light. */
 static Reading read_part(const CaseLook *look, WorstPart *part, ReviewCase *c,
-                         VerdictAsk *ask, Arena *arena)
+                         VerdictArgs *args, Arena *arena)
 {
-    const Setup *setup = ask->tools->setup;
-    ask->direct = direct_sun(setup, &part->aim, *arena);
-    Reading reading = read_symbol(look, &part->aim, ask, *arena);
+    const Setup *setup = args->tools->setup;
+    args->direct = direct_sun(setup, &part->aim, *arena);
+    Reading reading = read_symbol(look, &part->aim, args, *arena);
     if (worst_part_is_better(&part->whole, reading.interval, c->must_not_be_read)) {
         worst_part_take_all(look->symbol, part, arena);
-        ask->direct = direct_sun(setup, &part->aim, *arena);
-        reading = read_symbol(look, &part->aim, ask, *arena);
+        args->direct = direct_sun(setup, &part->aim, *arena);
+        reading = read_symbol(look, &part->aim, args, *arena);
     }
     c->whole = part->whole;
-    set_mean(ask->tools->profile, c);
+    set_mean(args->tools->profile, c);
     return reading;
 }
 
@@ -370,19 +370,19 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
                     .seed = review_seed(setup->request,
                                         look->is_coarse ? COARSE_SEED : EYE_SEED)};
     symbol_put_on_glasses(setup, symbol, &aim, c, arena);
-    PartAsk   in = {symbol, &aim, look->is_coarse, c->must_not_be_read};
+    PartArgs   in = {symbol, &aim, look->is_coarse, c->must_not_be_read};
     WorstPart part = worst_part_find(setup, &in, arena);
     bool wants_veil = !look->is_bare || tools->profile->uses_veil ||
                       profile_has(tools->profile, LIMIT_VISIBILITY_LEVEL);
     if (!look->is_coarse && wants_veil) see_stray_light(setup, symbol, look->eye, c, arena);
-    VerdictAsk ask = {.tools = tools, .of = c};
-    Reading    reading = read_part(look, &part, c, &ask, arena);
-    *direct = ask.direct;
+    VerdictArgs args = {.tools = tools, .of = c};
+    Reading    reading = read_part(look, &part, c, &args, arena);
+    *direct = args.direct;
     keep_reading(&reading, look, c, arena);
     if (!look->is_bare && !look->is_coarse)
         case_halo(&(HaloLook){symbol, look->eye, setup->request->observer, seen.transmittance},
                   c, *arena);
-    c->precision_asked = is_verdict_clear(&ask, reading.interval, *arena)
+    c->precision_asked = is_verdict_clear(&args, reading.interval, *arena)
                              ? setup->request->precision_clear
                              : setup->request->precision_contrast;
     return part.aim;
@@ -421,12 +421,12 @@ static ReviewCase start_case(const CaseTools *tools, const ReviewEye *eye,
 }
 
 /* The question of one symbol and one eye. */
-typedef struct CaseAsk {
+typedef struct CaseArgs {
     const ReviewEye   *eye;
     const SetupSymbol *symbol;
     double             face_lux;
     bool               is_bare; /* its light and verdict alone */
-} CaseAsk;
+} CaseArgs;
 
 /* By what is known of its reading: how much more of it decides. */
 static void set_to_decide(const ReviewRequest *request, DirectSun direct, ReviewCase *c)
@@ -445,12 +445,12 @@ static double data_share_of(const CaseTools *tools, const CaseLook *look, const 
 {
     const Setup      *setup = tools->setup;
     const ReviewCase *like = tools->base ? review_case_like(tools->base, c) : NULL;
-    CauseAsk          ask = {.tools = &setup->tools, .aim = aim, .paths = CAUSE_PATHS};
+    CauseArgs          args = {.tools = &setup->tools, .aim = aim, .paths = CAUSE_PATHS};
     int               count;
     if (!like || look->is_coarse || setup->other || !aim->target_count)
         return like ? like->without_data_share : 0;
     scene_without_data(setup->scene, &count, &scratch);
-    return count ? case_data_share(&ask, scratch) : 0;
+    return count ? case_data_share(&args, scratch) : 0;
 }
 
 static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
@@ -518,37 +518,37 @@ static Vec3 worst_place(const CaseTools *tools, const CaseLook *look, EyePlaces 
     return of.points[worst_point(tools, look, &of, c, *arena)];
 }
 
-static RemedyAsk remedies_of(const CaseTools *tools, const SetupSymbol *symbol,
-                             const ProbeAim *aim)
+static RemedyArgs remedies_of(const CaseTools *tools, const SetupSymbol *symbol,
+                              const ProbeAim *aim)
 {
     const Setup *setup = tools->setup;
     int          id = setup->condition ? setup->condition->with_id : NO_ID;
     SymbolLook   look = {&symbol->surface, &symbol->split, aim->eye, setup->tools.threads};
-    return (RemedyAsk){&setup->tools, aim, look, symbol_middle(symbol), &symbol->display,
+    return (RemedyArgs){&setup->tools, aim, look, symbol_middle(symbol), &symbol->display,
                        setup->request->forward, tools->profile,
                        id == NO_ID ? NULL : &setup->request->withs[id]};
 }
 
-static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, ReviewCase *out,
+static bool case_of(const CaseTools *tools, const CaseArgs *args, Arena *arena, ReviewCase *out,
                     Error *err)
 {
     int        count;
-    Vec3      *points = setup_eye_points(tools->setup, ask->eye, &count, arena, err);
-    ReviewCase c = start_case(tools, ask->eye, ask->symbol);
-    CaseLook   look = {.symbol = ask->symbol, .is_bare = ask->is_bare};
+    Vec3      *points = setup_eye_points(tools->setup, args->eye, &count, arena, err);
+    ReviewCase c = start_case(tools, args->eye, args->symbol);
+    CaseLook   look = {.symbol = args->symbol, .is_bare = args->is_bare};
     if (!points || !review_goes_on(tools->setup->tools.journal, err)) return false;
-    c.display_lux = ask->face_lux;
+    c.display_lux = args->face_lux;
     c.eye_failed_share = (double)NAN;
     look.eye = worst_place(tools, &look, (EyePlaces){points, count, NULL}, &c, arena);
     ProbeAim aim = judge_look(tools, &look, &c, arena);
     world_from_scene(tools->setup->scene->origin, look.eye, c.eye_m);
-    c.panel = symbol_panel(ask->symbol, arena);
-    if (aim.target_count && !ask->is_bare) {
+    c.panel = symbol_panel(args->symbol, arena);
+    if (aim.target_count && !args->is_bare) {
         long     paths = tools->cause_paths ? tools->cause_paths : CAUSE_PATHS;
         int      rays = tools->cause_rays ? tools->cause_rays : CAUSE_RAYS;
-        RemedyAsk   remedies = remedies_of(tools, ask->symbol, &aim);
+        RemedyArgs   remedies = remedies_of(tools, args->symbol, &aim);
         ChainPlaces places = remedy_places(&remedies, arena);
-        CauseAsk causes = {&tools->setup->tools, &aim, paths, rays, &places, false, false};
+        CauseArgs causes = {&tools->setup->tools, &aim, paths, rays, &places, false, false};
         CauseFacts facts = case_causes(&causes, &c, arena);
         c.own_reflected = facts.own_cd_m2;
         judge_case(&c, tools->profile, arena); /* now that its share without data is known */
@@ -563,15 +563,15 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
 bool setup_case(const CaseTools *tools, const SetupSymbol *symbol, const ReviewEye *eye,
                 Arena *arena, ReviewCase *out, Error *err)
 {
-    CaseAsk ask = {eye, symbol, face_lux(tools, symbol, *arena), tools->base != NULL};
-    return case_of(tools, &ask, arena, out, err);
+    CaseArgs args = {eye, symbol, face_lux(tools, symbol, *arena), tools->base != NULL};
+    return case_of(tools, &args, arena, out, err);
 }
 
 bool setup_verdict(const CaseTools *tools, const SetupSymbol *symbol, const ReviewEye *eye,
                    Arena *arena, ReviewCase *out, Error *err)
 {
-    CaseAsk ask = {eye, symbol, out->display_lux, true};
-    return case_of(tools, &ask, arena, out, err);
+    CaseArgs args = {eye, symbol, out->display_lux, true};
+    return case_of(tools, &args, arena, out, err);
 }
 
 bool setup_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *err)
@@ -585,11 +585,11 @@ bool setup_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *e
         if (!moment_share_has(&tools->share, i, count)) continue;
         if (!is_known[s]) faces[s] = face_lux(tools, &tools->symbols[s], *arena);
         is_known[s] = true;
-        CaseAsk ask = {&request->eyes[i / symbols], &tools->symbols[s], faces[s],
+        CaseArgs args = {&request->eyes[i / symbols], &tools->symbols[s], faces[s],
                        tools->base != NULL};
-        if (!case_of(tools, &ask, arena, &out[i], err)) return false;
-        if (tools->work) work_add(tools->work, ask.is_bare ? WORK_BARE_CASE : WORK_CASE,
-                                  work_of_case(request, ask.eye, ask.is_bare));
+        if (!case_of(tools, &args, arena, &out[i], err)) return false;
+        if (tools->work) work_add(tools->work, args.is_bare ? WORK_BARE_CASE : WORK_CASE,
+                                  work_of_case(request, args.eye, args.is_bare));
     }
     return true;
 }

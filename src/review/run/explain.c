@@ -93,10 +93,10 @@ static bool find_symbol(const SetupSymbol *symbols, int count, const char *wante
 Outlook setup_outlook(const Setup *setup, const SetupSymbol *symbol, Vec3 eye, Arena *arena)
 {
     SymbolPoint middle = symbol_middle(symbol);
-    OutlookAsk  ask = {&setup->context, &setup->tools,
+    OutlookArgs  args = {&setup->context, &setup->tools,
                        symbol_point_start(setup->scene, &middle), middle.ng,
                        outlook_up(middle.ng), eye};
-    return outlook_take(&ask, arena);
+    return outlook_take(&args, arena);
 }
 
 static bool explain_symbol(const CaseTools *tools, const SetupSymbol *symbol,
@@ -258,10 +258,10 @@ static void set_outlook(const ExplainPlace *place, const ProbeAim *aim, bool is_
     TrianglePoint point = triangle_point(scene, hit.triangle, hit.u, hit.v);
     Vec3       to_eye = vec3_sub(place->aim.eye, point.position);
     Vec3       ng = vec3_dot(to_eye, point.ng) < 0 ? vec3_neg(point.ng) : point.ng;
-    OutlookAsk ask = {place->aim.context, place->tools, ray_start(&point, ng), ng,
+    OutlookArgs args = {place->aim.context, place->tools, ray_start(&point, ng), ng,
                       outlook_up(ng), place->aim.eye};
     out->has_outlook = true;
-    out->outlook = outlook_take(&ask, arena);
+    out->outlook = outlook_take(&args, arena);
 }
 
 /* ---- all of it --------------------------------------------------------------------------- */
@@ -281,8 +281,8 @@ void explain_place(const ExplainPlace *place, Arena *arena, Explained *out)
     memcpy(c->origin_m, scene->origin, sizeof c->origin_m);
     world_from_scene(scene->origin, place->aim.eye, c->eye_m);
     if (is_display) set_sent(place, &aim, out);
-    CauseAsk   ask = {place->tools, &aim, place->paths, CHAIN_RAYS, NULL, !is_display, true};
-    CauseFacts facts = case_causes(&ask, c, arena);
+    CauseArgs   args = {place->tools, &aim, place->paths, CHAIN_RAYS, NULL, !is_display, true};
+    CauseFacts facts = case_causes(&args, c, arena);
     out->all = facts.all;
     c->reflected_range = (MeanInterval){facts.all.low, facts.all.high};
     if (is_display) judge_contrasts(c, c->reflected_range);

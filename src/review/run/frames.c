@@ -31,58 +31,58 @@
 #define FILES_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
 
 /* From where the frame is seen. */
-static bool frame_camera(const FrameAsk *ask, SceneCamera *out, Arena scratch, Error *err)
+static bool frame_camera(const FrameArgs *args, SceneCamera *out, Arena scratch, Error *err)
 {
-    const Scene *scene = ask->setup->scene;
+    const Scene *scene = args->setup->scene;
     int          id;
     Vec3         from;
-    if (!setup_eye_middle(ask->setup, ask->eye, scratch, &from, err)) return false;
-    if (ask->eye->kind == EYE_CAMERA) {
-        if (!review_camera_find(scene, ask->eye, scratch, &id, err)) return false;
+    if (!setup_eye_middle(args->setup, args->eye, scratch, &from, err)) return false;
+    if (args->eye->kind == EYE_CAMERA) {
+        if (!review_camera_find(scene, args->eye, scratch, &id, err)) return false;
         *out = scene->cameras[id];
         out->world_from_camera.origin = from;
         return true;
     }
-    *out = camera_look_at(from, ask->look_at,
+    *out = camera_look_at(from, args->look_at,
                           (float)radians_from_degrees(YFOV_DEG));
     return true;
 }
 
-static WorkKind kind_of(const FrameAsk *ask)
+static WorkKind kind_of(const FrameArgs *args)
 {
-    return ask->exposure ? WORK_PAIR : WORK_FRAME;
+    return args->exposure ? WORK_PAIR : WORK_FRAME;
 }
 
-static RenderOptions options_of(const FrameAsk *ask)
+static RenderOptions options_of(const FrameArgs *args)
 {
-    const ReviewRequest *request = ask->setup->request;
-    int by = ask->exposure ? FRAMES_PAIR : 1;
+    const ReviewRequest *request = args->setup->request;
+    int by = args->exposure ? FRAMES_PAIR : 1;
     int width = request->frames.width / by, height = request->frames.height / by;
     FilmRect all = {0, 0, width > 1 ? width : 1, height > 1 ? height : 1};
     return (RenderOptions){
         .width = all.x1, .height = all.y1, .crop = all, .end_sample = FRAMES_SAMPLES,
         .noise = request->frames.noise, .max_bounces = SETUP_BOUNCES,
         .noise_area = {all, FILM_ALL_PIXELS},
-        .layers = ask->exposure ? LAYER_VARIANCE
-                                : render_layers(ask->setup->scene, LAYER_VARIANCE | LAYER_ID |
+        .layers = args->exposure ? LAYER_VARIANCE
+                                : render_layers(args->setup->scene, LAYER_VARIANCE | LAYER_ID |
                                                                        LAYER_DISPLAYS),
-        .threads = ask->setup->tools.threads, .stops_at_once = true,
-        .within = &ask->work->progress,
-        .within_weight = work_share(ask->work, kind_of(ask),
-                                    work_of_frame(request, kind_of(ask)))};
+        .threads = args->setup->tools.threads, .stops_at_once = true,
+        .within = &args->work->progress,
+        .within_weight = work_share(args->work, kind_of(args),
+                                    work_of_frame(request, kind_of(args)))};
 }
 
 /* The attributes of a rendered frame, as far as they are known here. */
-static void set_words(FrameImage *frame, const FrameAsk *ask, const SceneCamera *camera,
+static void set_words(FrameImage *frame, const FrameArgs *args, const SceneCamera *camera,
                       const RenderResult *result, Arena *arena)
 {
     frame_set_string(frame, "software", "parhelion " PARHELION_VERSION, arena);
     frame_set_string(frame, "parhelion:unit", "cd/m2", arena);
-    const char *assumed = displays_assumed(ask->setup->scene, arena);
+    const char *assumed = displays_assumed(args->setup->scene, arena);
     if (assumed) frame_set_string(frame, "parhelion:assumed", assumed, arena);
-    frame_set_string(frame, "parhelion:review", ask->setup->request->file, arena);
-    frame_set_string(frame, "parhelion:condition", ask->setup->condition->name, arena);
-    frame_set_string(frame, "parhelion:camera", ask->eye->name, arena);
+    frame_set_string(frame, "parhelion:review", args->setup->request->file, arena);
+    frame_set_string(frame, "parhelion:condition", args->setup->condition->name, arena);
+    frame_set_string(frame, "parhelion:camera", args->eye->name, arena);
     if (camera->is_perspective)
         frame_set_number(frame, "parhelion:yfov_deg",
                          degrees_from_radians((double)camera->yfov), arena);
@@ -130,7 +130,7 @@ static DevelopOptions look_of(FrameView view, const char *exposure, const char *
 /* The frame's file and its views, written beside each other. */
 typedef struct FrameFiles {
     const FrameImage *frame;
-    const char       *exr, *exposure; /* FrameAsk's */
+    const char       *exr, *exposure; /* FrameArgs's */
 } FrameFiles;
 
 static bool write_file(void *context, int item, Error *err)
@@ -147,47 +147,47 @@ static bool write_file(void *context, int item, Error *err)
 }
 
 /* A pair has the picture alone. */
-static int views_of(const FrameAsk *ask)
+static int views_of(const FrameArgs *args)
 {
-    return ask->exposure ? 1 : FRAME_VIEWS;
+    return args->exposure ? 1 : FRAME_VIEWS;
 }
 
-static const char *exr_of(const FrameAsk *ask, Arena *arena)
+static const char *exr_of(const FrameArgs *args, Arena *arena)
 {
-    return arena_format(arena, "%s/frames/%s.exr", ask->folder, ask->name);
+    return arena_format(arena, "%s/frames/%s.exr", args->folder, args->name);
 }
 
-static bool write_frame(const FrameAsk *ask, const SceneCamera *camera,
+static bool write_frame(const FrameArgs *args, const SceneCamera *camera,
                         const RenderResult *result, Arena scratch, Error *err)
 {
-    const char *exr = exr_of(ask, &scratch);
+    const char *exr = exr_of(args, &scratch);
     FrameImage  frame = film_to_frame(result->film, WORDS, &scratch);
-    set_words(&frame, ask, camera, result, &scratch);
-    FrameFiles files = {&frame, exr, ask->exposure};
-    return parallel_try(ask->setup->tools.threads, 1 + views_of(ask), write_file, &files,
+    set_words(&frame, args, camera, result, &scratch);
+    FrameFiles files = {&frame, exr, args->exposure};
+    return parallel_try(args->setup->tools.threads, 1 + views_of(args), write_file, &files,
                         scratch, err);
 }
 
 /* ---- of all that decides it -------------------------------------------------------------- */
 
-static const char *identity_of(const FrameAsk *ask, const SceneCamera *camera,
+static const char *identity_of(const FrameArgs *args, const SceneCamera *camera,
                                const RenderOptions *options, Arena *arena)
 {
-    const Scene *scene = ask->setup->scene;
+    const Scene *scene = args->setup->scene;
     Text text = {.arena = arena};
-    JournalKey base = ask->setup->tools.base; /* pictures of skies, too */
-    text_add(&text, ask->setup->identity);
+    JournalKey base = args->setup->tools.base; /* pictures of skies, too */
+    text_add(&text, args->setup->identity);
     identity_line(&text, "files", "%016llx%016llx", (unsigned long long)base.high,
                   (unsigned long long)base.low);
-    identity_line(&text, "name", "%s", ask->name);
-    identity_line(&text, "condition", "%s", ask->setup->condition->name);
-    identity_line(&text, "review", "%s", ask->setup->request->file);
+    identity_line(&text, "name", "%s", args->name);
+    identity_line(&text, "condition", "%s", args->setup->condition->name);
+    identity_line(&text, "review", "%s", args->setup->request->file);
     identity_line(&text, "size", "%dx%d", options->width, options->height);
     identity_line(&text, "layers", "%u", options->layers);
     identity_line(&text, "samples", "%u", options->end_sample);
-    if (ask->exposure) identity_line(&text, "exposure", "%s", ask->exposure);
+    if (args->exposure) identity_line(&text, "exposure", "%s", args->exposure);
     identity_number(&text, "noise", options->noise);
-    identity_line(&text, "eye", "%s", ask->eye->name);
+    identity_line(&text, "eye", "%s", args->eye->name);
     for (int i = 0; i < scene->display_count; i++)
         identity_float(&text, arena_format(arena, "level %d", i), scene->displays[i].level);
     identity_add_environment(&text, scene);
@@ -197,10 +197,10 @@ static const char *identity_of(const FrameAsk *ask, const SceneCamera *camera,
 
 /* ---- making it --------------------------------------------------------------------------- */
 
-static bool render(const FrameAsk *ask, FrameKept *kept, const SceneCamera *camera,
+static bool render(const FrameArgs *args, FrameKept *kept, const SceneCamera *camera,
                    RenderOptions *options, RenderResult *result, Error *err)
 {
-    const Setup *setup = ask->setup;
+    const Setup *setup = args->setup;
     RenderSetup  render = {.kernel = setup->tools.kernel, .bvh = setup->bvh,
                           .context = setup->context};
     TrainOptions train = {setup->tools.kernel, options->threads, true};
@@ -218,26 +218,26 @@ static bool render(const FrameAsk *ask, FrameKept *kept, const SceneCamera *came
 }
 
 /* *out: the picture's name within the folder. */
-static bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)
+static bool frame_make(const FrameArgs *args, Arena *arena, const char **out, Error *err)
 {
-    RenderOptions options = options_of(ask);
+    RenderOptions options = options_of(args);
     SceneCamera   camera;
     RenderResult  result;
-    const char   *name = arena_format(arena, "frames/%s.png", ask->name);
-    const char   *exr = exr_of(ask, arena);
+    const char   *name = arena_format(arena, "frames/%s.png", args->name);
+    const char   *exr = exr_of(args, arena);
     Arena         scratch = *arena;
-    if (!frame_camera(ask, &camera, scratch, err)) return false;
-    FrameKept kept = {.journal = ask->setup->tools.journal, .unfinished = ask->unfinished,
-                      .identity = identity_of(ask, &camera, &options, &scratch),
+    if (!frame_camera(args, &camera, scratch, err)) return false;
+    FrameKept kept = {.journal = args->setup->tools.journal, .unfinished = args->unfinished,
+                      .identity = identity_of(args, &camera, &options, &scratch),
                       .arena = &scratch};
     kept.files[kept.file_count++] = exr;
-    for (FrameView view = FRAME_PICTURE; (int)view < views_of(ask); view++)
+    for (FrameView view = FRAME_PICTURE; (int)view < views_of(args); view++)
         kept.files[kept.file_count++] = frame_view(exr, view, &scratch);
     if (!frame_kept_is_whole(&kept) &&
-        (!render(ask, &kept, &camera, &options, &result, err) ||
-         !write_frame(ask, &camera, &result, scratch, err) || !frame_kept_end(&kept, err)))
+        (!render(args, &kept, &camera, &options, &result, err) ||
+         !write_frame(args, &camera, &result, scratch, err) || !frame_kept_end(&kept, err)))
         return false;
-    work_add(ask->work, kind_of(ask), work_of_frame(ask->setup->request, kind_of(ask)));
+    work_add(args->work, kind_of(args), work_of_frame(args->setup->request, kind_of(args)));
     *out = name;
     return true;
 }
@@ -331,34 +331,34 @@ static void add_rim(const SetupSymbol *symbol, ReviewCase *c, Arena *arena)
     c->rim = rim;
 }
 
-static bool add_outlook(const FrameAsk *ask, const SetupSymbol *symbol, ReviewCase *c,
+static bool add_outlook(const FrameArgs *args, const SetupSymbol *symbol, ReviewCase *c,
                         Arena *arena, Error *err)
 {
     Arena       scratch = arena_reserve((size_t)1 << 28);
-    Vec3        eye = scene_from_world(ask->setup->scene->origin, c->eye_m);
-    Outlook     outlook = setup_outlook(ask->setup, symbol, eye, &scratch);
+    Vec3        eye = scene_from_world(args->setup->scene->origin, c->eye_m);
+    Outlook     outlook = setup_outlook(args->setup, symbol, eye, &scratch);
     Picture     picture = outlook_picture(&outlook, &scratch);
     PictureFile file = {.bits = 8, .is_srgb = true};
     c->outlook_words = outlook_words(&outlook, arena);
-    c->outlook = arena_format(arena, "frames/%s-outlook.png", ask->name);
+    c->outlook = arena_format(arena, "frames/%s-outlook.png", args->name);
     file.description = c->outlook_words;
-    const char *path = arena_format(arena, "%s/%s", ask->folder, c->outlook);
+    const char *path = arena_format(arena, "%s/%s", args->folder, c->outlook);
     bool        ok = picture_write(path, &picture, file, scratch, err);
     arena_release(&scratch);
     return ok;
 }
 
 /* Where its causes' rays lie in the frame, and what the display sees from the symbol. */
-static bool add_sights(const FrameAsk *ask, ReviewCase *c, Arena *arena, Error *err)
+static bool add_sights(const FrameArgs *args, ReviewCase *c, Arena *arena, Error *err)
 {
     Arena        own = arena_reserve((size_t)1 << 34);
     SceneCamera  camera;
     SetupSymbol *symbols;
     int          count;
-    bool         ok = frame_camera(ask, &camera, own, err) &&
-              setup_symbols(ask->setup, &own, &symbols, &count, err);
+    bool         ok = frame_camera(args, &camera, own, err) &&
+              setup_symbols(args->setup, &own, &symbols, &count, err);
     if (ok) {
-        const ReviewFrames *frames = &ask->setup->request->frames;
+        const ReviewFrames *frames = &args->setup->request->frames;
         Camera    seen = camera_from_scene(&camera, frames->width, frames->height);
         CaseView *view = ARENA_NEW(arena, CaseView, 1);
         *view = view_of(&seen);
@@ -366,7 +366,7 @@ static bool add_sights(const FrameAsk *ask, ReviewCase *c, Arena *arena, Error *
         for (int i = 0; i < count && ok; i++) {
             if (strcmp(symbols[i].name, c->symbol)) continue;
             add_rim(&symbols[i], c, arena);
-            ok = add_outlook(ask, &symbols[i], c, arena, err);
+            ok = add_outlook(args, &symbols[i], c, arena, err);
         }
     }
     arena_release(&own);
@@ -379,28 +379,28 @@ static bool add_sights(const FrameAsk *ask, ReviewCase *c, Arena *arena, Error *
 typedef struct FrameWork {
     const ReviewRun *run; /* of the review, or of a variant of it */
     const Candidate *of;
-    const char      *name, *exposure; /* FrameAsk's */
+    const char      *name, *exposure; /* FrameArgs's */
 } FrameWork;
 
 /* A variant keeps the review's view, wherever its symbol is; a mirrored one mirrors it. */
-static bool aim(const FrameWork *work, const Setup *setup, FrameAsk *ask, Arena scratch,
+static bool aim(const FrameWork *work, const Setup *setup, FrameArgs *args, Arena scratch,
                 Error *err)
 {
     const CaseView *view = work->of->of->view;
     double          ahead[3];
     Vec3            from;
     if (!work->exposure)
-        return find_middle(setup, work->of->of->symbol, scratch, &ask->look_at, err);
-    if (!setup_eye_middle(setup, ask->eye, scratch, &from, err)) return false;
+        return find_middle(setup, work->of->of->symbol, scratch, &args->look_at, err);
+    if (!setup_eye_middle(setup, args->eye, scratch, &from, err)) return false;
     ahead[0] = (double)view->forward.x;
     ahead[1] = (double)view->forward.y;
     ahead[2] = (double)view->forward.z;
-    review_mirror_direction(ask->eye->mirror, ahead);
-    ask->look_at = vec3_add(from, vec3_from_doubles(ahead));
+    review_mirror_direction(args->eye->mirror, ahead);
+    args->look_at = vec3_add(from, vec3_from_doubles(ahead));
     return true;
 }
 
-static bool make_lit(const FrameWork *work, Setup *setup, FrameAsk *ask, Arena *scratch,
+static bool make_lit(const FrameWork *work, Setup *setup, FrameArgs *args, Arena *scratch,
                      const char **made, Error *err)
 {
     const Candidate       *of = work->of;
@@ -409,8 +409,8 @@ static bool make_lit(const FrameWork *work, Setup *setup, FrameAsk *ask, Arena *
     if (of->table) sky = sweep_environment(setup, &of->table->worst_sun);
     else if (c->has_environment) sky = c->environment;
     return setup_light(setup, of->table || c->has_environment ? &sky : NULL, scratch, err) &&
-           aim(work, setup, ask, *scratch, err) &&
-           frame_make(ask, scratch, made, err);
+           aim(work, setup, args, *scratch, err) &&
+           frame_make(args, scratch, made, err);
 }
 
 /* *made: the picture's name, in the arena. of: gets what the frame shows; NULL: not
@@ -427,12 +427,12 @@ static bool make_frame(const FrameWork *work, ReviewCase *of, Arena *arena, cons
     options.means.inherited = NULL;
     bool  ok = setup_open(&options, &scratch, &so_far, &setup, err);
     if (ok) {
-        FrameAsk ask = {&setup, review_eye_named(run->request, work->of->of->eye),
+        FrameArgs args = {&setup, review_eye_named(run->request, work->of->of->eye),
                         vec3(0, 0, 0), run->folder, run->unfinished, work->name,
                         work->exposure, run->work};
-        ok = make_lit(work, &setup, &ask, &scratch, made, err);
+        ok = make_lit(work, &setup, &args, &scratch, made, err);
         if (ok) *made = arena_string(arena, *made, strlen(*made));
-        ok = ok && (!of || add_sights(&ask, of, arena, err));
+        ok = ok && (!of || add_sights(&args, of, arena, err));
         setup_close(&setup);
     }
     arena_release(&scratch);

@@ -29,7 +29,7 @@ typedef enum FrameView {
 /* The picture's name, from that of any other of the frame's files. */
 const char *frame_view(const char *frame, FrameView view, Arena *arena);
 
-typedef struct FrameAsk {
+typedef struct FrameArgs {
     const Setup     *setup;
     const ReviewEye *eye;
     Vec3             look_at; /* m, scene: of an eye that is no camera */
@@ -39,7 +39,7 @@ typedef struct FrameAsk {
     const char      *exposure; /* of a frame to stand beside (frame_exposure): this one is
                                   smaller, and its picture alone is made; NULL: by itself */
     Work            *work;   /* of which the frame is a part */
-} FrameAsk;
+} FrameArgs;
 
 /* Pictures of a review that is made: of its worst cases, and of the very
  * worst with each variant's change.

@@ -130,7 +130,7 @@ static EyeReading read_eye(const Setup *setup, SunSearches *searches, const Gaze
     Vec3      towards;
     float     bands[LIGHT_BANDS];
     if (setup_sun(setup, &towards, bands)) {
-        images = false_suns_of(sun_searches_ask(searches, setup, goal->eye), bands, &scratch);
+        images = false_suns_of(sun_searches_find(searches, setup, goal->eye), bands, &scratch);
         look.images = &images;
     }
     RoadKept kept = {setup, goal->eye, goal->towards, ages, ROUNDS,
@@ -146,34 +146,35 @@ static EyeReading read_eye(const Setup *setup, SunSearches *searches, const Gaze
 }
 
 /* One gaze. */
-typedef struct GazeAsk {
+typedef struct GazeArgs {
     const Setup      *setup;
     SunSearches      *searches;
     const ReviewGaze *gaze;
     const Profile    *profile;
-} GazeAsk;
+} GazeArgs;
 
-static EyeReading read_light(const GazeAsk *ask, const GazeGoal *goal, Arena *arena,
+static EyeReading read_light(const GazeArgs *args, const GazeGoal *goal, Arena *arena,
                              GazeFinding *out)
 {
-    const Setup      *setup = ask->setup;
-    const ReviewRoad *road = ask->gaze->road;
+    const Setup      *setup = args->setup;
+    const ReviewRoad *road = args->gaze->road;
     RoadLeftOut       left_out = road ? road_left_out(setup, road) : ROAD_EVALUATED;
     if (!road || left_out) {
         if (road) out->road = road_stated(road, left_out, arena);
-        return read_eye(setup, ask->searches, goal, NULL, NULL);
+        return read_eye(setup, args->searches, goal, NULL, NULL);
     }
     RoadAges    ages = road_ages(setup->request, road, arena);
     RoadReading reading = road_reading_start(ages.count, setup->scene->display_count, arena);
-    EyeReading  eye = read_eye(setup, ask->searches, goal, &ages, &reading);
-    out->road = road_of(setup, road, &reading, ask->profile, arena);
+    EyeReading  eye = read_eye(setup, args->searches, goal, &ages, &reading);
+    out->road = road_of(setup, road, &reading, args->profile, arena);
     return eye;
 }
 
-static void read_gaze(const GazeAsk *ask, const GazeGoal *goal, Arena *arena, GazeFinding *out)
+static void read_gaze(const GazeArgs *args, const GazeGoal *goal, Arena *arena,
+                      GazeFinding *out)
 {
-    const Setup *setup = ask->setup;
-    EyeReading   eye = read_light(ask, goal, arena, out);
+    const Setup *setup = args->setup;
+    EyeReading   eye = read_light(args, goal, arena, out);
     GazeReading along = gaze_read(setup, goal, *arena);
     out->sun_deg = sun_from_gaze(setup, goal->towards);
     out->veil = eye.veil;
@@ -207,7 +208,7 @@ int roads_of_sweep(const ReviewRequest *request, const ReviewCondition *conditio
     return count;
 }
 
-bool setup_gazes(const GazesAsk *gazes, Arena *arena, GazeFinding *out, Error *err)
+bool setup_gazes(const GazesArgs *gazes, Arena *arena, GazeFinding *out, Error *err)
 {
     const Setup         *setup = gazes->setup;
     const ReviewRequest *request = setup->request;
@@ -226,8 +227,8 @@ bool setup_gazes(const GazesAsk *gazes, Arena *arena, GazeFinding *out, Error *e
                                     PATHS_MOST);
             out[at] = (GazeFinding){.condition = setup->condition->name, .eye = eye->name,
                                  .gaze = gaze->name};
-            GazeAsk ask = {setup, gazes->searches, gaze, gazes->profile};
-            read_gaze(&ask, &goal, arena, &out[at]);
+            GazeArgs args = {setup, gazes->searches, gaze, gazes->profile};
+            read_gaze(&args, &goal, arena, &out[at]);
             if (gaze->road)
                 road_dim(gaze->road, gazes->profile, gazes->cases, gazes->case_count, &out[at],
                          arena);

@@ -13,7 +13,7 @@
 #include "review/run/job.h"
 #include "review/verdict.h"
 
-typedef struct GazesAsk {
+typedef struct GazesArgs {
     const Setup       *setup;
     const MomentShare *share;
     SunSearches       *searches;
@@ -21,12 +21,12 @@ typedef struct GazesAsk {
     const ReviewCase  *cases;   /* of this moment, which are made before */
     int                case_count;
     bool               roads_only; /* of others nothing is set, and they are left out */
-} GazesAsk;
+} GazesArgs;
 
 /* Fills review_look_count(request) findings, eyes fastest, but for those that are others'; with
  * roads_only those of roads that the condition has, one behind the other.
  * Fails where an eye's camera is missing. */
-bool setup_gazes(const GazesAsk *gazes, Arena *arena, GazeFinding *out, Error *err);
+bool setup_gazes(const GazesArgs *gazes, Arena *arena, GazeFinding *out, Error *err);
 
 /* How many roads the request has evaluated in that sweep or route: gazes times eyes. */
 int roads_of_sweep(const ReviewRequest *request, const ReviewCondition *condition);

@@ -128,7 +128,7 @@ static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena
     if (!ride_moments(run, &tools, review, arena, err)) return false;
     if (run->base) return true;
     GazeFinding *gazes = review->gazes + review->gaze_count;
-    GazesAsk looks = {setup, &tools.share, run->sun_searches, run->profile, cases, count,
+    GazesArgs looks = {setup, &tools.share, run->sun_searches, run->profile, cases, count,
                       false};
     if (!setup_gazes(&looks, arena, gazes, err)) return false;
     work_add(run->work, WORK_LOOK, plan.of[WORK_LOOK]);
@@ -153,7 +153,7 @@ static bool run_after_dark(const ReviewRun *run, const ReviewCondition *conditio
     bool  ok = setup_open(&options, &scratch, run->problems, &setup, err);
     if (ok) {
         Environment dark = setup.scene->environment;
-        GazesAsk    looks = {&setup, &all, run->sun_searches, run->profile, NULL, 0, true};
+        GazesArgs    looks = {&setup, &all, run->sun_searches, run->profile, NULL, 0, true};
         dark.kind = ENVIRONMENT_NONE;
         dark.has_sun = false;
         ok = setup_light(&setup, &dark, &scratch, err) &&
@@ -363,9 +363,9 @@ static bool plan_condition(const ReviewRun *run, const ReviewCondition *conditio
                   ? setup_symbols(&setup, &scratch, &symbols, &count, err)
                   : sweep_place_probes(&sweep, &scratch, err));
         *base = setup.planned;
-        plan->responses += sweep.ask_count;
-        for (int i = 0; i < sweep.ask_count; i++)
-            plan->responses_kept += sweep.asks[i].is_kept;
+        plan->responses += sweep.call_count;
+        for (int i = 0; i < sweep.call_count; i++)
+            plan->responses_kept += sweep.calls[i].is_kept;
         setup_close(&setup);
     }
     arena_release(&scratch);

@@ -119,7 +119,7 @@ static SunFigures judge_others(const SweepReport *to, const Sight *sight, const 
     tools.suns = (DistantSuns){suns->distant, suns->count};
     of_meters = tools;
     of_meters.has_mirror = false;
-    distant_probe_ask_suns(&seen.probe, &tools, scratch);
+    distant_probe_sample_suns(&seen.probe, &tools, scratch);
     face.lux = sweep_meter_read(&face, &of_meters, scratch);
     seen.face = &face;
     if (sweep.sensor) {
@@ -174,7 +174,7 @@ static void set_failures(const SweepReport *to, const Sight *sight, const SunFig
     const ReviewCondition *condition = to->sweep->setup->condition;
     bool       is_steady = condition->kind == CONDITION_YEAR_SWEEP && !to->sweep->has_hours;
     Between    between = {to, sight};
-    FailureAsk ask = {states_between, &between};
+    FailureArgs args = {states_between, &between};
     Arena      scratch = to->scratch;
     if (!to->suns->has_time) {
         out->failed_share = failed_share(to->suns, figures);
@@ -182,7 +182,7 @@ static void set_failures(const SweepReport *to, const Sight *sight, const SunFig
     }
     unsigned char *states = ARENA_NEW(&scratch, unsigned char, to->suns->count);
     sun_figures_states(figures, to->suns->count, states);
-    Failures found = sweep_failures(condition, to->suns, states, is_steady ? &ask : NULL,
+    Failures found = sweep_failures(condition, to->suns, states, is_steady ? &args : NULL,
                                     scratch);
     out->failed_share = found.share;
     out->longest_failure_minutes = found.longest_minutes;
@@ -341,7 +341,7 @@ static bool report_asked(Sweep *sweep, SweepReport *to, int count, const Sight *
 {
     Sight asked = *sight;
     if (sight->twin == NO_ID && sight->probe.aim.target_count) {
-        asked = sweep_ask_sight(sweep, sight, &room);
+        asked = sweep_sample_sight(sweep, sight, &room);
         if (count > 1) asked.read = sweep_read_sight(&asked, to->tools, &room);
     }
     for (int i = 0; i < count; i++) {
@@ -382,14 +382,14 @@ static void keep_tables(const SweepReport *to)
 static void report_responses(const Sweep *sweep, Arena *arena, ReviewOutcome *out)
 {
     Review *review = &out->review;
-    for (int i = 0; i < sweep->ask_count; i++) {
-        const ResponseAsk *ask = &sweep->asks[i];
-        const Response    *response = &ask->probe->response;
+    for (int i = 0; i < sweep->call_count; i++) {
+        const ResponseArgs *args = &sweep->calls[i];
+        const Response    *response = &args->probe->response;
         review->responses[review->response_count++] = (ReviewResponse){
-            arena_string(arena, ask->name, strlen(ask->name)),
-            arena_string(arena, ask->shown, strlen(ask->shown)), response->paths,
-            (long)ask->file.bytes, response->relative_error};
-        out->responses_kept += ask->is_kept;
+            arena_string(arena, args->name, strlen(args->name)),
+            arena_string(arena, args->shown, strlen(args->shown)), response->paths,
+            (long)args->file.bytes, response->relative_error};
+        out->responses_kept += args->is_kept;
     }
 }
 
@@ -436,10 +436,10 @@ static void plan_work(const Sweep *sweep, const SweepGroup *group, Arena scratch
     const ReviewRun *run = sweep->run;
     bool     is_bare = run->base != NULL;
     WorkPlan plan = {{[WORK_OPEN] = work_of(WORK_OPEN)}};
-    for (int i = 0; i < sweep->ask_count; i++)
-        plan.of[responses_kind(&sweep->asks[i])] += responses_work(&sweep->asks[i]);
-    for (int i = 0; i < sweep->ask_count; i++)
-        if (responses_work(&sweep->asks[i]) > 0) plan.of[WORK_OWN] += 2 * work_of(WORK_OWN);
+    for (int i = 0; i < sweep->call_count; i++)
+        plan.of[responses_kind(&sweep->calls[i])] += responses_work(&sweep->calls[i]);
+    for (int i = 0; i < sweep->call_count; i++)
+        if (responses_work(&sweep->calls[i]) > 0) plan.of[WORK_OWN] += 2 * work_of(WORK_OWN);
     if (!is_bare && !run->share.count)
         plan.of[WORK_FALSE_SUNS] = run->request->eye_count * work_of(WORK_FALSE_SUNS);
     for (int i = 0; i < group->count; i++) {
@@ -516,7 +516,7 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
     sweep->suns = sweep_suns(sweep->setup->condition, sweep->run->means.threads, arena);
     set_level(sweep);
     if (!make_skies(sweep, &scratch, err)) return false;
-    if (!sweep_ask_light(sweep, &scratch, err)) return false;
+    if (!sweep_sample_light(sweep, &scratch, err)) return false;
     work_add(sweep->run->work, WORK_SKIES, work_of(WORK_SKIES));
     DistantTools tools = sweep_tools(sweep);
     SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);

@@ -38,44 +38,45 @@ static void add_eye(Text *text, const ProbeAim *aim)
 }
 
 /* Everything that decides the response and what the probe reads of the scene's own light. */
-static const char *identity_of(const Setup *setup, const ResponseAsk *ask, Arena *arena)
+static const char *identity_of(const Setup *setup, const ResponseArgs *args, Arena *arena)
 {
-    const ProbeAim *aim = &ask->probe->aim;
+    const ProbeAim *aim = &args->probe->aim;
     Text text = {.arena = arena};
     text_add(&text, setup->identity);
     if (aim->meter) add_meter(&text, aim->meter);
     else add_eye(&text, aim);
     identity_line(&text, "seed", "%u", aim->seed);
     identity_line(&text, "level of triangles", "%d", RESPONSE_LEVEL);
-    identity_line(&text, "paths", "%d", ask->paths);
-    identity_number(&text, "precision", ask->precision);
+    identity_line(&text, "paths", "%d", args->paths);
+    identity_number(&text, "precision", args->precision);
     return text.data;
 }
 
-static void name_file(const ReviewRun *run, const Setup *setup, ResponseAsk *ask, Arena *arena)
+static void name_file(const ReviewRun *run, const Setup *setup, ResponseArgs *args,
+                      Arena *arena)
 {
-    const char *identity = identity_of(setup, ask, arena);
+    const char *identity = identity_of(setup, args, arena);
     uint64_t    hash = XXH3_64bits(identity, strlen(identity));
     const char *name = arena_format(arena, "%s-%016llx.response",
-                                    words_file_name(ask->name, arena),
+                                    words_file_name(args->name, arena),
                                     (unsigned long long)hash);
-    ask->file = (ResponseFile){.path = arena_format(arena, "%s/%s", run->responses, name),
+    args->file = (ResponseFile){.path = arena_format(arena, "%s/%s", run->responses, name),
                                .identity = identity};
-    ask->shown = arena_format(arena, "%s/%s", run->responses_shown, name);
+    args->shown = arena_format(arena, "%s/%s", run->responses_shown, name);
 }
 
 /* Reads those that are there. Sets file, shown and is_kept of all. */
-static void responses_find(const ReviewRun *run, const Setup *setup, ResponseAsk *asks,
+static void responses_find(const ReviewRun *run, const Setup *setup, ResponseArgs *calls,
                            int count, Arena *arena)
 {
     for (int i = 0; i < count; i++) {
         Error err;
         if (!run->responses) continue;
-        name_file(run, setup, &asks[i], arena);
-        if (!file_exists(asks[i].file.path)) continue;
-        asks[i].is_kept = response_read(&asks[i].file, arena, &asks[i].probe->response,
-                                        asks[i].own, &err);
-        if (asks[i].is_kept) continue;
+        name_file(run, setup, &calls[i], arena);
+        if (!file_exists(calls[i].file.path)) continue;
+        calls[i].is_kept = response_read(&calls[i].file, arena, &calls[i].probe->response,
+                                         calls[i].own, &err);
+        if (calls[i].is_kept) continue;
         problems_add(run->problems, SEVERITY_WARNING, err.file, err.path,
                      "%s — it is traced again", err.text);
     }
@@ -98,17 +99,17 @@ static double own_reading(const Setup *setup, const ProbeAim *aim, Arena scratch
 /* The own light of those that were not there: the scene is dark but for its lamps, or for its
  * lamps and displays at level 1, which is sampled after them. */
 static bool responses_read_own(const ReviewRun *run, const Setup *setup,
-                               const ResponseAsk *asks, int count, bool displays, Error *err)
+                               const ResponseArgs *calls, int count, bool displays, Error *err)
 {
     Arena scratch = arena_reserve(OWN_BYTES);
     bool  ok = true;
     for (int i = 0; i < count && ok; i++) {
-        if (asks[i].is_kept || asks[i].is_left) continue;
+        if (calls[i].is_kept || calls[i].is_left) continue;
         ok = review_goes_on(setup->tools.journal, err);
         if (!ok) break;
-        double own = own_reading(setup, &asks[i].probe->aim, scratch);
-        if (displays) asks[i].own->displays = own - asks[i].own->lamps;
-        else asks[i].own->lamps = own;
+        double own = own_reading(setup, &calls[i].probe->aim, scratch);
+        if (displays) calls[i].own->displays = own - calls[i].own->lamps;
+        else calls[i].own->lamps = own;
         work_add(run->work, WORK_OWN, work_of(WORK_OWN));
     }
     arena_release(&scratch);
@@ -117,32 +118,32 @@ static bool responses_read_own(const ReviewRun *run, const Setup *setup,
 
 /* ---- tracing ----------------------------------------------------------------------------- */
 
-WorkKind responses_kind(const ResponseAsk *ask)
+WorkKind responses_kind(const ResponseArgs *args)
 {
-    return ask->probe->aim.meter ? WORK_METER : WORK_RESPONSE;
+    return args->probe->aim.meter ? WORK_METER : WORK_RESPONSE;
 }
 
-double responses_work(const ResponseAsk *ask)
+double responses_work(const ResponseArgs *args)
 {
-    if (ask->is_kept || ask->is_left) return 0;
-    return ask->probe->aim.meter ? work_of(WORK_METER) : work_of_response(ask->paths);
+    if (args->is_kept || args->is_left) return 0;
+    return args->probe->aim.meter ? work_of(WORK_METER) : work_of_response(args->paths);
 }
 
 /* Traces and keeps the rest. */
-static bool responses_trace(const ReviewRun *run, const Setup *setup, ResponseAsk *asks,
+static bool responses_trace(const ReviewRun *run, const Setup *setup, ResponseArgs *calls,
                             int count, Arena *arena, Error *err)
 {
     DistantTools tools = {.setup = setup};
     for (int i = 0; i < count; i++) {
-        ResponseAsk *ask = &asks[i];
-        if (ask->is_kept || ask->is_left) continue;
+        ResponseArgs *args = &calls[i];
+        if (args->is_kept || args->is_left) continue;
         if (!review_goes_on(setup->tools.journal, err)) return false;
-        tools.paths = ask->paths;
-        tools.precision = ask->precision;
-        distant_probe_respond(ask->probe, &tools, arena);
-        if (!response_write(&ask->file, &ask->probe->response, ask->own, *arena, err))
+        tools.paths = args->paths;
+        tools.precision = args->precision;
+        distant_probe_respond(args->probe, &tools, arena);
+        if (!response_write(&args->file, &args->probe->response, args->own, *arena, err))
             return false;
-        work_add(run->work, responses_kind(ask), responses_work(ask));
+        work_add(run->work, responses_kind(args), responses_work(args));
     }
     return true;
 }
@@ -332,32 +333,32 @@ static double response_precision(const Sweep *sweep)
     return sweep->run->base ? RESPONSE_PRECISION_VARIANT : RESPONSE_PRECISION;
 }
 
-static void ask_meter(Sweep *sweep, SweepMeter *meter, const char *name)
+static void add_meter_call(Sweep *sweep, SweepMeter *meter, const char *name)
 {
     meter->probe.aim = (ProbeAim){.context = &sweep->setup->context, .meter = &meter->head,
                                   .seed = review_seed(sweep->run->request, METER_SEED)};
-    sweep->asks[sweep->ask_count++] =
-        (ResponseAsk){.name = name, .probe = &meter->probe, .own = &meter->own,
+    sweep->calls[sweep->call_count++] =
+        (ResponseArgs){.name = name, .probe = &meter->probe, .own = &meter->own,
                       .paths = METER_PATHS, .precision = response_precision(sweep),
                       .is_left = meter->is_left};
 }
 
-static void list_asks(Sweep *sweep, Arena *arena)
+static void list_calls(Sweep *sweep, Arena *arena)
 {
     const ReviewRequest *request = sweep->run->request;
-    sweep->asks = ARENA_NEW(arena, ResponseAsk,
-                            sweep->symbol_count + request->level_count + sweep->sight_count);
+    sweep->calls = ARENA_NEW(arena, ResponseArgs,
+                             sweep->symbol_count + request->level_count + sweep->sight_count);
     for (int i = 0; i < sweep->symbol_count; i++)
-        ask_meter(sweep, &sweep->faces[i],
-                  arena_format(arena, "face of %s", sweep->symbols[i].name));
+        add_meter_call(sweep, &sweep->faces[i],
+                       arena_format(arena, "face of %s", sweep->symbols[i].name));
     for (int i = 0; i < request->level_count; i++)
         if (request->levels[i].is_curve)
-            ask_meter(sweep, &sweep->sensors[i],
-                      arena_format(arena, "sensor of %s", request->levels[i].name));
+            add_meter_call(sweep, &sweep->sensors[i],
+                           arena_format(arena, "sensor of %s", request->levels[i].name));
     for (int i = 0; i < sweep->sight_count; i++) {
         Sight *sight = &sweep->sights[i];
         if (!sight->probe.aim.target_count || sight->twin != NO_ID) continue;
-        sweep->asks[sweep->ask_count++] = (ResponseAsk){
+        sweep->calls[sweep->call_count++] = (ResponseArgs){
             .name = arena_format(arena, "%s, %s", sight->eye->name, sight->symbol->name),
             .probe = &sight->probe, .own = &sight->own, .paths = RESPONSE_PATHS,
             .precision = response_precision(sweep), .is_left = sight->is_left};
@@ -383,7 +384,7 @@ static void copy_twins(Sweep *sweep)
     }
 }
 
-static bool ask_skies(Sweep *sweep, const DistantTools *tools, Arena *arena, Error *err)
+static bool sample_skies(Sweep *sweep, const DistantTools *tools, Arena *arena, Error *err)
 {
     int        most = sweep->symbol_count + 1 + sweep->sight_count, count = 0;
     DistantProbe **probes = ARENA_NEW(arena, DistantProbe *, most);
@@ -395,7 +396,7 @@ static bool ask_skies(Sweep *sweep, const DistantTools *tools, Arena *arena, Err
         bool is_asked = !sight->is_left && sight->twin == NO_ID;
         if (is_asked && sight->probe.aim.target_count) probes[count++] = &sight->probe;
     }
-    if (!distant_probes_ask_skies(probes, count, tools, arena, err)) return false;
+    if (!distant_probes_sample_skies(probes, count, tools, arena, err)) return false;
     copy_twins(sweep);
     return true;
 }
@@ -431,11 +432,11 @@ static const DistantReading *read_suns(const DistantProbe *probe, const DistantT
 }
 
 /* lux: [sun] */
-static void ask_meter_suns(const SweepMeter *meter, const DistantTools *tools, Arena room,
-                           double *lux)
+static void sample_meter_suns(const SweepMeter *meter, const DistantTools *tools, Arena room,
+                              double *lux)
 {
     DistantProbe probe = meter->probe;
-    distant_probe_ask_suns(&probe, tools, &room);
+    distant_probe_sample_suns(&probe, tools, &room);
     const DistantReading *read = read_suns(&probe, tools, &room);
     for (int i = 0; i < tools->suns.count; i++) lux[i] = distant_reading_sum(read[i]);
 }
@@ -451,7 +452,7 @@ static void keep_missing(const SweepMeter *meter, const DistantTools *tools, Are
             missing[of_missing.suns.count++] = tools->suns.list[i];
     if (!of_missing.suns.count) return;
     double *lux = ARENA_NEW(&room, double, of_missing.suns.count);
-    ask_meter_suns(meter, &of_missing, room, lux);
+    sample_meter_suns(meter, &of_missing, room, lux);
     for (int i = 0; i < of_missing.suns.count; i++)
         if (!sun_readings_find(meter->kept, missing[i]))
             sun_readings_add(meter->kept, missing[i], lux[i]);
@@ -461,7 +462,7 @@ const double *sweep_meter_read(const SweepMeter *meter, const DistantTools *tool
 {
     double *lux = ARENA_NEW(arena, double, tools->suns.count);
     if (!meter->kept) {
-        ask_meter_suns(meter, tools, *arena, lux);
+        sample_meter_suns(meter, tools, *arena, lux);
         return lux;
     }
     keep_missing(meter, tools, *arena);
@@ -480,12 +481,12 @@ static void read_meter(SweepMeter *meter, const DistantTools *tools, Arena *betw
     *meter->kept = sun_readings_start(between);
 }
 
-bool sweep_ask_light(Sweep *sweep, Arena *arena, Error *err)
+bool sweep_sample_light(Sweep *sweep, Arena *arena, Error *err)
 {
     DistantTools tools = sweep_tools(sweep);
     Arena   *between = ARENA_NEW(arena, Arena, 1);
     *between = sweep->between;
-    if (!ask_skies(sweep, &tools, arena, err)) return false;
+    if (!sample_skies(sweep, &tools, arena, err)) return false;
     tools.has_mirror = false;
     tools.sun_paths = METER_SUN_PATHS;
     for (int i = 0; i < sweep->symbol_count; i++)
@@ -495,11 +496,11 @@ bool sweep_ask_light(Sweep *sweep, Arena *arena, Error *err)
     return true;
 }
 
-Sight sweep_ask_sight(Sweep *sweep, const Sight *sight, Arena *arena)
+Sight sweep_sample_sight(Sweep *sweep, const Sight *sight, Arena *arena)
 {
     DistantTools tools = sweep_tools(sweep);
     Sight    asked = *sight;
-    if (asked.probe.aim.target_count) distant_probe_ask_suns(&asked.probe, &tools, arena);
+    if (asked.probe.aim.target_count) distant_probe_sample_suns(&asked.probe, &tools, arena);
     return asked;
 }
 
@@ -530,7 +531,7 @@ static bool find_false_suns(Sweep *sweep, Arena *arena, Error *err)
         if (!setup_eye_middle(sweep->setup, &request->eyes[e], *arena, &from, err))
             return false;
         const FalseSunRays *rays =
-            sun_searches_ask(sweep->run->sun_searches, sweep->setup, from);
+            sun_searches_find(sweep->run->sun_searches, sweep->setup, from);
         sweep->false_suns[e] = false_suns_of(rays, bands, arena);
     }
     return true;
@@ -545,7 +546,7 @@ static bool search_own_suns(Sweep *sweep, Arena scratch, Error *err)
         if (!review_share_has(&run->share, sweep->sight_count + e)) continue;
         if (!setup_eye_middle(sweep->setup, &run->request->eyes[e], scratch, &from, err))
             return false;
-        sun_searches_ask(run->sun_searches, sweep->setup, from);
+        sun_searches_find(run->sun_searches, sweep->setup, from);
     }
     return true;
 }
@@ -570,8 +571,8 @@ bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err)
     place_meters(sweep, arena);
     if (!place_sights(sweep, arena, err)) return false;
     leave_others(sweep);
-    list_asks(sweep, arena);
-    responses_find(sweep->run, setup, sweep->asks, sweep->ask_count, arena);
+    list_calls(sweep, arena);
+    responses_find(sweep->run, setup, sweep->calls, sweep->call_count, arena);
     return true;
 }
 
@@ -579,9 +580,9 @@ bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err)
 {
     Setup *setup = sweep->setup;
     const ReviewRun *run = sweep->run;
-    return responses_read_own(run, setup, sweep->asks, sweep->ask_count, false, err) &&
+    return responses_read_own(run, setup, sweep->calls, sweep->call_count, false, err) &&
            sweep_light_dark(setup, 1, arena, err) &&
-           responses_read_own(run, setup, sweep->asks, sweep->ask_count, true, err) &&
-           responses_trace(run, setup, sweep->asks, sweep->ask_count, arena, err) &&
+           responses_read_own(run, setup, sweep->calls, sweep->call_count, true, err) &&
+           responses_trace(run, setup, sweep->calls, sweep->call_count, arena, err) &&
            find_suns(sweep, arena, err);
 }

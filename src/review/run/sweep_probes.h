@@ -24,7 +24,7 @@
  * Fails    when a file cannot be written, or the user stops it. */
 
 /* A probe whose aim is set, with room for its answers. */
-typedef struct ResponseAsk {
+typedef struct ResponseArgs {
     const char  *name;      /* for people: "driver, speed" */
     DistantProbe *probe;
     OwnLight    *own;
@@ -34,11 +34,11 @@ typedef struct ResponseAsk {
     const char  *shown;     /* the file's name as review.json has it */
     bool         is_kept;   /* it was read, not traced */
     bool         is_left;   /* to another part: nothing is known of it */
-} ResponseAsk;
+} ResponseArgs;
 
 /* How long it will take; 0: it is not to be traced. */
-WorkKind responses_kind(const ResponseAsk *ask);
-double   responses_work(const ResponseAsk *ask);
+WorkKind responses_kind(const ResponseArgs *args);
+double   responses_work(const ResponseArgs *args);
 
 typedef struct SweepMeter {
     LitPoint head;
@@ -92,8 +92,8 @@ typedef struct Sweep {
     Sight             *sights;
     int                sight_count;
     FalseSuns         *false_suns; /* one an eye */
-    ResponseAsk       *asks;    /* of all of them that are used */
-    int                ask_count;
+    ResponseArgs       *calls;    /* of all of them that are used */
+    int                call_count;
     /* of the condition in hand: */
     SweepSuns          suns;
     SkyTable           table;
@@ -121,10 +121,10 @@ bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err);
 
 /* Everything for the skies of a condition, and the meters for its suns; what they read between
  * them is kept in sweep->between. */
-bool sweep_ask_light(Sweep *sweep, Arena *arena, Error *err);
+bool sweep_sample_light(Sweep *sweep, Arena *arena, Error *err);
 
 /* One sight, for these suns: some 150 bytes a sun, so that they are sampled one by one. */
-Sight sweep_ask_sight(Sweep *sweep, const Sight *sight, Arena *arena);
+Sight sweep_sample_sight(Sweep *sweep, const Sight *sight, Arena *arena);
 
 /* And read once for all who need it. */
 const DistantReading *sweep_read_sight(const Sight *asked, const DistantTools *tools,

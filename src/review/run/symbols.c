@@ -398,7 +398,7 @@ static int part_by_sun(const Setup *setup, const LightParts *parts, Arena scratc
 }
 
 /* NaN: there is no sun. */
-static double lit_share(const Setup *setup, const PartAsk *ask, Arena scratch)
+static double lit_share(const Setup *setup, const PartArgs *args, Arena scratch)
 {
     Vec3          towards;
     float         bands[LIGHT_BANDS];
@@ -406,10 +406,10 @@ static double lit_share(const Setup *setup, const PartAsk *ask, Arena scratch)
     Error         ignored;
     bool *is_visible = ARENA_NEW(&scratch, bool, LIT_POINTS);
     if (!setup_sun(setup, &towards, bands) ||
-        !symbol_surface_within(&ask->symbol->surface, ask->symbol->split.box, LIT_POINTS,
+        !symbol_surface_within(&args->symbol->surface, args->symbol->split.box, LIT_POINTS,
                                &scratch, &surface, &ignored))
         return (double)NAN;
-    symbol_visibility(&surface, &setup->context, ask->aim->eye, is_visible);
+    symbol_visibility(&surface, &setup->context, args->aim->eye, is_visible);
     return symbol_lit_share(&surface, is_visible, &setup->context, towards);
 }
 
@@ -440,20 +440,20 @@ static void aim_at_all(const SymbolSurface *all, WorstPart *out, Arena *arena)
     aim_at(all, &out->aim, arena);
 }
 
-WorstPart worst_part_find(const Setup *setup, const PartAsk *ask, Arena *arena)
+WorstPart worst_part_find(const Setup *setup, const PartArgs *args, Arena *arena)
 {
-    const SymbolSurface *all = &ask->symbol->surface;
-    WorstPart out = {*ask->aim, case_whole_unknown()};
+    const SymbolSurface *all = &args->symbol->surface;
+    WorstPart out = {*args->aim, case_whole_unknown()};
     Arena     scratch = arena_reserve((size_t)1 << 28);
     double    uv[4];
-    LightParts parts = symbol_parts(ask->symbol, ask->aim, CELLS_MOST, &scratch);
-    parts.takes_least = ask->is_private;
+    LightParts parts = symbol_parts(args->symbol, args->aim, CELLS_MOST, &scratch);
+    parts.takes_least = args->is_private;
     memcpy(uv, all->uv, sizeof uv);
     if (parts.aim.target_count) {
-        int part = ask->is_coarse ? part_by_sun(setup, &parts, scratch)
+        int part = args->is_coarse ? part_by_sun(setup, &parts, scratch)
                                   : read_all(setup, &parts, &out.whole, scratch);
-        if (part != LIGHT_PARTS_ALL) symbol_part_box(ask->symbol, &parts, part, uv);
-        if (!ask->is_coarse) out.whole.lit_share = lit_share(setup, ask, scratch);
+        if (part != LIGHT_PARTS_ALL) symbol_part_box(args->symbol, &parts, part, uv);
+        if (!args->is_coarse) out.whole.lit_share = lit_share(setup, args, scratch);
     }
     arena_release(&scratch);
     if (!aim_at_box(all, uv, &out, arena)) aim_at_all(all, &out, arena);

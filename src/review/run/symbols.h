@@ -70,20 +70,20 @@ void symbol_put_on_glasses(const Setup *setup, const SetupSymbol *symbol, ProbeA
  * Memory   from the arena.
  * Threads  starts its own; the same figures for any count. */
 
-typedef struct PartAsk {
+typedef struct PartArgs {
     const SetupSymbol *symbol;
     const ProbeAim    *aim;  /* without targets; all of the symbol is read by a seed of its
                                 own */
     bool     is_coarse;      /* by the direct sun alone: no mean */
     bool     is_private;     /* it must not be read: the part from which least is reflected */
-} PartAsk;
+} PartArgs;
 
 typedef struct WorstPart {
     ProbeAim  aim;    /* at what is seen of it; no targets: nothing of the symbol is */
     CaseWhole whole;  /* without its contrast */
 } WorstPart;
 
-WorstPart worst_part_find(const Setup *setup, const PartAsk *ask, Arena *arena);
+WorstPart worst_part_find(const Setup *setup, const PartArgs *args, Arena *arena);
 
 /* Does a part of that reading reflect less than the mean, beyond both intervals? Or more, where
  * the least was sought? */

@@ -312,7 +312,7 @@ static Edge *edges_of(const Steps *steps, int *count, Arena *arena)
 }
 
 /* Half of each is left. */
-static void halve(const Steps *steps, Edge *edges, int count, const FailureAsk *ask,
+static void halve(const Steps *steps, Edge *edges, int count, const FailureArgs *args,
                   Arena scratch)
 {
     SweepSun      *middle = ARENA_NEW(&scratch, SweepSun, count);
@@ -322,7 +322,7 @@ static void halve(const Steps *steps, Edge *edges, int count, const FailureAsk *
         middle[i].later_minutes = 0.5 * (edges[i].low + edges[i].high);
     }
     SweepSuns suns = sweep_suns_later(steps->condition, middle, count, &scratch);
-    ask->states(ask->user, &suns, states, scratch);
+    args->states(args->user, &suns, states, scratch);
     for (int i = 0; i < count; i++) {
         bool is_as_before = (states[i] != STEP_PASSES) == fails(steps, edges[i].before);
         *(is_as_before ? &edges[i].low : &edges[i].high) = middle[i].later_minutes;
@@ -443,7 +443,7 @@ static int keep_longest(const Steps *steps, Edge *edges, int count, double width
     return kept;
 }
 
-static void find_changes(const Steps *steps, const FailureAsk *ask, Arena scratch)
+static void find_changes(const Steps *steps, const FailureArgs *args, Arena scratch)
 {
     int    count;
     double width = steps->suns->step_minutes;
@@ -451,23 +451,23 @@ static void find_changes(const Steps *steps, const FailureAsk *ask, Arena scratc
     count = keep_longest(steps, edges, count, INFINITY, scratch); /* of all that count */
     for (; count && width > CLOSE_MINUTES && !is_sum_close(steps, width, count, scratch);
          width /= 2) {
-        halve(steps, edges, count, ask, scratch);
+        halve(steps, edges, count, args, scratch);
         set_changes(steps, edges, count);
     }
     for (; count && width > CLOSE_MINUTES; width /= 2) {
         count = keep_longest(steps, edges, count, width, scratch);
         if (!count) return;
-        halve(steps, edges, count, ask, scratch);
+        halve(steps, edges, count, args, scratch);
         set_changes(steps, edges, count);
     }
 }
 
 Failures sweep_failures(const ReviewCondition *condition, const SweepSuns *suns,
-                        const unsigned char *states, const FailureAsk *ask, Arena scratch)
+                        const unsigned char *states, const FailureArgs *args, Arena scratch)
 {
     Steps  steps = steps_of(condition, suns, states, &scratch);
     double all = 0;
-    if (ask) find_changes(&steps, ask, scratch);
+    if (args) find_changes(&steps, args, scratch);
     Stretches stretches = find_stretches(&steps, &scratch);
     for (int i = 0; i < suns->count; i++) all += suns->list[i].minutes;
     return (Failures){all > 0 ? sum_of(&stretches) / all : 0, longest_of(&stretches)};

@@ -68,15 +68,15 @@ double sweep_suns_apart_deg(const SweepSun *a, const SweepSun *b);
  *          of its interval.
  * Units    minutes.
  * Memory   scratch only.
- * Threads  those of the FailureAsk. */
+ * Threads  those of the FailureArgs. */
 
 typedef enum StepState { STEP_PASSES, STEP_FAILS, STEP_FAILS_SURELY } StepState;
 
 /* Fills states[suns->count] for suns between steps. */
-typedef struct FailureAsk {
+typedef struct FailureArgs {
     void (*states)(void *user, const SweepSuns *suns, unsigned char *states, Arena scratch);
     void  *user;
-} FailureAsk;
+} FailureArgs;
 
 typedef struct Failures {
     double share;           /* of the time, 0..1 */
@@ -85,4 +85,4 @@ typedef struct Failures {
 
 /* For sweeps that have times. ask NULL: a stretch ends with its steps. */
 Failures sweep_failures(const ReviewCondition *condition, const SweepSuns *suns,
-                        const unsigned char *states, const FailureAsk *ask, Arena scratch);
+                        const unsigned char *states, const FailureArgs *args, Arena scratch);

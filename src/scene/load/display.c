@@ -325,8 +325,8 @@ static void open_panel(Loader *load, int id)
     if (display->panel) return;
     ARENA_NEW(load->arena, uint64_t, 0); /* the next bytes are aligned as a panel needs it */
     if (load_read(load, display->panel_path, load->arena, &bytes, &err)) {
-        PanelOpenAsk ask = {bytes.data, bytes.size, display->panel_path, display->state};
-        if (panel_open_state(&ask, load->arena, &panel, &err)) display->panel = panel;
+        PanelOpenArgs args = {bytes.data, bytes.size, display->panel_path, display->state};
+        if (panel_open_state(&args, load->arena, &panel, &err)) display->panel = panel;
     }
     if (display->panel) return;
     problems_add(load->problems, SEVERITY_ERROR, place->file, place->pointer,

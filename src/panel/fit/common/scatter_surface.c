@@ -209,7 +209,7 @@ static double open_at(const ScatterSurface *s, const double *factor, Point at, d
 
 /* What the nearest points miss over what they might, how much their values differ, and how far
  * the nearest one is. */
-static ScatterDoubt ask_nearest(const ScatterSurface *s, const LeftOut *left, Point at)
+static ScatterDoubt doubt_of_nearest(const ScatterSurface *s, const LeftOut *left, Point at)
 {
     double  far[NEAR] = {0}, open = 0, miss = 0, low = INFINITY, high = -INFINITY;
     LeftOut near[NEAR] = {0};
@@ -251,7 +251,7 @@ static ScatterDoubt doubt_at(const ScatterSurface *s, const double *factor,
 {
     double scale = s->scale * sqrt(s->scale), flat = whole.x * whole.x + whole.y * whole.y;
     Point  at = {(whole.x - s->centre[0]) * s->scale, (whole.y - s->centre[1]) * s->scale, 0};
-    ScatterDoubt out = ask_nearest(s, left, at);
+    ScatterDoubt out = doubt_of_nearest(s, left, at);
     out.roughness *= scale;
     out.open = sqrt(open_at(s, factor, at, column)) / scale;
     out.gap *= 2 / (s->scale * (1 + flat));

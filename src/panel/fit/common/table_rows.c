@@ -85,14 +85,14 @@ typedef struct DifferenceKind {
 /* |difference of that order| that ends at a row, over what noise of 1 would make it; of values
  * or, which leaves less of steep functions, of their logarithms. */
 static bool high_difference(const AngleTable *table, DifferenceKind kind, int row,
-                            const NoiseQuestion *ask, double *difference)
+                            const NoiseQuestion *question, double *difference)
 {
     int  order = kind.order;
     bool in_logs = kind.in_logs;
     double sum = 0, squares = 0, binomial = 1, all = 0;
     for (int k = 0; k <= order; k++) {
         if (row < 0) return false;
-        double value = value_at(table, row, ask->channel);
+        double value = value_at(table, row, question->channel);
         if (in_logs && !(value > 0)) return false;
         double term = binomial * (in_logs ? log_d(value) : value);
         sum += k % 2 ? -term : term;
@@ -102,22 +102,23 @@ static bool high_difference(const AngleTable *table, DifferenceKind kind, int ro
         row = kind.before[row];
     }
     double mean = all / (order + 1), found = fabs(sum) / sqrt(squares);
-    if (ask->is_relative && !(mean > 0)) return false;
-    *difference = in_logs == ask->is_relative ? found : in_logs ? found * mean : found / mean;
+    if (question->is_relative && !(mean > 0)) return false;
+    *difference = in_logs == question->is_relative ? found
+                  : in_logs ? found * mean : found / mean;
     return true;
 }
 
 /* Median over rows; negative: too few. */
 static double median_difference(const AngleTable *table, DifferenceKind kind,
-                                const NoiseQuestion *ask, Arena scratch)
+                                const NoiseQuestion *question, Arena scratch)
 {
     double *list = ARENA_NEW(&scratch, double, table->rows + 1), difference;
     int     count = 0, asked = 0, stride = 1 + table->rows / ASKED;
     for (int i = kind.order; i < table->rows; i += stride) {
         double theta = (double)table->theta[i];
-        if (theta < ask->from || theta > ask->to) continue;
+        if (theta < question->from || theta > question->to) continue;
         asked++;
-        if (high_difference(table, kind, i, ask, &difference))
+        if (high_difference(table, kind, i, question, &difference))
             list[count++] = difference;
     }
     if (count < ENOUGH || (kind.in_logs && 2 * count < asked)) return -1;
@@ -126,24 +127,24 @@ static double median_difference(const AngleTable *table, DifferenceKind kind,
 
 /* The least over orders, over rings and meridians, over values and logarithms: structure only
  * adds to a difference. */
-static double least_difference(const AngleTable *table, bool has_logs, const NoiseQuestion *ask,
-                               Arena scratch)
+static double least_difference(const AngleTable *table, bool has_logs,
+                               const NoiseQuestion *question, Arena scratch)
 {
     TableNeighbours near = table_neighbours(table, &scratch);
     double          least = INFINITY;
     for (int order = 3; order <= 7; order += 2)
         for (int k = 0; k < (has_logs ? 4 : 2); k++) {
             DifferenceKind kind = {k % 2 ? near.inner : near.ring, order, k > 1};
-            double         found = median_difference(table, kind, ask, scratch);
-            if (found > 0 || (found == 0 && ask->has_zero)) least = fmin(least, found);
+            double         found = median_difference(table, kind, question, scratch);
+            if (found > 0 || (found == 0 && question->has_zero)) least = fmin(least, found);
         }
     return least < INFINITY ? least : 0;
 }
 
 double table_noise_relative(const AngleTable *table, int channel, Arena scratch)
 {
-    NoiseQuestion ask = {channel, 0, radians_from_degrees(70), true, false};
-    return least_difference(table, true, &ask, scratch);
+    NoiseQuestion question = {channel, 0, radians_from_degrees(70), true, false};
+    return least_difference(table, true, &question, scratch);
 }
 
 /* Are most rows from there on exactly zero? */
@@ -161,12 +162,12 @@ static bool is_dark_from(const AngleTable *table, int channel, double from)
 double table_noise_dim(const AngleTable *table, int channel, Arena scratch)
 {
     double        edge = (double)table->theta_max, from = 0.9 * edge;
-    NoiseQuestion ask = {channel, from, edge, false, is_dark_from(table, channel, from)};
-    return least_difference(table, true, &ask, scratch);
+    NoiseQuestion question = {channel, from, edge, false, is_dark_from(table, channel, from)};
+    return least_difference(table, true, &question, scratch);
 }
 
 double table_noise_plain(const AngleTable *table, int channel, Arena scratch)
 {
-    NoiseQuestion ask = {channel, 0, PI / 2, false, false};
-    return least_difference(table, false, &ask, scratch);
+    NoiseQuestion question = {channel, 0, PI / 2, false, false};
+    return least_difference(table, false, &question, scratch);
 }

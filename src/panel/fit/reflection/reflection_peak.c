@@ -114,7 +114,7 @@ static void take_model(RangeSearch *search, PeakModel *model, double chi)
 }
 
 /* Tries one width; true: the rows allow it. */
-static bool ask_width(RangeSearch *search, PeakModel *model, double log_width)
+static bool try_width(RangeSearch *search, PeakModel *model, double log_width)
 {
     model->width = exp_d(log_width);
     double rest = peak_window_solve(search->window, -1, search->window->lambertian, model);
@@ -128,16 +128,16 @@ static bool ask_width(RangeSearch *search, PeakModel *model, double log_width)
 static void walk(RangeSearch *search, PeakModel model, double limit)
 {
     double inside = log_d(model.width), outside = log_d(limit);
-    if (ask_width(search, &model, outside)) return;
+    if (try_width(search, &model, outside)) return;
     for (int i = 0; i < BISECTIONS; i++) {
         double middle = 0.5 * (inside + outside);
-        if (ask_width(search, &model, middle)) inside = middle;
+        if (try_width(search, &model, middle)) inside = middle;
         else outside = middle;
     }
 }
 
 /* Tries a power with its best width, and from there all widths; true: the rows allow it. */
-static bool ask_power(RangeSearch *search, PeakModel *model, double power)
+static bool try_power(RangeSearch *search, PeakModel *model, double power)
 {
     const PeakWindow *window = search->window;
     model->power = power;
@@ -152,10 +152,10 @@ static bool ask_power(RangeSearch *search, PeakModel *model, double power)
 static void walk_powers(RangeSearch *search, double inside, double outside)
 {
     PeakModel model = {0};
-    if (ask_power(search, &model, outside)) return;
+    if (try_power(search, &model, outside)) return;
     for (int i = 0; i < POWER_BISECTIONS; i++) {
         double middle = 0.5 * (inside + outside);
-        if (ask_power(search, &model, middle)) inside = middle;
+        if (try_power(search, &model, middle)) inside = middle;
         else outside = middle;
     }
 }
@@ -184,7 +184,7 @@ static void search_all(RangeSearch *search, PeakModel best)
     for (int i = 0; i < POWERS * WIDTHS; i++)
         if (chi[i] - search->least <= CHI_SQUARED)
             take_model(search, &model[i], chi[i] - search->least);
-    ask_power(search, &best, best.power);
+    try_power(search, &best, best.power);
     walk_powers(search, best.power, LEAST_POWER);
     walk_powers(search, best.power, MOST_POWER);
 }
