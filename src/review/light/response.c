@@ -54,15 +54,15 @@ static void set_every(const bool *is_open, ProbeCells *cells, float *every)
  * again, since chunks come back to the same points of a symbol. asked: room for all. */
 static ProbeCells cells_of_chunk(const ProbeCells *cells, int chunk, int *asked)
 {
-    ProbeCells asks = *cells;
-    asks.asked_count = 0;
+    ProbeCells part = *cells;
+    part.asked_count = 0;
     for (int cell = 0; cell < cells->count; cell++) {
         int every = (int)cells->every[cell];
         if ((cell + chunk + chunk / every) % every) continue;
-        asked[asks.asked_count++] = cell;
+        asked[part.asked_count++] = cell;
     }
-    asks.asked = asked;
-    return asks;
+    part.asked = asked;
+    return part;
 }
 
 /* Those that got something, and all that lie within a triangle's width of them. */
@@ -150,9 +150,9 @@ static void trace_chunk(void *user, int item, int worker)
     aim.seed = hash_combine(hash_u32(aim.seed), (uint32_t)group);
     aim.is_spread = true;
     memset(trace->tables[item], 0, size * sizeof(float));
-    ProbeCells     asks = cells_of_chunk(trace->cells, chunk - PILOT, trace->asked[item]);
+    ProbeCells     part = cells_of_chunk(trace->cells, chunk - PILOT, trace->asked[item]);
     ProbeAnswers   answers = {trace->tables[item], trace->towards[item]};
-    trace->options->kernel->sample_cells(&aim, &asks, first, first + RESPONSE_CHUNK, &answers,
+    trace->options->kernel->sample_cells(&aim, &part, first, first + RESPONSE_CHUNK, &answers,
                                          &statistics);
     double sent = 0;
     for (size_t i = 0; i < size; i++) sent += (double)trace->tables[item][i];

@@ -83,6 +83,6 @@ typedef struct Failures {
     double longest_minutes; /* of the stretches */
 } Failures;
 
-/* For sweeps that have times. ask NULL: a stretch ends with its steps. */
+/* For sweeps that have times. args NULL: a stretch ends with its steps. */
 Failures sweep_failures(const ReviewCondition *condition, const SweepSuns *suns,
                         const unsigned char *states, const FailureArgs *args, Arena scratch);
