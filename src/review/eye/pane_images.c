@@ -11,6 +11,8 @@
 
 #define CELLS 512          /* of a display, or one a triangle if it has more */
 #define SIDE_MOST 16       /* cells along a triangle's side */
+#define DEPTH_MOST 4       /* halvings of the sides of a cell that is shown in part */
+#define CELLS_MOST 131072  /* of a display, by those */
 #define LATTICE ((SIDE_MOST + 1) * (SIDE_MOST + 2) / 2)
 #define HIDES_BELOW 0.01f  /* of the light that passes */
 
@@ -62,13 +64,17 @@ typedef struct PaneSearch {
     double      *covered;          /* [pane][display][part] */
 } PaneSearch;
 
+typedef enum PaneState { PANE_ENDS, PANE_AWAY, PANE_COVERED, PANE_SHOWS } PaneState;
+
 /* Where the pane turns the eye's ray. */
 typedef struct PanePoint {
-    bool     is_there;
-    uint32_t triangle;
-    float    u, v;
-    Vec3     towards; /* unit, from the eye */
-    Vec3     place;   /* that it is turned to */
+    PaneState state;      /* PANE_ENDS: nowhere */
+    int       covered_by; /* scene part */
+    float     s, t;       /* of the display's triangle: barycentric weights of corners 1, 2 */
+    uint32_t  triangle;   /* of the pane */
+    float     u, v;
+    Vec3      towards;    /* unit, from the eye */
+    Vec3      place;      /* that it is turned to */
 } PanePoint;
 
 static MirrorTriangle mirror_of(const Scene *scene, const Part *part, uint32_t triangle)
@@ -102,7 +108,8 @@ static bool point_in(const PaneSearch *search, const Part *part, uint32_t triang
         return false;
     if (!image_point_find(&mirror, search->eye, source, &at)) return false;
     Vec3 towards = vec3_normalize(vec3_sub(at.position, search->eye));
-    *out = (PanePoint){true, triangle, at.u, at.v, towards, source};
+    *out = (PanePoint){.state = PANE_SHOWS, .covered_by = NO_ID, .triangle = triangle,
+                       .u = at.u, .v = at.v, .towards = towards, .place = source};
     return true;
 }
 
@@ -110,9 +117,9 @@ static bool point_in(const PaneSearch *search, const Part *part, uint32_t triang
 static PanePoint point_of(const PaneSearch *search, const Part *part, Vec3 source,
                           uint32_t *hint)
 {
-    PanePoint found = {.is_there = false};
+    PanePoint found = {.state = PANE_ENDS};
     if (point_in(search, part, *hint, source, &found)) return found;
-    for (uint32_t i = 0; i < part->triangle_count && !found.is_there; i++)
+    for (uint32_t i = 0; i < part->triangle_count && found.state == PANE_ENDS; i++)
         if (point_in(search, part, part->first_triangle + i, source, &found))
             *hint = found.triangle;
     return found;
@@ -126,6 +133,7 @@ typedef struct PaneLattice {
     const Part *pane;
     uint32_t    triangle;
     int         side;       /* cells along its sides */
+    int         halvings;   /* of one that is shown in part, at most */
     double      area;       /* of a cell, as a share of the display's */
     double     *covered;    /* [part] */
     uint32_t    hint;
@@ -137,17 +145,44 @@ static int lattice_index(int side, int i, int j)
     return j * (side + 1) - j * (j - 1) / 2 + i;
 }
 
+/* The first part that hides the display's point in the pane's; NO_ID: nothing does. */
+static int hiding_way(const PaneSearch *search, const TrianglePoint *pane,
+                      const TrianglePoint *display, Vec3 way)
+{
+    int by = hiding_part(search->context, search->wavelengths,
+                         ray_to(search->eye, pane, vec3_sub(search->eye, pane->position)));
+    if (by != NO_ID) return by;
+    return hiding_part(search->context, search->wavelengths,
+                       ray_to(ray_start(pane, way), display, vec3_neg(way)));
+}
+
+static PanePoint look_at(PaneLattice *lattice, float s, float t)
+{
+    const PaneSearch *search = lattice->search;
+    const Scene      *scene = search->context->scene;
+    TrianglePoint display = triangle_point(scene, lattice->triangle, s, t);
+    PanePoint     at = point_of(search, lattice->pane, display.position, &lattice->hint);
+    at.s = s;
+    at.t = t;
+    if (at.state == PANE_ENDS) return at;
+    TrianglePoint pane = triangle_point(scene, at.triangle, at.u, at.v);
+    Vec3          way = vec3_sub(display.position, pane.position);
+    if (!(vec3_dot(way, display.ng) < 0)) {
+        at.state = PANE_AWAY;
+        return at;
+    }
+    at.covered_by = hiding_way(search, &pane, &display, way);
+    if (at.covered_by != NO_ID) at.state = PANE_COVERED;
+    return at;
+}
+
 static void fill_lattice(PaneLattice *lattice)
 {
-    const Scene *scene = lattice->search->context->scene;
-    int          side = lattice->side;
+    int side = lattice->side;
     for (int j = 0; j <= side; j++)
-        for (int i = 0; i + j <= side; i++) {
-            Vec3 p = triangle_position(scene, lattice->triangle, (float)i / (float)side,
-                                       (float)j / (float)side);
+        for (int i = 0; i + j <= side; i++)
             lattice->at[lattice_index(side, i, j)] =
-                point_of(lattice->search, lattice->pane, p, &lattice->hint);
-        }
+                look_at(lattice, (float)i / (float)side, (float)j / (float)side);
 }
 
 /* By Van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125-126. */
@@ -159,61 +194,83 @@ static double solid_angle(const Vec3 p[3])
     return 2 * atan2(fabs(volume), below);
 }
 
-static void add_cell(PaneLattice *lattice, const int corner[3], TrianglePoint middle,
+/* Of a cell's corners one may lie beyond the pane's end: there where the others and the middle
+ * have it, of a small cell. False: it is too much of the cell. */
+static bool set_corners(const PanePoint corner[3], const PanePoint *middle, PaneCell *cell)
+{
+    int missing = NO_ID;
+    for (int k = 0; k < 3; k++) {
+        cell->corner[k] = corner[k].towards;
+        cell->place[k] = corner[k].place;
+        if (corner[k].state != PANE_ENDS) continue;
+        if (missing != NO_ID) return false;
+        missing = k;
+    }
+    if (missing == NO_ID) return true;
+    int a = (missing + 1) % 3, b = (missing + 2) % 3;
+    Vec3 towards = vec3_sub(vec3_scale(middle->towards, 3), cell->corner[a]);
+    Vec3 place = vec3_sub(vec3_scale(middle->place, 3), cell->place[a]);
+    cell->corner[missing] = vec3_normalize(vec3_sub(towards, cell->corner[b]));
+    cell->place[missing] = vec3_sub(place, cell->place[b]);
+    return true;
+}
+
+/* area: of the cell, as a share of the display's. */
+static void add_whole(PaneLattice *lattice, const PanePoint corner[3], const PanePoint *middle,
+                      double area, PaneImage *out)
+{
+    PaneCell  cell;
+    PaneState state = middle->state;
+    if (state == PANE_SHOWS && !set_corners(corner, middle, &cell)) state = PANE_ENDS;
+    switch (state) {
+    case PANE_ENDS: out->share.ends += area; break;
+    case PANE_AWAY: out->share.away += area; break;
+    case PANE_COVERED:
+        out->share.covered += area;
+        lattice->covered[middle->covered_by] += area;
+        break;
+    case PANE_SHOWS:
+        out->share.shown += area;
+        cell.sr = solid_angle(cell.corner);
+        out->cells[out->cell_count++] = cell;
+        break;
+    }
+}
+
+/* halvings: how many are left to a cell that is not the same everywhere. */
+static void add_cell(PaneLattice *lattice, const PanePoint corner[3], int halvings, double area,
                      PaneImage *out)
 {
-    const PaneSearch *search = lattice->search;
-    const Scene      *scene = search->context->scene;
-    PanePoint at = point_of(search, lattice->pane, middle.position, &lattice->hint);
-    bool      is_there = at.is_there;
-    PaneCell  cell;
-    for (int k = 0; k < 3; k++) {
-        is_there &= lattice->at[corner[k]].is_there;
-        cell.corner[k] = lattice->at[corner[k]].towards;
-        cell.place[k] = lattice->at[corner[k]].place;
-    }
-    if (!is_there) {
-        out->share.ends += lattice->area;
+    const PanePoint *a = &corner[0], *b = &corner[1], *c = &corner[2];
+    PanePoint m = look_at(lattice, (a->s + b->s + c->s) / 3, (a->t + b->t + c->t) / 3);
+    bool is_one = a->state == m.state && b->state == m.state && c->state == m.state;
+    if (is_one || halvings == 0) {
+        add_whole(lattice, corner, &m, area, out);
         return;
     }
-    TrianglePoint pane = triangle_point(scene, at.triangle, at.u, at.v);
-    Vec3          way = vec3_sub(middle.position, pane.position);
-    if (!(vec3_dot(way, middle.ng) < 0)) {
-        out->share.away += lattice->area;
-        return;
-    }
-    int by = hiding_part(search->context, search->wavelengths,
-                         ray_to(search->eye, &pane, vec3_sub(search->eye, pane.position)));
-    if (by == NO_ID)
-        by = hiding_part(search->context, search->wavelengths,
-                         ray_to(ray_start(&pane, way), &middle, vec3_neg(way)));
-    if (by != NO_ID) {
-        out->share.covered += lattice->area;
-        lattice->covered[by] += lattice->area;
-        return;
-    }
-    cell.sr = solid_angle(cell.corner);
-    out->share.shown += lattice->area;
-    out->cells[out->cell_count++] = cell;
+    PanePoint ab = look_at(lattice, (a->s + b->s) / 2, (a->t + b->t) / 2);
+    PanePoint bc = look_at(lattice, (b->s + c->s) / 2, (b->t + c->t) / 2);
+    PanePoint ca = look_at(lattice, (c->s + a->s) / 2, (c->t + a->t) / 2);
+    add_cell(lattice, (PanePoint[]){*a, ab, ca}, halvings - 1, area / 4, out);
+    add_cell(lattice, (PanePoint[]){ab, *b, bc}, halvings - 1, area / 4, out);
+    add_cell(lattice, (PanePoint[]){ca, bc, *c}, halvings - 1, area / 4, out);
+    add_cell(lattice, (PanePoint[]){ab, bc, ca}, halvings - 1, area / 4, out);
 }
 
 static void add_triangle(PaneLattice *lattice, PaneImage *out)
 {
-    const Scene *scene = lattice->search->context->scene;
-    int          side = lattice->side;
-    float        third = 1 / (3 * (float)side);
+    int        side = lattice->side;
+    PanePoint *at = lattice->at;
     fill_lattice(lattice);
     for (int j = 0; j < side; j++)
         for (int i = 0; i + j < side; i++) {
-            int   a = lattice_index(side, i, j), b = lattice_index(side, i + 1, j);
-            int   c = lattice_index(side, i, j + 1);
-            float u = (float)(3 * i + 1) * third, v = (float)(3 * j + 1) * third;
-            add_cell(lattice, (int[]){a, b, c},
-                     triangle_point(scene, lattice->triangle, u, v), out);
+            PanePoint a = at[lattice_index(side, i, j)];
+            PanePoint b = at[lattice_index(side, i + 1, j)];
+            PanePoint c = at[lattice_index(side, i, j + 1)];
+            add_cell(lattice, (PanePoint[]){a, b, c}, lattice->halvings, lattice->area, out);
             if (i + j + 1 == side) continue;
-            int d = lattice_index(side, i + 1, j + 1);
-            add_cell(lattice, (int[]){b, d, c},
-                     triangle_point(scene, lattice->triangle, u + third, v + third), out);
+            PanePoint d = at[lattice_index(side, i + 1, j + 1)];
+            add_cell(lattice, (PanePoint[]){b, d, c}, lattice->halvings, lattice->area, out);
         }
 }
 
@@ -311,6 +368,14 @@ static int side_of(const Part *part)
     return side;
 }
 
+static int halvings_of(const Part *part)
+{
+    int halvings = 0, side = side_of(part);
+    int cells = 4 * side * side * (int)part->triangle_count;
+    for (; halvings < DEPTH_MOST && cells <= CELLS_MOST; cells *= 4) halvings++;
+    return halvings;
+}
+
 static void set_middle(PaneImage *image)
 {
     Vec3 sum = vec3(0, 0, 0);
@@ -333,7 +398,8 @@ static void find_one(void *user, int item, int worker)
     double      *covered = search->covered + (size_t)item * (size_t)scene->part_count;
     double       area = 0;
     PaneLattice  lattice = {.search = search, .pane = pane, .side = side_of(part),
-                            .covered = covered, .hint = pane->first_triangle};
+                            .halvings = halvings_of(part), .covered = covered,
+                            .hint = pane->first_triangle};
     for (uint32_t t = 0; t < part->triangle_count; t++)
         area += area_of(scene, part->first_triangle + t);
     for (uint32_t t = 0; t < part->triangle_count; t++) {
@@ -376,8 +442,9 @@ PaneImage *pane_images_find(const Setup *setup, Vec3 eye, int *count, Arena *are
     wavelengths_sample(0.5f, &wavelengths);
     for (int i = 0; i < *count; i++) {
         int part_id = displays[i % search.display_count];
-        int side = side_of(&scene->parts[part_id]);
-        int cells = side * side * (int)scene->parts[part_id].triangle_count;
+        const Part *part = &scene->parts[part_id];
+        int side = side_of(part) << halvings_of(part);
+        int cells = side * side * (int)part->triangle_count;
         search.images[i] = (PaneImage){.pane_id = panes[i / search.display_count],
                                        .part_id = part_id, .covered_by = NO_ID,
                                        .cells = ARENA_NEW(arena, PaneCell, cells)};

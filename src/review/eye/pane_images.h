@@ -4,17 +4,19 @@
  *
  * Each display is cut into small cells. The middle and the corners of each are looked for in
  * each pane by the point that turns the eye's ray to them (mirror/image_point.h): no path is
- * traced and no chance is in it. A cell is shown where the pane has such points, where the cell
- * faces it, and where nothing stands between: neither before the pane nor behind it. Windows
- * and holes hide nothing, unless less than a hundredth of the light passes them.
+ * traced and no chance is in it. A point is shown where the pane has such a point, where the
+ * display faces it, and where nothing stands between: neither before the pane nor behind it.
+ * Windows and holes hide nothing, unless less than a hundredth of the light passes them. A cell
+ * whose corners and middle differ in that is cut further.
  *
  * Panes        parts of the scene that let light through: glass. Of one with a thickness of its
  *              own (a solid) the face that is turned to the eye counts; of a laminated sheet
  *              the face that is met. The ghost by the other face stands beside by as much as
  *              the pane's thickness and wedge put it, some minutes of arc: paths that read the
  *              image (pane_image_reading.h) have it.
- * Approximate  a cell that is shown in part counts as its middle does; 512 of them are a
- *              display. An image by two panes, one after the other, is none of these.
+ * Approximate  512 cells are a display; the smallest, a sixteenth as wide, count as their
+ *              middle does. What is shown or hidden within a large cell alone is missed. An
+ *              image by two panes, one after the other, is none of these.
  * Units        metres, scene; directions unit, world; sr.
  * Memory       lists live in the arena. Threads: starts its own; the same for any count.
  */
