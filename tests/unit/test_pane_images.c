@@ -251,19 +251,23 @@ static double reflectance(const Scene *scene, uint32_t triangle, const TriangleP
     return s * r[0] + (1 - s) * r[1];
 }
 
+#define SIDE 120
+
 /* Mean over the image's solid angle of what the display sends by its emission's own query;
- * through: of the share that passes of unpolarised light from behind. */
-static double wanted_cd_m2(const World *world, Screen place, double *through)
+ * through: of the share that passes of unpolarised light from behind. What lies towards
+ * `hidden` of the display's middle does not count; 0: all of it does. */
+static double wanted_cd_m2(const World *world, Screen place, Vec3 hidden, double *through)
 {
     const Scene *scene = world->scene;
     Vec3   n = vec3_cross(place.half_u, place.half_v);
     double sum = 0, weights = 0, passed = 0;
     for (uint32_t t = 0; t < 2; t++)
-        for (int i = 0; i < 40 * 40; i++) {
-            float u = ((float)(i % 40) + 0.5f) / 40, v = ((float)(i / 40) + 0.5f) / 40;
+        for (int i = 0; i < SIDE * SIDE; i++) {
+            float u = ((float)(i % SIDE) + 0.5f) / SIDE, v = ((float)(i / SIDE) + 0.5f) / SIDE;
             float xyz[3];
             if (u + v > 1) u = 1 - u, v = 1 - v;
             TrianglePoint point = triangle_point(scene, t, u, v);
+            if (vec3_dot(vec3_sub(point.position, place.middle), hidden) > 0) continue;
             Vec3   to = mirrored(point.position);
             double d2 = (double)vec3_dot(to, to), r[2];
             Vec3   way = vec3_normalize(vec3_sub(mirrored(eye), point.position));
@@ -321,11 +325,35 @@ TEST(luminance_is_what_glass_mirrors_of_the_emission_towards_it)
         add_pane(&world, builder_pane((float)GLASS), 3);
         Setup setup = setup_of(&world);
         PaneImageReading found = read_image(&setup, find(&setup, &world), world.arena);
-        double wanted = wanted_cd_m2(&world, below, &through);
+        double wanted = wanted_cd_m2(&world, below, vec3(0, 0, 0), &through);
         assert_found(PANELS[i], found.image, wanted);
         assert_found("through", found.through, through);
         assert_true(found.against.mean >= found.through.mean);
         assert_true(found.ghost_share == 0 && isnan(found.ghost_rad));
+    }
+}
+
+/* By a hood just over the display whose edge runs aslant through its middle: half of it is left,
+ * and the brighter or the darker half decides. */
+TEST(what_is_hidden_in_part_counts_as_far_as_it_is_seen)
+{
+    for (int i = 0; i < 2; i++) {
+        double through;
+        SCOPED_WORLD world = world_start();
+        open_panel(&world, "oled_centre");
+        add_display(&world, below);
+        builder_part(world.scene, builder_material(0));
+        Vec3 a = vec3_normalize(below.half_u), b = vec3_normalize(below.half_v);
+        Vec3 e = vec3_scale(vec3_along(b, a, 0.4f), i ? -0.4f : 0.4f);
+        Vec3 n = vec3_cross(a, b), f = vec3_cross(n, e);
+        builder_quad(world.scene, vec3_along(vec3_add(below.middle, e), n, 1e-4f), e, f);
+        add_pane(&world, builder_pane((float)GLASS), 3);
+        Setup setup = setup_of(&world);
+        PaneImage *image = find(&setup, &world);
+        assert_near(image->share.shown, 0.5, 0.003);
+        PaneImageReading found = read_image(&setup, image, world.arena);
+        assert_found(i ? "far half" : "near half", found.image,
+                     wanted_cd_m2(&world, below, e, &through));
     }
 }
 
@@ -350,7 +378,7 @@ TEST(a_laminated_panes_image_has_its_ghost)
     Setup setup = setup_of(&world);
     PaneImage *image = find(&setup, &world);
     PaneImageReading found = read_image(&setup, image, world.arena);
-    double both = wanted_cd_m2(&world, below, &through);
+    double both = wanted_cd_m2(&world, below, vec3(0, 0, 0), &through);
     double cosine = fabs((double)vec3_dot(image->towards, pane_plane().normal));
     double r[2], sine2 = 1 - cosine * cosine, ghost = 0, all = 0;
     slab(cosine, r);
