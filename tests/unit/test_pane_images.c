@@ -333,8 +333,8 @@ TEST(luminance_is_what_glass_mirrors_of_the_emission_towards_it)
     }
 }
 
-/* By a hood just over the display whose edge runs aslant through its middle: half of it is left,
- * and the brighter or the darker half decides. */
+/* By a hood just over the display whose edge runs aslant through its middle: half of it is
+ * left, and the brighter or the darker half decides. */
 TEST(what_is_hidden_in_part_counts_as_far_as_it_is_seen)
 {
     for (int i = 0; i < 2; i++) {

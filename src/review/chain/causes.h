@@ -89,5 +89,5 @@ typedef struct PixelLight {
     PixelFigure radiance[PIXEL_BANDS]; /* means over the bands */
 } PixelLight;
 
-/* args: of a pixel (ProbeAim.pixel). As many paths as chains_find takes of it, the same ones. */
+/* args: of a pixel (ProbeAim.pixel). As many paths as chains_find takes of it, the same. */
 PixelLight pixel_light_find(const ChainArgs *args);
