@@ -41,12 +41,41 @@ bool state_facts_add(const Panel *panel, const char *path, json_t *report, Arena
     return true;
 }
 
+const char *state_facts_name(const Panel *panel, Arena *arena)
+{
+    int state, count = panel_info_states(panel, &state);
+    return count ? arena_format(arena, "%s", panel_info_state_name(panel, state)) : NULL;
+}
+
 bool state_facts_take(const Panel *panel, Measurement *measured, Error *err)
 {
     int state, count = panel_info_states(panel, &state);
     return !measured->state_count ||
            measurement_take_state(measured, count ? panel_info_state_name(panel, state) : NULL,
                                   err);
+}
+
+bool state_facts_open(const Panel *panel, const char *path, const PanelLevel *level,
+                      Arena *arena, StatePanels *out, Error *err)
+{
+    int         state, count = panel_info_states(panel, &state);
+    const char *file = panel_open_file(path, arena);
+    for (out->count = 0; out->count < count; out->count++) {
+        const char *name = panel_info_state_name(panel, out->count);
+        Panel      *one;
+        if (!panel_open_named(file, name, arena, &one, err)) {
+            state_facts_close(out);
+            return false;
+        }
+        if (level->is_asked) panel_coarsen(one, (int)level->asked, level->parts, arena);
+        out->one[out->count] = (PlotState){name, one};
+    }
+    return true;
+}
+
+void state_facts_close(StatePanels *states)
+{
+    while (states->count > 0) panel_close((Panel *)states->one[--states->count].panel);
 }
 
 /* ---- as text ----------------------------------------------------------------------------- */
