@@ -167,8 +167,8 @@ WRONG_MANIFESTS = [("emission/black", None), ("emission/red", {}), ("emission/re
                    ("pixels", [9.5, 4]), *WRONG_SUBPIXELS, *WRONG_ZONES,
                    ("size_mm", None)]
 WRONG_STATES = [("emission", {"white": "emission/black.csv"}), ("states/private", None),
-                ("states/private", {}), ("states/private", 3), ("states/private/emission", None),
-                ("states/private/emission", {}), ("states/private/emision", 1),
+                ("states/private", {}), ("states/private", 3),
+                ("states/private/emission", None), ("states/private/emission", {}), ("states/private/emision", 1),
                 ("states/a b", {"emission": {"white": "emission/black.csv"}}),
                 ("states/" + 32 * "a", {"emission": {"white": "emission/black.csv"}}),
                 ("states/private/polarisation", {"degree": 2, "azimuth_deg": 0}),

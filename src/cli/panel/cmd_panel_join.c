@@ -16,7 +16,8 @@ static bool split(const char *argument, Arena *arena, PanelStateFile *out, Error
     size_t      length = sign ? (size_t)(sign - argument) : 0;
     if (!length || length > PANEL_INFO_STATE_NAME_MAX || !sign[1])
         return error_set(err, ERROR_USAGE, "\"%.80s\", required: NAME=FILE.panel, with a name "
-                         "of 1 to %d letters, digits, '-' and '_'", argument, PANEL_INFO_STATE_NAME_MAX);
+                         "of 1 to %d letters, digits, '-' and '_'", argument,
+                         PANEL_INFO_STATE_NAME_MAX);
     *out = (PanelStateFile){arena_string(arena, argument, length), sign + 1};
     return true;
 }

@@ -35,6 +35,3 @@ typedef struct StatePanels {
 bool state_facts_open(const Panel *panel, const char *path, const PanelLevel *level,
                       Arena *arena, StatePanels *out, Error *err);
 void state_facts_close(StatePanels *states);
-
-/* As text: a few lines for each. */
-void state_facts_print(const json_t *report);

@@ -25,7 +25,10 @@
 bool panel_fit(const Measurement *measurement, const FitOptions *options, const char *path,
                Arena *arena, json_t **report, Error *err);
 
-/* The same without writing: the file's bytes. path: for messages. */
+/* The same without writing; path: for messages. */
+typedef struct FittedPanel {
+    FileBytes file;   /* its bytes */
+    json_t   *report; /* NULL after other failures than ERROR_UNUSABLE */
+} FittedPanel;
 bool panel_fit_bytes(const Measurement *measurement, const FitOptions *options,
-                     const char *path, Arena *arena, FileBytes *out, json_t **report,
-                     Error *err);
+                     const char *path, Arena *arena, FittedPanel *out, Error *err);

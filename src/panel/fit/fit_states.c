@@ -4,13 +4,12 @@
 #include "base/file_write.h"
 #include "panel/fit/panel_states.h"
 
-/* A report of a state that fails stays only where it says why. */
+/* What it leaves of a state that fails: a report that says why, or none. */
 static bool fit_one(const MeasuredState *state, const FitOptions *options, const char *path,
-                    Arena *arena, FileBytes *out, json_t **report, Error *err)
+                    Arena *arena, FittedPanel *out, Error *err)
 {
-    *report = NULL;
-    if (panel_fit_bytes(state->set, options, path, arena, out, report, err)) return true;
-    if (*report) json_object_set_new(*report, "state", json_string(state->name));
+    if (panel_fit_bytes(state->set, options, path, arena, out, err)) return true;
+    if (out->report) json_object_set_new(out->report, "state", json_string(state->name));
     return error_prefix(err, "the state '%s'", state->name);
 }
 
@@ -19,19 +18,19 @@ bool fit_states(const Measurement *measurement, const FitOptions *options, const
 {
     int              count = measurement->state_count;
     PanelStateBytes *states = ARENA_NEW(arena, PanelStateBytes, count);
+    FittedPanel      first = {.report = NULL}, one;
     if (!count) return panel_fit(measurement, options, path, arena, report, err);
-    if (!file_check_writable(path, err)) return false;
+    if (!file_check_writable(path, err)) return false; /* a fit takes a while */
     for (int i = 0; i < count; i++) {
-        json_t *own;
-        states[i].name = measurement->state[i].name;
-        bool ok = fit_one(&measurement->state[i], options, path, arena, &states[i].file, &own,
-                          err);
+        bool ok = fit_one(&measurement->state[i], options, path, arena, &one, err);
+        states[i] = (PanelStateBytes){measurement->state[i].name, one.file};
         if (ok && i) {
-            json_decref(own);
+            json_decref(one.report);
             continue;
         }
-        if (i) json_decref(*report);
-        *report = own;
+        json_decref(first.report);
+        first = one;
+        *report = first.report;
         if (!ok) return false;
     }
     if (panel_states_write(states, count, path, arena, err)) return true;

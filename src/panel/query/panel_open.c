@@ -456,11 +456,10 @@ _Static_assert(sizeof(PanelStateStored) == 32, "the file's layout");
 
 static bool is_state_name(const PanelStateStored *stored)
 {
-    size_t length = strnlen(stored->name, sizeof stored->name);
-    if (length == sizeof stored->name || !panel_info_is_state_name(stored->name)) return false;
-    for (size_t i = length; i < sizeof stored->name; i++)
-        if (stored->name[i]) return false;
-    return true;
+    static const PanelStateStored zeros;
+    size_t length = strnlen(stored->name, sizeof *stored);
+    return length < sizeof *stored && panel_info_is_state_name(stored->name) &&
+           !memcmp(stored->name + length, zeros.name, sizeof zeros - length);
 }
 
 /* Names and how many there are; 0: the file has none. */
@@ -546,11 +545,9 @@ bool panel_open_named(const char *file, const char *state, Arena *arena, Panel *
                       Error *err)
 {
     Arena         copy = arena_reserve(PANEL_FILE_BYTES_MAX + 4096);
-    FileBytes     bytes;
-    PanelOpenArgs args = {.name = file, .state = state};
-    bool ok = file_read(args.name, PANEL_FILE_BYTES_MAX, &copy, &bytes, err);
-    args.data = ok ? bytes.data : NULL;
-    args.size = ok ? bytes.size : 0;
+    FileBytes     bytes = {0};
+    bool          ok = file_read(file, PANEL_FILE_BYTES_MAX, &copy, &bytes, err);
+    PanelOpenArgs args = {bytes.data, bytes.size, file, state};
     if (!ok || !panel_open_state(&args, arena, out, err)) {
         arena_release(&copy);
         return false;
@@ -567,9 +564,8 @@ const char *panel_open_file(const char *path, Arena *arena)
 
 bool panel_open(const char *path, Arena *arena, Panel **out, Error *err)
 {
-    const char *file = panel_open_file(path, arena);
-    const char *state = file == path ? NULL : strrchr(path, '#') + 1;
-    return panel_open_named(file, state, arena, out, err);
+    const char *file = panel_open_file(path, arena), *hash = strrchr(path, '#');
+    return panel_open_named(file, file == path ? NULL : hash + 1, arena, out, err);
 }
 
 void panel_close(Panel *panel)

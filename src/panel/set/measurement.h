@@ -9,7 +9,8 @@
 
 /* Reads MANIFEST.json and every table it names; a path that ends in .csv is one white-only
  * table (theta, phi and X, Y, Z or Y, x, y). Tables lie below the parent of the manifest's
- * folder. "MANIFEST.json#STATE" is one state of a set of several, unless a file has that name. */
+ * folder. "MANIFEST.json#STATE" is one state of a set of several, unless a file has that
+ * name. */
 bool measurement_read(const char *path, Arena *arena, Measurement *out, Error *err);
 
 /* The same; tables may also lie below `folder` (--root). NULL: no such folder. */

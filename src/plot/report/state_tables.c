@@ -51,8 +51,8 @@ static void add_row(Report *report, ReportTable *table, const PlotState *state)
     for (int i = 0; i < 4; i++) add_half(report, table, panel, i * PI / 2);
     static const char *const errors[] = {"max_error", "rms_error"};
     for (int i = 0; i < COUNT_OF(errors); i++)
-        report_figure(report, table, 100 * json_number_value(json_object_get(total,
-                                                                             errors[i])));
+        report_figure(report, table,
+                      100 * json_number_value(json_object_get(total, errors[i])));
     report_text(table, verdict ? arena_format(report->arena, "%s", verdict) : "–");
 }
 
@@ -67,8 +67,8 @@ void report_states(Report *report, const PlotData *data)
     if (!data->source.state_count) return;
     ReportTable *table = report_add(report, "states", "States",
         "Along the normal; the angle at which white falls below half of that, to four sides; "
-        "the errors over all tables of the state, and its verdict. All other tables and figures "
-        "are of one state, named behind # of the file's name, or of the first.");
+        "the errors over all tables of the state, and its verdict. All other tables and "
+        "figures are of one state, named behind # of the file's name, or of the first.");
     for (int i = 0; i < COUNT_OF(columns); i++)
         report_column(table, columns[i].key, columns[i].title);
     for (int i = 0; i < data->source.state_count; i++)
