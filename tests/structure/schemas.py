@@ -168,7 +168,8 @@ WRONG_MANIFESTS = [("emission/black", None), ("emission/red", {}), ("emission/re
                    ("size_mm", None)]
 WRONG_STATES = [("emission", {"white": "emission/black.csv"}), ("states/private", None),
                 ("states/private", {}), ("states/private", 3),
-                ("states/private/emission", None), ("states/private/emission", {}), ("states/private/emision", 1),
+                ("states/private/emission", None), ("states/private/emission", {}),
+                ("states/private/emision", 1),
                 ("states/a b", {"emission": {"white": "emission/black.csv"}}),
                 ("states/" + 32 * "a", {"emission": {"white": "emission/black.csv"}}),
                 ("states/private/polarisation", {"degree": 2, "azimuth_deg": 0}),
