@@ -128,9 +128,9 @@ LAB_TEST(states_have_their_files)
             fail_msg("taken: %s", wrong[i].part);
         if (!strstr(lab->err.text, wrong[i].part)) fail_msg("%s", lab->err.text);
     }
-    assert_false(RUN(lab, &printed, "@open.txt", "@glass.txt", "--role", "open*=white", "--role",
-                     "glass.txt=brdf:10", "--state", "a=open*", "--state", "b=glass*", "-o",
-                     "@no/M.json"));
+    assert_false(RUN(lab, &printed, "@open.txt", "@glass.txt", "--role", "open*=white",
+                     "--role", "glass.txt=brdf:10", "--state", "a=open*", "--state",
+                     "b=glass*", "-o", "@no/M.json"));
     assert_non_null(strstr(lab->err.text, "the state 'b' has no table of light"));
 }
 

@@ -141,6 +141,19 @@ static bool is_list(const char *key)
     return !strcmp(key, "comment") || !strcmp(key, "mask") || !strcmp(key, "section");
 }
 
+/* Those of the text tables' keys, behind `count` others. */
+static int list_keys(Words *words, int count, Option *option, Arena *arena)
+{
+    for (int i = 0; i < text_key_count && i < KEYS_MAX; i++) {
+        bool many = is_list(text_keys[i].key);
+        option[count++] = (Option){option_name(text_keys[i].key, arena),
+                                   many ? OPTION_TEXTS : OPTION_TEXT, text_keys[i].values,
+                                   text_keys[i].help,
+                                   many ? (void *)&words->list[i] : (void *)&words->key[i]};
+    }
+    return count;
+}
+
 static int list_options(Words *words, Option *option, Arena *arena)
 {
     const Option fixed[] = {
@@ -152,8 +165,8 @@ static int list_options(Words *words, Option *option, Arena *arena)
         {"--role", OPTION_TEXTS, "PATTERN=ROLE", "what files are: red:255, black, white, "
          "brdf:INCIDENCE[:AZIMUTH[:NM]], dark, reference[:INCIDENCE], skip", &words->roles},
         {"--skip", OPTION_TEXTS, "PATTERN", "files to leave out", &words->skip},
-        {"--state", OPTION_TEXTS, "NAME=PATTERN", "files of one state of a display that has "
-         "several; what no pattern names is of all", &words->states},
+        {"--state", OPTION_TEXTS, "NAME=PATTERN", "files of one state; all others: of all states",
+         &words->states},
         {"--format", OPTION_TEXT, "NAME", "the files' format (default: found from each file)",
          &words->format},
         {"--wavelength", OPTION_NUMBER, "NM", "of reflection files that do not say theirs",
@@ -192,16 +205,8 @@ static int list_options(Words *words, Option *option, Arena *arena)
         {"--conditions", OPTION_TEXT, "TEXT", "room, warm-up, drive, for the report",
          &words->conditions},
     };
-    int count = COUNT_OF(fixed);
     memcpy(option, fixed, sizeof fixed);
-    for (int i = 0; i < text_key_count && i < KEYS_MAX; i++) {
-        bool many = is_list(text_keys[i].key);
-        option[count++] = (Option){option_name(text_keys[i].key, arena),
-                                   many ? OPTION_TEXTS : OPTION_TEXT, text_keys[i].values,
-                                   text_keys[i].help,
-                                   many ? (void *)&words->list[i] : (void *)&words->key[i]};
-    }
-    return count;
+    return list_keys(words, COUNT_OF(fixed), option, arena);
 }
 
 static bool add_roles(const CliTexts *roles, Arena *arena, TextOptions *text, Error *err)

@@ -150,7 +150,8 @@ static json_t *emission_object(SetOutput *out)
                                 arena_format(&out->scratch, "%.10g", table->level), file);
         }
     }
-    if (out->set->levels) json_object_set_new(emission, "levels", json_string(levels_file(out)));
+    if (out->set->levels)
+        json_object_set_new(emission, "levels", json_string(levels_file(out)));
     return emission;
 }
 
