@@ -15,6 +15,7 @@ typedef struct PanelSource {
     const void *bytes;
     size_t      size;
     int         level; /* of the trees; below 0: whole */
+    const char *state; /* NULL: the file's first */
 } PanelSource;
 
 typedef struct OpenedPanel {

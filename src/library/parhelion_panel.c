@@ -25,6 +25,7 @@ struct ParhelionPanel { /* lies in its own arena */
 
 /* Sizes in the first version: no caller has less. */
 #define INFO_BYTES (offsetof(ParhelionPanelInfo, polarisation_azimuth) + sizeof(float))
+#define FILE_BYTES (offsetof(ParhelionPanelFile, level) + sizeof(int))
 #define QUESTION_BYTES (offsetof(ParhelionPanelQuestions, nm) + sizeof(const float *))
 
 const char *parhelion_panel_version(void)
@@ -61,6 +62,17 @@ int parhelion_panel_open_memory_level(const void *bytes, size_t size, int level,
                                       ParhelionPanel **panel, char *error, size_t error_size)
 {
     const PanelSource from = {.bytes = bytes, .size = size, .level = level};
+    return open_from(&from, panel, error, error_size);
+}
+
+int parhelion_panel_open_file(const ParhelionPanelFile *file, ParhelionPanel **panel,
+                              char *error, size_t error_size)
+{
+    if (error && error_size) *error = 0;
+    *panel = NULL;
+    if (file->size < FILE_BYTES) return PARHELION_PANEL_WRONG_SIZE;
+    const PanelSource from = {file->path, file->bytes, file->byte_count, file->level,
+                              file->state};
     return open_from(&from, panel, error, error_size);
 }
 
@@ -156,6 +168,29 @@ int parhelion_panel_level(const ParhelionPanel *panel)
 {
     return panel_coarse_finest(panel->panel);
 }
+
+/* ---- states ------------------------------------------------------------------------------ */
+
+size_t parhelion_panel_states(const ParhelionPanel *panel)
+{
+    int state;
+    return (size_t)panel_info_states(panel->panel, &state);
+}
+
+size_t parhelion_panel_state(const ParhelionPanel *panel)
+{
+    int state;
+    panel_info_states(panel->panel, &state);
+    return (size_t)state;
+}
+
+const char *parhelion_panel_state_name(const ParhelionPanel *panel, size_t state)
+{
+    return state < parhelion_panel_states(panel) ? panel_info_state_name(panel->panel,
+                                                                         (int)state) : NULL;
+}
+
+/* ---- lists ------------------------------------------------------------------------------- */
 
 #define LIST_MAX PANEL_INFO_WAVELENGTHS_MAX /* the longest */
 

@@ -85,6 +85,21 @@ PARHELION_PANEL_API int parhelion_panel_open_memory_level(const void *bytes, siz
                                                           int level, ParhelionPanel **panel,
                                                           char *error, size_t error_size);
 
+/* Any of these. A file may hold a display in several states, such as private and shared, each
+ * with light of its own; the others open the first. */
+typedef struct ParhelionPanelFile {
+    size_t      size;       /* sizeof(ParhelionPanelFile), by the caller */
+    const char *path;       /* NULL: bytes */
+    const void *bytes;
+    size_t      byte_count;
+    const char *state;      /* its name; NULL: the first. REFUSED with the names there are where
+                               the file has none of this name */
+    int         level;      /* as above */
+} ParhelionPanelFile;
+PARHELION_PANEL_API int parhelion_panel_open_file(const ParhelionPanelFile *file,
+                                                  ParhelionPanel **panel, char *error,
+                                                  size_t error_size);
+
 PARHELION_PANEL_API void parhelion_panel_close(ParhelionPanel *panel); /* NULL is fine */
 
 /* ---- what it holds ----------------------------------------------------------------------- */
@@ -128,6 +143,13 @@ PARHELION_PANEL_API int parhelion_panel_info(const ParhelionPanel *panel,
 
 /* The finest level of its trees, as they are read. */
 PARHELION_PANEL_API int parhelion_panel_level(const ParhelionPanel *panel);
+
+/* How many states its file has; 0: one, without a name. Which of them this is, from 0, and the
+ * name of each, the panel's own text; NULL: there is none. */
+PARHELION_PANEL_API size_t parhelion_panel_states(const ParhelionPanel *panel);
+PARHELION_PANEL_API size_t parhelion_panel_state(const ParhelionPanel *panel);
+PARHELION_PANEL_API const char *parhelion_panel_state_name(const ParhelionPanel *panel,
+                                                           size_t state);
 
 typedef enum ParhelionPanelList {
     PARHELION_PANEL_RED_LEVELS = 0,

@@ -60,6 +60,12 @@ class _Questions(ctypes.Structure):
                 ("wavelengths", ctypes.c_size_t), ("nm", FLOATS)]
 
 
+class _File(ctypes.Structure):
+    _fields_ = [("size", ctypes.c_size_t), ("path", ctypes.c_char_p),
+                ("bytes", ctypes.c_char_p), ("byte_count", ctypes.c_size_t),
+                ("state", ctypes.c_char_p), ("level", ctypes.c_int)]
+
+
 WIDTH = {"place": 2, "viewer": 3, "light": 3, "code": 3, "random": 3}
 
 
@@ -92,9 +98,12 @@ def _declared(library):
     panel, questions = ctypes.c_void_p, ctypes.POINTER(_Questions)
     library.parhelion_panel_version.restype = ctypes.c_char_p
     into = [ctypes.c_int, ctypes.POINTER(panel), ctypes.c_char_p, ctypes.c_size_t]
-    library.parhelion_panel_open_level.argtypes = [ctypes.c_char_p, *into]
-    library.parhelion_panel_open_memory_level.argtypes = [ctypes.c_char_p, ctypes.c_size_t,
-                                                          *into]
+    library.parhelion_panel_open_file.argtypes = [ctypes.POINTER(_File), *into[1:]]
+    for name in ("states", "state"):
+        getattr(library, f"parhelion_panel_{name}").restype = ctypes.c_size_t
+        getattr(library, f"parhelion_panel_{name}").argtypes = [panel]
+    library.parhelion_panel_state_name.restype = ctypes.c_char_p
+    library.parhelion_panel_state_name.argtypes = [panel, ctypes.c_size_t]
     library.parhelion_panel_level.argtypes = [panel]
     library.parhelion_panel_close.restype = None
     library.parhelion_panel_close.argtypes = [panel]
@@ -139,26 +148,40 @@ def _array(name, value, width):
 
 
 class Panel:
-    """An open panel file, or the bytes of one. level: its trees are read down to that level
+    """An open panel file, or the bytes of one. state: of a file of several, its name; None:
+    the first. level: its trees are read down to that level
     alone, from 0, the coarsest; None: whole. Raises PanelError, or MemoryError where there is
     not enough memory."""
 
-    def __init__(self, source, level=None):
+    def __init__(self, source, level=None, state=None):
         self._panel = None
         library, error = _library(), ctypes.create_string_buffer(2048)
         panel = ctypes.c_void_p()
         if level is not None and not 0 <= level <= LEVEL_MOST:
             raise PanelError(f"level is {level}, 0 to {LEVEL_MOST} required")
-        into = (WHOLE if level is None else level, ctypes.byref(panel), error, len(error))
+        file = _File(size=ctypes.sizeof(_File), level=WHOLE if level is None else level,
+                     state=None if state is None else state.encode())
         if isinstance(source, (bytes, bytearray)):
-            status = library.parhelion_panel_open_memory_level(bytes(source), len(source),
-                                                               *into)
+            file.bytes, file.byte_count = bytes(source), len(source)
         else:
-            status = library.parhelion_panel_open_level(os.fsencode(source), *into)
+            file.path = os.fsencode(source)
+        status = library.parhelion_panel_open_file(ctypes.byref(file), ctypes.byref(panel),
+                                                   error, len(error))
         if status:
             words = error.value.decode("utf-8", "replace")
             raise MemoryError(words) if status == NO_MEMORY else PanelError(words)
         self._panel = panel.value
+
+    def states(self):
+        """Names of the states of its file, in their order; [] where it has one alone."""
+        library, panel = _library(), self._open()
+        return [library.parhelion_panel_state_name(panel, i).decode()
+                for i in range(library.parhelion_panel_states(panel))]
+
+    def state(self):
+        """The name of the one that it is; None where its file has one alone."""
+        names = self.states()
+        return names[_library().parhelion_panel_state(self._open())] if names else None
 
     def close(self):
         """Frees the panel; it cannot be asked afterwards."""

@@ -249,6 +249,41 @@ def check_levels(report, program, panel):
     report.claim("level" in refusal(lambda: Panel(PANEL, level=-1)), "level -1 is read")
 
 
+def check_states(report, program, folder):
+    """Each state is the panel that it was, by its name; a file of one has no names."""
+    from parhelion_panel import Panel
+    path, other = os.path.join(folder, "two.panel"), panels.shipped("oled_centre")
+    done = subprocess.run([program, "panel", "join", f"shared={PANEL}", f"private={other}",
+                           "-o", path], capture_output=True, text=True, timeout=120)
+    report.claim(done.returncode == 0, f"join: {done.stderr}")
+    with open(path, "rb") as file:
+        data = file.read()
+    to, white = Questions(50, 2).viewer, [255, 255, 255]
+    for source in (path, data):
+        for state, alone in ((None, PANEL), ("shared", PANEL), ("private", other)):
+            with Panel(source, state=state) as panel, Panel(alone) as single:
+                report.claim(panel.states() == ["shared", "private"]
+                             and panel.state() == (state or "shared")
+                             and single.states() == [] and single.state() is None,
+                             f"{state}: {panel.states()}, {panel.state()}")
+                report.claim(numpy.array_equal(panel.emission_xyz(to, white),
+                                               single.emission_xyz(to, white)),
+                             f"{state} shines otherwise than alone")
+                # As the program reads it.
+                told = json.loads(subprocess.run(
+                    [program, "panel", "eval", path + (f"#{state}" if state else ""), "--theta",
+                     "30", "--phi", "0", "--rgb", "255,255,255", "--json"],
+                    capture_output=True, text=True, timeout=60).stdout)
+                found = panel.emission_xyz([0.5, 0, numpy.sqrt(0.75)], white)
+                report.claim(numpy.allclose(found, told["XYZ"], rtol=1e-5),
+                             f"{state}: {found}, the program {told['XYZ']}")
+    for call, words in ((lambda: Panel(path, state="odd"), "required: shared, private"),
+                        (lambda: Panel(PANEL, state="private"), "this file has one only"),
+                        (lambda: Panel(path, state=""), "has no state ''")):
+        said = refusal(call)
+        report.claim(words in said, f"a wrong state: {said}")
+
+
 def check_measured(report, panel):
     q, info = Questions(400, 6), panel.info()
     told = panel.emission_xyz(q.viewer, q.code, measured=True)[1]
@@ -319,6 +354,7 @@ def main():
                            ("oled_centre", [20, 200, 10]), ("oled_centre", [0] * 3)):
             check_emission_draws(report, name, code)
         check_levels(report, os.path.join(build, "parhelion"), panel)
+        check_states(report, os.path.join(build, "parhelion"), folder)
         check_measured(report, panel)
         check_example(report, folder)
         tell_costs(panel)

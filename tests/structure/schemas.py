@@ -161,8 +161,22 @@ WRONG_MANIFESTS = [("emission/black", None), ("emission/red", {}), ("emission/re
                    ("uniformity", {"file": "map.csv", "bend_deg": 180}),
                    ("uniformity", {"file": "map.csv", "camera_mm": 1}),
                    ("uniformity", {"file": "map.csv", "white": "map.csv"}),
+                   ("states", {}), ("states", []),
+                   ("states", {"a": {"emission": {"white": "emission/black.csv"}},
+                               "b": {"emission": {"white": "emission/black.csv"}}}),
                    ("pixels", [9.5, 4]), *WRONG_SUBPIXELS, *WRONG_ZONES,
                    ("size_mm", None)]
+WRONG_STATES = [("emission", {"white": "emission/black.csv"}), ("states/private", None),
+                ("states/private", {}), ("states/private", 3),
+                ("states/private/emission", None), ("states/private/emission", {}),
+                ("states/private/emision", 1),
+                ("states/a b", {"emission": {"white": "emission/black.csv"}}),
+                ("states/" + 32 * "a", {"emission": {"white": "emission/black.csv"}}),
+                ("states/private/polarisation", {"degree": 2, "azimuth_deg": 0}),
+                ("states/private/polarisation", {"degree": 1}),
+                ("states/private/uniformity", {}), ("states/private/primaries", 1),
+                ("states/private/spots", []), ("states/private/reflection", {}),
+                ("spots", [{"position": [0, 0], "emission": {"white": "emission/black.csv"}}])]
 WRONG_PROFILES = [("title", None), ("title", ""), ("limit", []), ("veil", "yes"),
                   ("ambient", None), ("ambient/night_below_lx", -1),
                   ("ambient/dusk_below_lx", 3), ("limits", None), ("limits", {}),
@@ -273,6 +287,13 @@ def check_formats(report, program, folder, schema_of):
         report.claim(manifest[key] == RECIPE[key],
                      f"the manifest does not say the recipe's {key}")
     check_format(report, sets, manifest, WRONG_MANIFESTS,
+                 trying("panel", "fit", "DOCUMENT", "-o", "FOLDER/a.panel"))
+    emission = manifest["emission"]
+    of_states = {**{key: value for key, value in manifest.items() if key != "emission"},
+                 "states": {"shared": {"emission": emission},
+                            "private": {"emission": emission,
+                                        "polarisation": {"degree": 0.5, "azimuth_deg": 0}}}}
+    check_format(report, sets, of_states, WRONG_STATES,
                  trying("panel", "fit", "DOCUMENT", "-o", "FOLDER/a.panel"))
     with open(os.path.join(folder, "m01.txt"), "w", encoding="utf-8") as file:
         file.write("0;0;1,5;2;1\n5;0;1;2,5;1\n5;90;1;2;1\n5;180;1;2;1\n5;270;1;2,5;1\n")

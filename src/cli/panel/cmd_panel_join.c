@@ -7,18 +7,17 @@
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
 #include "panel/fit/panel_states.h"
-
-#define STATES_MOST 16
-#define NAME_MOST 31
+#include "panel/query/panel_info.h"
 
 /* NAME=FILE.panel */
 static bool split(const char *argument, Arena *arena, PanelStateFile *out, Error *err)
 {
     const char *sign = strchr(argument, '=');
     size_t      length = sign ? (size_t)(sign - argument) : 0;
-    if (!length || length > NAME_MOST || !sign[1])
+    if (!length || length > PANEL_INFO_STATE_NAME_MAX || !sign[1])
         return error_set(err, ERROR_USAGE, "\"%.80s\", required: NAME=FILE.panel, with a name "
-                         "of 1 to %d letters, digits, '-' and '_'", argument, NAME_MOST);
+                         "of 1 to %d letters, digits, '-' and '_'", argument,
+                         PANEL_INFO_STATE_NAME_MAX);
     *out = (PanelStateFile){arena_string(arena, argument, length), sign + 1};
     return true;
 }
@@ -26,10 +25,8 @@ static bool split(const char *argument, Arena *arena, PanelStateFile *out, Error
 /* Names as the file has them, each another. */
 static bool check_names(const PanelStateFile *states, int count, Error *err)
 {
-    static const char PLAIN[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                "0123456789-_";
     for (int i = 0; i < count; i++) {
-        if (states[i].name[strspn(states[i].name, PLAIN)])
+        if (!panel_info_is_state_name(states[i].name))
             return error_set(err, ERROR_USAGE, "state '%s', required: a name of letters, "
                              "digits, '-' and '_'", states[i].name);
         for (int k = 0; k < i; k++)
@@ -43,8 +40,8 @@ static bool check_names(const PanelStateFile *states, int count, Error *err)
 static Outcome run_join(int argc, char **argv, Arena *arena, Error *err)
 {
     Cli            cli;
-    const char    *output = NULL, *paths[STATES_MOST];
-    PanelStateFile states[STATES_MOST];
+    const char    *output = NULL, *paths[PANEL_INFO_STATES_MAX];
+    PanelStateFile states[PANEL_INFO_STATES_MAX];
     const Option options[] = {
         {"-o", OPTION_TEXT, "X.panel", "the file of all states", &output,
          .file = OPTION_OUTPUT},
@@ -52,7 +49,7 @@ static Outcome run_join(int argc, char **argv, Arena *arena, Error *err)
     const CliCommand command = {"panel join", "the states of one display to one panel file",
         "NAME=FILE.panel NAME=FILE.panel ... -o X.panel",
         "parhelion panel join shared=open.panel private=narrow.panel -o screen.panel", options,
-        COUNT_OF(options), 2, STATES_MOST};
+        COUNT_OF(options), 2, PANEL_INFO_STATES_MAX};
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
     if (cli.help_shown) return OUTCOME_DONE;
     if (!output) return outcome_of(error_set(err, ERROR_USAGE, "panel join wants -o X.panel"));

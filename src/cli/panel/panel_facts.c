@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "cli/options/answer.h"
 #include "cli/panel/panel_question.h"
+#include "cli/panel/state_print.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_place.h"
@@ -518,6 +519,7 @@ static void print_text(const json_t *report)
           json_string_value(json_object_get(report, "instrument")));
     print_verdict(report);
     print_facts(report);
+    state_print(report);
     print_choices("emission", json_object_get(report, "emission"));
     print_choices("reflection", json_object_get(report, "reflection"));
     json_array_foreach(json_object_get(report, "notes"), i, value)

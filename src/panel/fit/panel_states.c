@@ -33,24 +33,24 @@ static size_t rounded(size_t size)
 }
 
 /* The first file's sections, moved behind a longer table of contents, then the states. */
-static unsigned char *join(const PanelStateStored *names, const FileBytes *files, int count,
-                           Arena *arena, size_t *size)
+static unsigned char *join(const PanelStateStored *names, const PanelStateBytes *states,
+                           int count, Arena *arena, size_t *size)
 {
     PanelHeader  header;
     PanelSection section[PANEL_SECTIONS_MAX + PANEL_STATES_MAX];
-    memcpy(&header, files[0].data, sizeof header);
+    memcpy(&header, states[0].file.data, sizeof header);
     size_t own = header.section_count;
     size_t old_front = rounded(sizeof header + own * sizeof *section);
     size_t front = rounded(sizeof header + (own + (size_t)count) * sizeof *section);
-    size_t at = front + rounded(files[0].size - old_front);
-    memcpy(section, files[0].data + sizeof header, own * sizeof *section);
+    size_t at = front + rounded(states[0].file.size - old_front);
+    memcpy(section, states[0].file.data + sizeof header, own * sizeof *section);
     for (size_t i = 0; i < own; i++) section[i].offset += front - old_front;
     section[own] = (PanelSection){PANEL_STATES, 0, (uint32_t)count * sizeof *names, at};
     at += (size_t)count * sizeof *names;
     for (int i = 1; i < count; i++) {
         section[own + (size_t)i] = (PanelSection){PANEL_STATE_FILE, (uint16_t)i,
-                                                  (uint32_t)files[i].size, at};
-        at += rounded(files[i].size);
+                                                  (uint32_t)states[i].file.size, at};
+        at += rounded(states[i].file.size);
     }
     *size = at;
     if (at > PANEL_FILE_BYTES_MAX) return NULL;
@@ -58,10 +58,10 @@ static unsigned char *join(const PanelStateStored *names, const FileBytes *files
     header.section_count = (uint32_t)own + (uint32_t)count;
     header.size = at;
     memcpy(out + sizeof header, section, header.section_count * sizeof *section);
-    memcpy(out + front, files[0].data + old_front, files[0].size - old_front);
+    memcpy(out + front, states[0].file.data + old_front, states[0].file.size - old_front);
     memcpy(out + section[own].offset, names, (size_t)count * sizeof *names);
     for (int i = 1; i < count; i++)
-        memcpy(out + section[own + (size_t)i].offset, files[i].data, files[i].size);
+        memcpy(out + section[own + (size_t)i].offset, states[i].file.data, states[i].file.size);
     memcpy(out, &header, sizeof header);
     size_t from = offsetof(PanelHeader, size);
     header.checksum = XXH3_64bits(out + from, at - from);
@@ -69,24 +69,20 @@ static unsigned char *join(const PanelStateStored *names, const FileBytes *files
     return out;
 }
 
-bool panel_states_join(const PanelStateFile *states, int count, const char *path, Arena *arena,
-                       Error *err)
+bool panel_states_write(const PanelStateBytes *states, int count, const char *path,
+                        Arena *arena, Error *err)
 {
     PanelStateStored names[PANEL_STATES_MAX] = {{""}};
-    FileBytes        files[PANEL_STATES_MAX];
     size_t           size;
-    for (int i = 0; i < count; i++) {
-        ARENA_NEW(arena, uint64_t, 0); /* the next bytes are aligned as a panel needs it */
-        if (!read_state(&states[i], arena, &files[i], err)) return false;
+    PanelHeader      header;
+    for (int i = 0; i < count; i++)
         strncpy(names[i].name, states[i].name, sizeof names[i].name - 1);
-    }
-    PanelHeader header;
-    memcpy(&header, files[0].data, sizeof header);
+    memcpy(&header, states[0].file.data, sizeof header);
     if (header.section_count + (uint32_t)count > PANEL_SECTIONS_MAX)
-        return error_at(err, ERROR_INPUT, states[0].path, "", "has %u sections, required: %d "
+        return error_at(err, ERROR_INPUT, path, "", "would have %u sections, required: %d "
                         "at most beside %d states", header.section_count,
                         PANEL_SECTIONS_MAX - count, count);
-    unsigned char *bytes = join(names, files, count, arena, &size);
+    unsigned char *bytes = join(names, states, count, arena, &size);
     if (!bytes)
         return error_at(err, ERROR_INPUT, path, "", "would have %zu bytes, required: %zu at "
                         "most", size, PANEL_FILE_BYTES_MAX);
@@ -96,4 +92,16 @@ bool panel_states_join(const PanelStateFile *states, int count, const char *path
               file_write(path, bytes, size, err);
     arena_release(&scratch);
     return ok;
+}
+
+bool panel_states_join(const PanelStateFile *states, int count, const char *path, Arena *arena,
+                       Error *err)
+{
+    PanelStateBytes read[PANEL_STATES_MAX];
+    for (int i = 0; i < count; i++) {
+        read[i].name = states[i].name;
+        ARENA_NEW(arena, uint64_t, 0); /* the next bytes are aligned as a panel needs it */
+        if (!read_state(&states[i], arena, &read[i].file, err)) return false;
+    }
+    return panel_states_write(read, count, path, arena, err);
 }

@@ -11,11 +11,22 @@
 #pragma once
 #include "base/arena.h"
 #include "base/error.h"
+#include "base/file.h"
 
 typedef struct PanelStateFile {
     const char *name, *path;
 } PanelStateFile;
 
-/* Writes `path`, of 2 to 16 states. */
+/* A state's panel file in memory. */
+typedef struct PanelStateBytes {
+    const char *name;
+    FileBytes   file;
+} PanelStateBytes;
+
+/* Writes `path`, of 2 to 16 states, each a panel file of one state. */
+bool panel_states_write(const PanelStateBytes *states, int count, const char *path,
+                        Arena *arena, Error *err);
+
+/* The same of files. */
 bool panel_states_join(const PanelStateFile *states, int count, const char *path, Arena *arena,
                        Error *err);

@@ -33,6 +33,12 @@ bool panel_info_has_hulls(const Panel *panel);
 int         panel_info_states(const Panel *panel, int *state);
 const char *panel_info_state_name(const Panel *panel, int i);
 
+#define PANEL_INFO_STATES_MAX 16
+#define PANEL_INFO_STATE_NAME_MAX 31 /* bytes */
+
+/* 1 to so many letters, digits, '-' and '_'? */
+bool panel_info_is_state_name(const char *name);
+
 /* ---- emission -------------------------------------------------------------------------- */
 
 /* Something was measured that it emits? */

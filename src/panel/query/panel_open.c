@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "hemisphere/tree/tree_stop.h"
 #include "panel/query/panel_emission.h"
+#include "panel/query/panel_info.h"
 #include "panel/query/panel_open_emission.h"
 #include "panel/query/panel_open_reflection.h"
 #include "panel/query/panel_opened.h"
@@ -455,15 +456,10 @@ _Static_assert(sizeof(PanelStateStored) == 32, "the file's layout");
 
 static bool is_state_name(const PanelStateStored *stored)
 {
-    size_t length = strnlen(stored->name, sizeof stored->name);
-    if (!length || length == sizeof stored->name) return false;
-    for (size_t i = 0; i < sizeof stored->name; i++) {
-        char c = stored->name[i];
-        bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                        (c >= '0' && c <= '9') || c == '-' || c == '_';
-        if (i < length ? !is_plain : c != 0) return false;
-    }
-    return true;
+    static const PanelStateStored zeros;
+    size_t length = strnlen(stored->name, sizeof *stored);
+    return length < sizeof *stored && panel_info_is_state_name(stored->name) &&
+           !memcmp(stored->name + length, zeros.name, sizeof zeros - length);
 }
 
 /* Names and how many there are; 0: the file has none. */
@@ -545,26 +541,31 @@ bool panel_open_memory(const void *data, size_t size, const char *name, Arena *a
 
 /* A copy, not a mapping: a file that shrinks under a mapping kills the process, and one that
  * changes would be queried unchecked. */
-bool panel_open(const char *path, Arena *arena, Panel **out, Error *err)
+bool panel_open_named(const char *file, const char *state, Arena *arena, Panel **out,
+                      Error *err)
 {
-    Arena        copy = arena_reserve(PANEL_FILE_BYTES_MAX + 4096);
-    FileBytes    bytes;
-    const char  *hash = strrchr(path, '#');
-    bool         has_state = hash && !file_exists(path);
-    PanelOpenArgs args = {.name = path};
-    if (has_state) {
-        args.name = arena_string(arena, path, (size_t)(hash - path));
-        args.state = arena_string(arena, hash + 1, strlen(hash + 1));
-    }
-    bool ok = file_read(args.name, PANEL_FILE_BYTES_MAX, &copy, &bytes, err);
-    args.data = ok ? bytes.data : NULL;
-    args.size = ok ? bytes.size : 0;
+    Arena         copy = arena_reserve(PANEL_FILE_BYTES_MAX + 4096);
+    FileBytes     bytes = {0};
+    bool          ok = file_read(file, PANEL_FILE_BYTES_MAX, &copy, &bytes, err);
+    PanelOpenArgs args = {bytes.data, bytes.size, file, state};
     if (!ok || !panel_open_state(&args, arena, out, err)) {
         arena_release(&copy);
         return false;
     }
     (*out)->copy = copy;
     return true;
+}
+
+const char *panel_open_file(const char *path, Arena *arena)
+{
+    const char *hash = strrchr(path, '#');
+    return hash && !file_exists(path) ? arena_string(arena, path, (size_t)(hash - path)) : path;
+}
+
+bool panel_open(const char *path, Arena *arena, Panel **out, Error *err)
+{
+    const char *file = panel_open_file(path, arena), *hash = strrchr(path, '#');
+    return panel_open_named(file, file == path ? NULL : hash + 1, arena, out, err);
 }
 
 void panel_close(Panel *panel)

@@ -17,6 +17,11 @@
  * state of X.panel, unless a file has that name; else a file of several states is its first. */
 bool panel_open(const char *path, Arena *arena, Panel **out, Error *err);
 
+/* What of such a path is the file's, and a state of that by its name (NULL: the first). */
+const char *panel_open_file(const char *path, Arena *arena);
+bool        panel_open_named(const char *file, const char *state, Arena *arena, Panel **out,
+                             Error *err);
+
 #define PANEL_FILE_BYTES_MAX ((size_t)256 << 20)
 
 /* The same for a file in memory, aligned to 8 bytes, which stays the caller's and must outlive

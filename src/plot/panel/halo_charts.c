@@ -11,6 +11,8 @@
 #define POINTS 201
 #define COLUMNS 240
 #define DARKEST 1e-4 /* of full: the map's colours begin there */
+#define REACH_MOST_MM 80.0 /* from the square's middle */
+#define REACH_STEP_MM 5.0
 
 static const double THETAS[] = {0, 30, 60}; /* degrees, along azimuth 45 */
 #define THETA_COUNT ((int)(sizeof THETAS / sizeof *THETAS))
@@ -31,15 +33,27 @@ static double value_at(const HaloSquare *halo, bool has_black, double mm, double
                      : halo_square_backlight(halo, mm);
 }
 
+/* To where the last of the curves leaves the chart, in whole steps; the square is on it. */
+static double reach_of(const HaloSquare *halo, const PlotData *s)
+{
+    double half = fmin(REACH_MOST_MM, 0.5 * panel_zones(s->source.panel)->size_mm[0]);
+    double least = value_at(halo, s->has_black, 0, 0) * DARKEST, reach = 0.5 * halo->side_mm;
+    for (int t = 0; t < (s->has_black ? THETA_COUNT : 1); t++)
+        for (int i = 0; i < POINTS; i++) {
+            double mm = half * i / (POINTS - 1);
+            if (value_at(halo, s->has_black, mm, THETAS[t]) > least) reach = fmax(reach, mm);
+        }
+    return fmin(half, REACH_STEP_MM * ceil(1.02 * reach / REACH_STEP_MM));
+}
+
 static void draw_curves(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
 {
     const PlotData *s = shown->data;
     HaloSquare      halo = halo_square_make(s->source.panel, canvas->arena);
-    double reach = 0.5 * panel_zones(s->source.panel)->size_mm[0], high = 0;
+    double reach = reach_of(&halo, s), high = 0;
     double mm[POINTS], (*value)[POINTS] = arena_alloc(canvas->arena, sizeof *value, 8,
                                                       THETA_COUNT);
     int    count = s->has_black ? THETA_COUNT : 1;
-    if (reach > 80) reach = 80;
     for (int t = 0; t < count; t++)
         for (int i = 0; i < POINTS; i++) {
             mm[i] = reach * i / (POINTS - 1);
