@@ -48,6 +48,7 @@ function targetOf(eye){
 function lookThrough(eye){
   state.through=eye;
   view.look(vector(eye.position),targetOf(eye),60);
+  tellLook();
 }
 function eyeCard(eye){
   var box=card(eye,eye.name,eye.why),fields=make('div',{'class':'fields'});
@@ -223,6 +224,7 @@ function save(){
 }
 function stem(){return data.model.replace(/\.[^.]*$/,'');}
 function fileName(){return stem()+'.equip.json';}
+function sceneName(){return stem()+'.equipped.gltf';}
 function quoted(word){return /^[\w.,\/-]+$/.test(word)?word:"'"+word.replace(/'/g,"'\\''")+"'";}
 
 /* A file that was saved is taken up again. */
@@ -260,8 +262,19 @@ function take(saved){
 }
 
 /* ---- all of it ---- */
+/* This page draws no light: the program shows what an eye sees. */
+function tellLook(){
+  var eye=state.eyes.includes(state.through)?state.through:state.eyes[0];
+  $('look').hidden=!eye;
+  $('look-say').textContent=eye?'This page draws the model without light. What "'+
+    shown(eye.name)+'" sees under an even cloud, a denoised preview, not for figures:':'';
+  if(eye)$('look').textContent=shown('parhelion render '+quoted(sceneName())+' --camera '+
+    quoted(eye.name)+' --environment constant:3183 --preview -o look.exr '+
+    '--png look.png');
+}
 function changed(){
   proposeForward();
+  tellLook();
   var missing=lacks(),left=data.materials.filter(function(m,id){
     return m.missing&&!state.as[id];
   }).length;
@@ -331,7 +344,7 @@ function fill(){
   $('own-displays').textContent=own.length?'Displays already: '+
     shown(own.join(', '))+'.':'';
   $('command').textContent=shown(data.command+' --with '+quoted(fileName())+
-    ' -o '+quoted(stem()+'.equipped.gltf'));
+    ' -o '+quoted(sceneName()));
   data.contents.forEach(function(c){
     pictures[c.name]=c;
     if(!c.picture)return;

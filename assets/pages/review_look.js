@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Look at a picture of a case: exposure, the displays' brightness, false colours with the value
-   under the cursor, the light as the eye spreads it. The picture is added up of its layers
+   under the cursor, the light as the eye spreads it. Where the frame is denoised the plain
+   picture shows that, labelled, and nothing else does: values are the frame's. The picture is added up of its layers
    (review_live.h) and shown as `parhelion develop` shows frames: assets/ocio/parhelion.ocio,
    view photographic. On paper, and without script, the frame's own picture stands there. */
 (function(){
@@ -56,11 +57,12 @@ function textsOf(picture){
   return scripts[name];
 }
 var loaded={};
-function layersOf(id,inEye){
-  var key=id+(inEye?'e':''),picture=t.data.pictures[id],count=picture.width*picture.height;
+var PLAIN=0,IN_EYE=2,CLEAN=4; /* first of both layers */
+function layersOf(id,first){
+  var key=id+':'+first,picture=t.data.pictures[id],count=picture.width*picture.height;
   if(!loaded[key])
     loaded[key]=textsOf(picture).then(function(texts){
-      return Promise.all(texts.slice(inEye?2:0,inEye?4:2).map(function(text){
+      return Promise.all(texts.slice(first,first+2).map(function(text){
         return layerOf(text,count);
       }));
     });
@@ -188,8 +190,9 @@ Look.prototype.build=function(){
   this.read.setAttribute('aria-live','polite');
   this.scale=scaleOf(this.picture);
   this.scale.hidden=true;
-  left.append(make('h3','',this.frame.querySelector('h3').textContent),this.view,this.read,
-    this.scale);
+  this.label=make('b','sub label',this.picture.label||'');
+  left.append(make('h3','',this.frame.querySelector('h3').textContent),this.view,this.label,
+    this.read,this.scale);
   this.addControls(right);
   this.answer=t.answer();
   right.append(this.answer);
@@ -258,19 +261,24 @@ Look.prototype.ask=function(){
   if(!this.isDrawn)return;
   this.isDrawn=false;
   requestAnimationFrame(function(){
-    layersOf(look.of.picture,!!look.eye&&look.eye.checked).then(function(layers){
-      look.isDrawn=true;
-      look.layers=layers;
-      look.draw();
-    });
+    var inEye=!!look.eye&&look.eye.checked,id=look.of.picture;
+    var isClean=!!look.picture.label&&!inEye&&!look.colours.checked;
+    Promise.all([layersOf(id,inEye?IN_EYE:PLAIN),isClean?layersOf(id,CLEAN):null])
+      .then(function(layers){
+        look.isDrawn=true;
+        look.layers=layers[0];
+        look.clean=layers[1];
+        look.draw();
+      });
   });
 };
 Look.prototype.draw=function(){
   var isFalse=this.colours.checked;
   if(isFalse)this.drawing.falseColours(this.layers,this.share());
-  else this.drawing.light(this.layers,this.share(),
+  else this.drawing.light(this.clean||this.layers,this.share(),
     0.18/this.picture.grey*Math.pow(2,this.exposure.get()));
   this.scale.hidden=!isFalse;
+  this.label.hidden=!this.clean;
   this.exposure.input.disabled=isFalse;
   this.canvas.dataset.drawn=(+this.canvas.dataset.drawn||0)+1;
   this.tell();
@@ -325,7 +333,7 @@ t.data.cases.forEach(function(of){
   if(!frame)return;
   t.whenSeen(frame,function(){
     var look=new Look(of,card,frame);
-    layersOf(of.picture,false).then(function(){look.build();look.ask();},function(){});
+    layersOf(of.picture,PLAIN).then(function(){look.build();look.ask();},function(){});
   });
 });
 })();

@@ -94,6 +94,17 @@ static bool make_page(EquipWords *words, Arena *arena, Error *err)
 
 /* ---- the scene --------------------------------------------------------------------------- */
 
+#define LOOK_LIGHT "constant:3183" /* 10,000 lx of even cloud, the ordinary day of its review */
+
+/* What the first eye sees, in a moment: the page draws the model without light. */
+static const char *look_command(const EquipResult *r, Arena *arena)
+{
+    return arena_format(arena,
+                        "parhelion render %s --camera %s --environment " LOOK_LIGHT
+                        " --preview -o look.exr --png look.png",
+                        escape_shell(r->scene, arena), escape_shell(r->first_eye, arena));
+}
+
 static bool print_result(const EquipWords *words, const EquipResult *r, Arena *arena,
                          Error *err)
 {
@@ -125,6 +136,7 @@ static bool print_result(const EquipWords *words, const EquipResult *r, Arena *a
               r->without_data == 1 ? "" : "s", escape_shell(r->scene, arena));
     if (r->review)
         print("next         parhelion review %s --dry-run\n", escape_shell(r->review, arena));
+    print("look         %s\n", look_command(r, arena));
     return true;
 }
 

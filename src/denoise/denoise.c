@@ -223,14 +223,25 @@ static float exposure_of(const Filtering *work)
 #define WEIGHTS "assets/denoise/rt_hdr_alb_nrm.tza"
 enum { WEIGHTS_BYTES_MAX = 64 << 20 };
 
-static bool read_weights(Arena *arena, Network *out, Error *err)
+static bool find_weights(char path[PATH_MAX], Error *err)
 {
     static const ProgramPart part = {"the denoiser's file of weights",
                                      "../../" WEIGHTS, INSTALLED_SHARE "/" WEIGHTS};
+    return program_find(&part, path, err) || error_in_file(err, path_name(WEIGHTS));
+}
+
+bool denoise_check(Error *err)
+{
+    char path[PATH_MAX];
+    return find_weights(path, err);
+}
+
+static bool read_weights(Arena *arena, Network *out, Error *err)
+{
     char      path[PATH_MAX];
     FileBytes bytes;
-    if (!program_find(&part, path, err)) return error_in_file(err, path_name(WEIGHTS));
-    return file_read(path, WEIGHTS_BYTES_MAX, arena, &bytes, err) &&
+    return find_weights(path, err) &&
+           file_read(path, WEIGHTS_BYTES_MAX, arena, &bytes, err) &&
            network_read(&(WeightFile){bytes.data, bytes.size, path}, arena, out, err);
 }
 

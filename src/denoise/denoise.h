@@ -25,6 +25,9 @@ typedef struct DenoiseReport {
     double left_share;   /* of the pixels that were not filtered: sky, not finite */
 } DenoiseReport;
 
+/* Whether the weights are there, before any work for a frame that will be filtered. */
+bool denoise_check(Error *err);
+
 /* The frame with other R, G, B; the rest is shared with it. */
 bool denoise_frame(const FrameImage *frame, int threads, Arena *arena, FrameImage *out,
                    DenoiseReport *report, Error *err);

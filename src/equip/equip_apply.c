@@ -405,6 +405,7 @@ static bool prepare(Applying *at, Error *err)
     at->result.review = equip_files_beside(&at->files, ".review.json");
     at->result.display_count = at->equip.display_count;
     at->result.eye_count = at->equip.eye_count;
+    at->result.first_eye = at->equip.eyes[0].name;
     at->result.material_count = at->equip.material_count;
     at->result.forward_is_proposed = at->equip.forward_is_proposed;
     memcpy(at->result.forward, at->equip.forward, sizeof at->result.forward);

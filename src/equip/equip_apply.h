@@ -25,6 +25,7 @@ typedef struct EquipResult {
     const char **copies;               /* beside the scene */
     int          copy_count;
     int          display_count, eye_count, material_count;
+    const char  *first_eye;  /* a camera of the scene */
     double       forward[3]; /* where the vehicle points */
     bool         forward_is_proposed;  /* from where the first eye looks */
     int          without_data; /* materials that still have none */

@@ -240,7 +240,7 @@ static const char *description(const DevelopReport *report, Arena *arena)
         return report->scale[0] ? arena_format(arena, "%s%s", eye, report->scale) : NULL;
     return arena_format(arena,
                         "%s%s%smiddle grey %.6g cd/m2 (EV %.3f), display %s, view %s, %s",
-                        report->is_denoised ? "denoised preview, not for figures; " : "",
+                        report->is_denoised ? DENOISED_WORDS "; " : "",
                         report->is_adapted ? "locally adapted, not for figures; " : "", eye,
                         report->grey_cd_m2, report->ev, report->display, report->view,
                         report->config);

@@ -17,6 +17,8 @@
 enum { DEVELOP_ADAPT_AUTO, DEVELOP_ADAPT_NONE, DEVELOP_ADAPT_LOCAL };
 #define ADAPT_FROM_STOPS 2.5
 
+#define DENOISED_WORDS "denoised preview, not for figures"
+
 /* {0} is the default. */
 typedef struct DevelopOptions {
     const char *exposure; /* NULL "auto"; see exposure.h */
@@ -28,7 +30,7 @@ typedef struct DevelopOptions {
     bool        false_colour; /* luminance on a logarithmic scale */
     double      range[2];     /* of false colours; both 0: what fits the frame */
     int         adapt;    /* DEVELOP_ADAPT_AUTO, _NONE or _LOCAL: adapt.h */
-    bool        is_denoised; /* the frame is a filtered one: noted with the picture */
+    bool        is_denoised; /* the frame is a filtered one: noted with the picture, by: */
     const char *eye;         /* as whose eye sees the frame, in words: noted as well */
     int         bits;     /* 0 or 8, or 16 */
     const char *frame_name; /* for messages about its layers; may be NULL */

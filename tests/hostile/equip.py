@@ -8,6 +8,7 @@ Without the shared data it is skipped.
 import glob
 import json
 import os
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -56,6 +57,19 @@ def check_equipped(report, program, folder, path, name):
         report.claim(done.returncode == 0, f"{name}, {line[0]}: {done.stdout} {done.stderr}")
 
 
+def check_look(report, program, folder, path, name):
+    """The line that is printed for looking through the first eye makes a labelled picture."""
+    said = run(program, folder, "equip", path, "--with", "e.json", "-o", "look.gltf").stdout
+    line = next((row for row in said.splitlines() if row.startswith("look ")), "look no")
+    words = shlex.split(line)[1:]
+    done = run(program, folder, *words[1:], "--size", "32x18", "--quiet")
+    with open(os.path.join(folder, "look.png"), "rb") as file:
+        picture = file.read()
+    report.claim(words[:3] == ["parhelion", "render", "look.gltf"] and "the eye" in words and
+                 done.returncode == 0 and b"denoised preview, not for figures" in picture,
+                 f"{name}: {line}: {done.stderr}")
+
+
 def check_page(report, program, folder, path, name):
     page = run(program, folder, "equip", path, "-o", "page.html")
     is_empty = "has no triangles" in page.stderr
@@ -75,6 +89,8 @@ def main(program):
             with open(os.path.join(folder, "e.json"), "w", encoding="utf-8") as file:
                 json.dump(EQUIP, file)
             (check_equipped if is_whole else check_refused)(report, program, folder, path, name)
+            if is_whole and taken == 1:
+                check_look(report, program, folder, path, name)
             if is_whole and taken % PAGES == 0:
                 check_page(report, program, folder, path, name)
     report.claim(taken > 20, f"only {taken} models were equipped")

@@ -28,6 +28,7 @@ PANEL = os.path.join(ROOT, "assets", "panels", "ips_cluster.panel")
 DEFAULT_PORT = 14158
 CREATE, UPDATE, DRAW = 4, 6, 8
 STROKE_COLOR, STROKE, BEGIN, RECTANGLE = 4, 5, 6, 18
+FILTERED = "denoised preview, not for figures."
 PICTURE = ["R", "G", "B", "error.Y"]  # what is shown more often than all layers
 LUMINANCE = {"R": 0.2126, "G": 0.7152, "B": 0.0722}
 SCREENS = ((-1.0, -0.1), (0.0, 0.9))  # from where to where, m
@@ -129,9 +130,11 @@ class Canvas:
                                                  f"{wanted[:200]}")
 
     def take_update(self, one):
-        """Of all channels, or of the picture's."""
+        """Of all channels, of the picture's, of the filtered one's or of all besides."""
         begin = 6 + len(text(self.image))
-        channels = next((some for some in (self.channels, PICTURE)
+        filtered = [name for name in self.channels if name.startswith(FILTERED)]
+        besides = [name for name in self.channels if name not in filtered]
+        channels = next((some for some in (besides, PICTURE, filtered)
                          if one[begin:].startswith(names(some))), [])
         place = begin + len(names(channels))
         if not channels or len(one) < place + 16:
@@ -300,6 +303,40 @@ def check_packets(work, frame, size, *options, of_halves=False, host="127.0.0.1"
         claim_error(work.report, canvas, picture, of_halves, what)
     work.report.claim("--tev" not in done.stderr, f"{what}: says {done.stderr[-300:]}")
     work.claim_finished(done, frame, f"watched, {what}")
+
+
+def check_denoised(work, size, *options):
+    """The filtered picture is a layer of its own, whose name says what it is not for, and the
+    last that is shown: nearer to a frame of many samples. The frame is the one of a render that
+    nobody watches."""
+    few = (*options, "--spp", "4", "--denoise", "--png", "p.png")
+    work.run(*options, "--spp", "400", "--quiet")
+    truth = Frame(work.path("frame.exr"))
+    frame = work.reference(*few)[0]
+    viewer = Viewer()
+    done = watched(work, viewer, *few)
+    data = viewer.end()
+    os.remove(work.path("p.png"))
+    picture = Frame(work.path("frame.exr"))
+    channels = shown_channels(data)
+    wanted = [FILTERED + letter for letter in "RGB"]
+    work.report.claim(channels[-3:] == wanted and
+                      sorted(channels[:-3]) == sorted(channels_of(picture)[1]),
+                      f"denoised: channels {channels}")
+    canvas = Canvas(work.report, "frame.exr", size, channels)
+    canvas.take(data)
+    work.report.claim(canvas.shown[-2:] == [len(channels) - 3, 3],
+                      f"denoised: channels shown {canvas.shown}")
+    for letter in "RGB":
+        before, after = canvas.pixels(letter), canvas.pixels(FILTERED + letter)
+        work.report.claim(bits(before) == bits(as_shown(picture, letter)),
+                          f"denoised: {letter} is not the frame's")
+        far = [sum(abs(a - b) for a, b in zip(shown, truth.channels[letter]))
+               for shown in (before, after)]
+        work.report.claim(abs(sum(after) / sum(before) - 1) < 0.05 and far[1] < 0.8 * far[0],
+                          f"denoised: {letter} has {sum(after) / sum(before)} of the light, "
+                          f"is {far[1]} from the truth, {far[0]} before")
+    work.claim_finished(done, frame, "watched, denoised")
 
 
 def check_layers_meanwhile(work, *options):
@@ -508,6 +545,7 @@ def main():
         part = (*plain[:3], "--samples", "3:9", "--crop", "5,4,41,30")
         check_packets(work, work.reference(*part)[0], size, *part)
         check_layers_meanwhile(work, *plain[:3], "--layers", "depth", "--spp", "1000000")
+        check_denoised(work, size, *plain[:3])
         check_resumed(work, work.reference(*halves, "--noise", "1e-9")[0], size, *halves)
         check_absent(work, frame, *small)
         large = ("--size", "320x240", "--layers", "all", "--spp", "1", "--no-guiding")

@@ -7,6 +7,7 @@ them is skipped. FOLDER: where screenshots go.
 import json
 import math
 import os
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -98,6 +99,11 @@ def check_page(report, page, name):
     report.claim(not foreign and len(files) == 1, f"{name}: asked for {foreign} {files}")
     report.claim(not page.run("document.querySelectorAll('#lacks li').length"),
                  f"{name}: the page still lacks something")
+    line = page.run("document.getElementById('look').innerText")
+    said = page.run("document.getElementById('look-say').innerText")
+    eye = equip(page)["eyes"][0]["name"]
+    report.claim(shlex.split(line)[3:5] == ["--camera", eye] and "not for figures" in said,
+                 f"{name}: to look by '{eye}': {line}, {said}")
     for width in (390, 1280):
         page.resize(width, 900)
         wide = page.run("document.documentElement.scrollWidth")

@@ -17,6 +17,7 @@
 #include "cli/render/render_request.h"
 #include "cli/render/render_resume.h"
 #include "cli/render/render_setup.h"
+#include "denoise/denoise.h"
 #include "film/film_frame.h"
 #include "image/light/radiance_picture.h"
 #include "job/job_isa.h"
@@ -123,10 +124,11 @@ static bool check_outputs(const RenderRequest *request, Error *err)
     return !request->png || file_check_writable(request->png, err);
 }
 
-/* A view that does not exist is found now, on a frame of one pixel, and a format whose library
- * cannot be loaded here. */
+/* A view that does not exist is found now, on a frame of one pixel, a format whose library
+ * cannot be loaded here, and a denoiser without weights. */
 static bool check_look(const RenderRequest *request, Arena scratch, Error *err)
 {
+    if (request->look.is_denoised && !denoise_check(err)) return false;
     if (!request->png) return true;
     FrameImage    frame = frame_create(1, 1, (ExrWindow){0, 0, 1, 1}, 3, 0, &scratch);
     Picture       picture;

@@ -4,8 +4,9 @@
  *
  * Time     between passes and tiles; how often, follows from what it took so far. A viewer
  *          gets R, G, B and error.Y first and for 4 thousandths of the time, and every layer
- *          for 2, as soon as these are enough; besides them the last frame, which has all and
- *          cannot be put off. The file is written at most every ten seconds and gets a
+ *          for 2, as soon as these are enough; with --denoise the filtered picture as a layer
+ *          more, for 2 hundredths; besides them the last frame, which has all and cannot be put
+ *          off. The file is written at most every ten seconds and gets a
  *          twentieth.
  *          viewer.h states how long a viewer may hold up the ends of a render.
  * Memory   scratch; and the viewer's queue until render_live_close.
@@ -26,7 +27,7 @@ typedef struct RenderLive {
     TevBox   *boxes;          /* of the displays in view */
     int       box_count;
     int       channel_count;  /* of the viewer's image; 0: not known yet */
-    TimeShare picture_time, layers_time, file_time;
+    TimeShare picture_time, layers_time, denoised_time, file_time;
     TimeShare *shown_time;    /* of what the viewer is being sent */
     double    file_written_s; /* when the file was last written; 0: never */
 } RenderLive;

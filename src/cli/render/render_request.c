@@ -352,7 +352,8 @@ static const char *resume_line(int argc, char **argv, bool resumes, Arena *arena
 
 #define LIVE_OPTIONS(request)                                                                  \
     {"--tev", OPTION_TEXT, "HOST[:PORT]",                                                      \
-     "show the frame meanwhile in a viewer that speaks tev's packets (default port 14158)",    \
+     "show the frame meanwhile in a viewer that speaks tev's packets (default port 14158); "   \
+     "with --denoise the filtered picture as well, as a layer",                                \
      &(request)->tev},                                                                         \
     {"--live", OPTION_TEXT, "FILE.exr",                                                        \
      "the frame so far, for any viewer: written anew about every ten seconds",                 \

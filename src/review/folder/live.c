@@ -9,6 +9,8 @@
 #include "base/mathd.h"
 #include "base/parallel.h"
 #include "base/units.h"
+#include "denoise/denoise.h"
+#include "image/develop.h"
 #include "image/exposure.h"
 #include "image/false_colour.h"
 #include "review/pace/work.h"
@@ -47,6 +49,25 @@ bool live_frame_split(const FrameImage *frame, Arena *arena, LiveFrame *out, Err
             out->displays.rgb[c][i] = shown;
             out->scene.rgb[c][i] = all[c][i] - shown;
         }
+    return true;
+}
+
+bool live_clean_split(const FrameImage *denoised, Arena *arena, LiveFrame *out, Error *err)
+{
+    const float *all[3], *fine[3];
+    if (!live_frame_split(denoised, arena, out, err)) return false;
+    const float *coverage = frame_channel(denoised, "display.coverage");
+    size_t       count = frame_pixel_count(denoised);
+    bool         has_fine = frame_rgb(denoised, "display.fine", fine);
+    frame_rgb(denoised, "", all);
+    for (size_t i = 0; i < count; i++) {
+        bool is_fine = has_fine && coverage[i] > 0 && isfinite(fine[0][i]) &&
+                       isfinite(fine[1][i]) && isfinite(fine[2][i]);
+        for (int c = 0; c < 3; c++) {
+            if (is_fine) out->displays.rgb[c][i] = fine[c][i];
+            out->scene.rgb[c][i] = fmaxf(all[c][i] - out->displays.rgb[c][i], 0);
+        }
+    }
     return true;
 }
 
@@ -118,7 +139,7 @@ bool live_frame_spread(LiveFrame *frame, double yfov_deg, HumanEye eye, int thre
 }
 
 #define LIVE_BYTES ((size_t)1 << 36)        /* address space: what is not touched is free */
-#define PICTURES_BYTES ((size_t)10 << 20)   /* of packed layers: more frames stay as they are */
+#define PICTURES_BYTES ((size_t)15 << 20)   /* of packed layers: more frames stay as they are */
 
 /* ---- pictures ---------------------------------------------------------------------------- */
 
@@ -176,6 +197,31 @@ static bool pack(const LiveFrame *frame, int threads, const char **scene, const 
     return ok;
 }
 
+static void shrink(LiveFrame *split, Arena *arena)
+{
+    split->scene = live_frame_shrink(&split->scene, LIVE_WIDTH, LIVE_HEIGHT, arena);
+    split->displays = live_frame_shrink(&split->displays, LIVE_WIDTH, LIVE_HEIGHT, arena);
+}
+
+/* The picture that the frame's own file shows. */
+static bool make_clean(const LiveArgs *args, const FrameImage *frame, LivePicture *out,
+                       Arena *arena, Error *err)
+{
+    Arena         scratch = arena_reserve(LIVE_BYTES);
+    FrameImage    denoised;
+    DenoiseReport unused;
+    LiveFrame     split;
+    bool ok = denoise_frame(frame, args->threads, &scratch, &denoised, &unused, err) &&
+              live_clean_split(&denoised, &scratch, &split, err);
+    if (ok) {
+        shrink(&split, &scratch);
+        out->label = DENOISED_WORDS;
+        ok = pack(&split, args->threads, &out->clean_scene, &out->clean_displays, arena, err);
+    }
+    arena_release(&scratch);
+    return ok;
+}
+
 static bool make_layers(const LiveArgs *args, const FrameImage *frame, LivePicture *out,
                         Arena *arena, Error *err)
 {
@@ -185,8 +231,7 @@ static bool make_layers(const LiveArgs *args, const FrameImage *frame, LivePictu
     HumanEye  eye = args->request->observer;
     bool      ok = live_frame_split(frame, &scratch, &split, err);
     if (ok) {
-        split.scene = live_frame_shrink(&split.scene, LIVE_WIDTH, LIVE_HEIGHT, &scratch);
-        split.displays = live_frame_shrink(&split.displays, LIVE_WIDTH, LIVE_HEIGHT, &scratch);
+        shrink(&split, &scratch);
         out->width = split.scene.width;
         out->height = split.scene.height;
         ok = pack(&split, args->threads, &out->scene, &out->displays, arena, err);
@@ -213,7 +258,10 @@ static bool make_picture(const LiveArgs *args, const char *name, LivePicture *ou
     bool ok = frame_read(path, &scratch, &frame, err);
     if (ok) {
         look_at(&frame, out, scratch);
-        ok = make_layers(args, &frame, out, arena, err) || error_in_file(err, path);
+        ok = (make_layers(args, &frame, out, arena, err) &&
+              (!args->request->frames.is_denoised ||
+               make_clean(args, &frame, out, arena, err))) ||
+             error_in_file(err, path);
     }
     arena_release(&scratch);
     return ok;
@@ -221,9 +269,10 @@ static bool make_picture(const LiveArgs *args, const char *name, LivePicture *ou
 
 static size_t packed_size(const LivePicture *p)
 {
-    const char *layers[4] = {p->scene, p->displays, p->eye_scene, p->eye_displays};
+    const char *layers[6] = {p->scene,        p->displays,    p->eye_scene,
+                             p->eye_displays, p->clean_scene, p->clean_displays};
     size_t      size = 0;
-    for (int i = 0; i < 4; i++) size += layers[i] ? strlen(layers[i]) : 0;
+    for (int i = 0; i < 6; i++) size += layers[i] ? strlen(layers[i]) : 0;
     return size;
 }
 

@@ -4,12 +4,13 @@
  *
  * A frame is divided into what displays emit to the eye and the rest; both are made smaller
  * (means of areas) to LIVE_WIDTH x LIVE_HEIGHT at most, and both are spread as in the
- * observer's eye. What a display's light does in the cabin stays with the rest, at the level of
+ * observer's eye. Where the request has frames denoised, the denoised frame is divided too, for
+ * the picture alone: values, false colours and the eye's view are of the frame itself. What a display's light does in the cabin stays with the rest, at the level of
  * the frame.
  *
  * Memory   what is packed lives in the arena; scratch: a frame with all its channels, and the
- *          eye filter's.
- * Threads  the eye filter's; the same bytes for any count.
+ *          filters'.
+ * Threads  the filters'; the same bytes for any count.
  * Fails    when a frame cannot be read, or memory is out.
  */
 #pragma once
@@ -34,6 +35,10 @@ typedef struct LiveFrame {
 
 /* Needs display.emitted and display.coverage. */
 bool live_frame_split(const FrameImage *frame, Arena *arena, LiveFrame *out, Error *err);
+
+/* Of a denoised frame: displays are what it was given of their light, display.fine where the
+ * frame has it; the rest, which is filtered, is at least 0. */
+bool live_clean_split(const FrameImage *denoised, Arena *arena, LiveFrame *out, Error *err);
 
 /* At most so large, as it is or smaller: each pixel is the mean over its area. */
 LivePlanes live_frame_shrink(const LivePlanes *planes, int width, int height, Arena *arena);

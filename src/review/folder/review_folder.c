@@ -9,6 +9,8 @@
 #include "base/machine.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "denoise/denoise.h"
+#include "image/develop.h"
 #include "render/render.h"
 #include "review/run/frames.h"
 #include "review/folder/live.h"
@@ -53,7 +55,9 @@ static bool open_responses(ReviewFolder *folder, Arena *arena, Error *err)
 
 bool review_folder_open(ReviewFolder *folder, Arena *arena, Problems *problems, Error *err)
 {
+    const ReviewFrames *frames = &folder->request->frames;
     folder->begun_s = monotonic_seconds();
+    if (frames->worst && frames->is_denoised && !denoise_check(err)) return false;
     if (!read_earlier(folder, arena, err) ||
         !review_draft_open(folder->target, arena, problems, &folder->draft, err))
         return false;
@@ -170,6 +174,12 @@ static void add_picture(PictureList *list, ReviewPicture picture, Arena *arena)
     list->at[list->count++] = picture;
 }
 
+/* Of the frames' pictures. */
+static const char *label_of(const ReviewFolder *folder)
+{
+    return folder->request->frames.is_denoised ? DENOISED_WORDS : NULL;
+}
+
 static void add_case_pictures(const ReviewFolder *folder, const ReviewCase *c,
                               PictureList *list, Arena *arena)
 {
@@ -178,6 +188,7 @@ static void add_case_pictures(const ReviewFolder *folder, const ReviewCase *c,
         const char   *name = frame_view(c->frame, view, arena);
         ReviewPicture picture = {.of = c, .title = VIEWS[view].title,
                                  .caption = VIEWS[view].caption,
+                                 .label = view == FRAME_PICTURE ? label_of(folder) : NULL,
                                  .is_frame = view == FRAME_PICTURE,
                                  .view = view == FRAME_PICTURE ? c->view : NULL,
                                  .file = arena_format(arena, "%s/%s", folder->name, name),
@@ -232,6 +243,7 @@ static void set_pair(const ReviewFolder *folder, const ReviewVariantFound *v,
     for (int i = 0; i < 2; i++) {
         pair[i].file = arena_format(arena, "%s/%s", folder->name, names[i]);
         pair[i].beside = folder->is_self_contained ? NULL : names[i];
+        pair[i].label = label_of(folder);
         pair[i].caption = arena_format(arena, "%s, %s%s", v->seen->condition, v->seen->eye,
                                        i ? ", exposed as the other" : "");
     }

@@ -42,9 +42,9 @@ typedef struct ReviewFolder {
 /* Sets where responses are. */
 void review_folder_responses(ReviewFolder *folder, Arena *arena);
 
-/* Before the work: makes it and what is in it, sees that it can be written, and reads the
- * earlier review, which may lie in the same folder. What it made is gone again when it fails.
- */
+/* Before the work: makes it and what is in it, sees that it can be written and that frames can
+ * be denoised, and reads the earlier review, which may lie in the same folder. What it made is
+ * gone again when it fails. */
 bool review_folder_open(ReviewFolder *folder, Arena *arena, Problems *problems, Error *err);
 
 /* After a failure: what was found is kept; the folders that were made go as far as they are

@@ -231,9 +231,10 @@ static void set_sweeps(Packer *to, json_t *document)
 
 static json_t *layers_json(const LivePicture *p)
 {
-    const char *layers[4] = {p->scene, p->displays, p->eye_scene, p->eye_displays};
+    const char *layers[6] = {p->scene,        p->displays,    p->eye_scene,
+                             p->eye_displays, p->clean_scene, p->clean_displays};
     json_t     *list = json_array();
-    for (int i = 0; i < 4; i++)
+    for (int i = 0; i < (p->clean_scene ? 6 : 4); i++)
         json_array_append_new(list, json_string_nocheck(layers[i] ? layers[i] : ""));
     return list;
 }
@@ -244,6 +245,7 @@ static json_t *picture_json(const LivePicture *p)
         "{s:s, s:i, s:i, s:f, s:f, s:f, s:f, s:f, s:b}", "frame", p->frame, "width", p->width,
         "height", p->height, "grey", p->grey_cd_m2, "low", p->low, "high", p->high, "age",
         p->age_years, "pigment", p->pigment, "eye", p->eye_scene != NULL);
+    if (p->clean_scene) page_set(out, "label", p->label);
     if (p->beside) page_set(out, "script", p->beside);
     else json_object_set_new(out, "layers", layers_json(p));
     return out;

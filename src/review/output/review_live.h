@@ -6,7 +6,8 @@
  * A sweep's luminances, levels and illuminances are 16 bits of a logarithm, within 0.03 %.
  *
  * A picture is a sum: its light without what displays emit to the eye, and that, which goes
- * with their brightness; both again as the eye spreads them. Each is a layer of 4 bytes a pixel
+ * with their brightness; both again as the eye spreads them, and as they are shown where the
+ * frame is denoised. Each is a layer of 4 bytes a pixel
  * in the manner of LogLuv (Larson 1998, "LogLuv encoding for full-gamut, high-dynamic range
  * images"): the logarithm of the luminance in 4095 steps from 1e-5 to 1e10 cd m^-2, within
  * LIVE_LAYER_ERROR, and CIE 1976 u', v' in steps of 1/410.
@@ -62,6 +63,9 @@ typedef struct LivePicture {
     int         width, height;
     const char *scene, *displays;         /* packed layers */
     const char *eye_scene, *eye_displays; /* as an eye spreads them; NULL: not known */
+    const char *clean_scene, *clean_displays; /* without most of the noise: what the picture
+                                      shows, but no value; NULL: it shows the frame itself */
+    const char *label;  /* of that picture: what it is not for */
     const char *beside; /* a script's name from the page on, which has the layers
                            (live_layers_write); NULL: they stand in the page */
     double      grey_cd_m2;               /* shown as middle grey at first */

@@ -274,6 +274,7 @@ bool values_add_picture(json_t *to, const ReviewPicture *p, Arena scratch, Error
 {
     page_set(to, "title", p->title ? p->title : "");
     page_set(to, "caption", p->caption);
+    page_set(to, "label", p->label);
     page_set(to, "beside", p->picture ? NULL : p->beside);
     page_set(to, "id", NULL);
     page_set(to, "data", NULL);

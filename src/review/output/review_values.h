@@ -20,6 +20,8 @@
 typedef struct ReviewPicture {
     const ReviewCase *of;      /* one of the review's cases, or a sweep's worst: the pointer */
     const char       *title, *caption;
+    const char       *label;   /* what it is not for, behind the caption; NULL: no picture of
+                                  filtered light */
     const CaseView   *view;    /* rays are drawn over it; NULL: none */
     const Picture    *picture; /* NULL: the file */
     const char       *file;    /* PNG or JPEG by its ending; goes into the page as it stands */

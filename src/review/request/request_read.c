@@ -120,6 +120,9 @@ static const RecordRow FRAMES[] = {
     WHOLES("size", 0, width, 2, 1, 16384, "Pixels."),
     NUMBER("noise", 0, noise, 1e-4, 1, "Relative error."),
     WHOLE("worst", 0, worst, 0, 1000, "How many of the worst cases are rendered."),
+    FLAG("denoise", 0, is_denoised,
+         "Whether they are shown without most of their noise: pictures alone, never figures. "
+         "Default: true."),
     {0}};
 _Static_assert(offsetof(OWNER, height) == offsetof(OWNER, width) + sizeof(int), "a pair");
 
@@ -190,7 +193,7 @@ static void start_review(void *item)
         .visibility = {.glance_s = VISIBILITY_GLANCE_LONG},
         .glare = GLARE_SETTINGS_DEFAULT, .max_level = 1, .precision_contrast = 0.01,
         .precision_clear = CLEAR_USUAL, .precision_paths = 262144,
-        .frames = {960, 540, 0.1, 2}};
+        .frames = {960, 540, 0.1, 2, true}};
 }
 
 /* Ahead on the horizontal, its front down by the tilt; across; upright on both. */

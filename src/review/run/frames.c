@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "base/units.h"
 #include "camera/camera.h"
+#include "denoise/denoise.h"
 #include "film/film_frame.h"
 #include "image/develop.h"
 #include "keep/journal.h"
@@ -53,6 +54,17 @@ static WorkKind kind_of(const FrameArgs *args)
     return args->exposure ? WORK_PAIR : WORK_FRAME;
 }
 
+/* What the pictures, and the page's scripts, need of a frame. */
+static unsigned layers_of(const FrameArgs *args)
+{
+    enum { DENOISE = LAYER_NORMAL | LAYER_ALBEDO | LAYER_DISPLAY_EMITTED | LAYER_DISPLAY_FINE |
+                     LAYER_EMITTED }; /* DENOISE_LAYERS */
+    unsigned layers = args->exposure ? LAYER_VARIANCE
+                                     : LAYER_VARIANCE | LAYER_ID | LAYER_DISPLAYS;
+    if (args->setup->request->frames.is_denoised) layers |= DENOISE;
+    return render_layers(args->setup->scene, layers);
+}
+
 static RenderOptions options_of(const FrameArgs *args)
 {
     const ReviewRequest *request = args->setup->request;
@@ -63,9 +75,7 @@ static RenderOptions options_of(const FrameArgs *args)
         .width = all.x1, .height = all.y1, .crop = all, .end_sample = FRAMES_SAMPLES,
         .noise = request->frames.noise, .max_bounces = SETUP_BOUNCES,
         .noise_area = {all, FILM_ALL_PIXELS},
-        .layers = args->exposure ? LAYER_VARIANCE
-                                : render_layers(args->setup->scene, LAYER_VARIANCE | LAYER_ID |
-                                                                       LAYER_DISPLAYS),
+        .layers = layers_of(args),
         .threads = args->setup->tools.threads, .stops_at_once = true,
         .within = &args->work->progress,
         .within_weight = work_share(args->work, kind_of(args),
@@ -100,48 +110,72 @@ const char *frame_view(const char *frame, FrameView view, Arena *arena)
     return arena_format(arena, "%.*s%s.png", before_ending, frame, ENDS[view]);
 }
 
-/* *out: how the frame in that file is exposed (image/exposure.h), for others to be compared
- * with it. Fails when the file cannot be read. */
-static bool frame_exposure(const char *exr, Arena *arena, const char **out, Error *err)
+/* *out: how a frame is exposed (image/exposure.h). */
+static bool exposure_of(const FrameImage *frame, const char *exr, Arena *arena,
+                        const char **out, Error *err)
 {
-    FrameImage     frame;
     Picture        picture;
     DevelopReport  report;
     DevelopOptions look = {.own_config = true, .frame_name = exr};
-    if (!frame_read(exr, arena, &frame, err) ||
-        !develop_picture(&frame, &look, arena, &picture, &report, err))
-        return false;
+    if (!develop_picture(frame, &look, arena, &picture, &report, err)) return false;
     *out = arena_format(arena, "%.9g", report.ev);
     return true;
 }
 
-/* All frames have one scale of contrast, so that they can be compared. */
-static DevelopOptions look_of(FrameView view, const char *exposure, const char *exr)
+/* The same of a file, for others to be compared with it. Fails when it cannot be read. */
+static bool frame_exposure(const char *exr, Arena *arena, const char **out, Error *err)
 {
+    FrameImage frame;
+    return frame_read(exr, arena, &frame, err) &&
+           exposure_of(&frame, exr, arena, out, err);
+}
+
+/* The frame's file and its views, written beside each other. */
+typedef struct FrameFiles {
+    const FrameImage *frame;
+    FrameImage        shown; /* as a picture: the frame, or its light filtered */
+    bool              is_denoised;
+    const char       *exr, *exposure; /* NULL: the frame's own */
+} FrameFiles;
+
+/* All frames have one scale of contrast, so that they can be compared. */
+static DevelopOptions look_of(FrameView view, const FrameFiles *files)
+{
+    const char          *exr = files->exr;
     const DevelopOptions looks[] = {
-        [FRAME_PICTURE] = {.own_config = true, .exposure = exposure, .frame_name = exr,
-                           .adapt = DEVELOP_ADAPT_NONE}, /* as the page shows a moved sun */
+        [FRAME_PICTURE] = {.own_config = true, .exposure = files->exposure, .frame_name = exr,
+                           .adapt = DEVELOP_ADAPT_NONE, /* as the page shows a moved sun */
+                           .is_denoised = files->is_denoised},
         [FRAME_LUMINANCE] = {.false_colour = true, .frame_name = exr},
         [FRAME_CONTRAST] = {.layer = "display.contrast", .frame_name = exr,
                             .range = {1, FRAMES_CONTRAST}}};
     return looks[view];
 }
 
-/* The frame's file and its views, written beside each other. */
-typedef struct FrameFiles {
-    const FrameImage *frame;
-    const char       *exr, *exposure; /* FrameArgs's */
-} FrameFiles;
+/* Metered on the frame itself, as the page does: a filtered picture is exposed as one that is
+ * not. */
+static bool set_shown(const FrameArgs *args, FrameFiles *files, Arena *arena, Error *err)
+{
+    DenoiseReport unused;
+    files->shown = *files->frame;
+    files->exposure = args->exposure;
+    files->is_denoised = args->setup->request->frames.is_denoised;
+    return !files->is_denoised ||
+           ((files->exposure ||
+             exposure_of(files->frame, files->exr, arena, &files->exposure, err)) &&
+            denoise_frame(files->frame, args->setup->tools.threads, arena, &files->shown,
+                          &unused, err));
+}
 
 static bool write_file(void *context, int item, Error *err)
 {
     const FrameFiles *files = context;
     if (item == 0) return frame_write(files->exr, files->frame, err);
     FrameView      view = (FrameView)(item - 1);
-    DevelopOptions look = look_of(view, files->exposure, files->exr);
+    DevelopOptions look = look_of(view, files);
     Arena          own = arena_reserve(FILES_BYTES);
-    bool ok = develop_frame(files->frame, &look, frame_view(files->exr, view, &own), own, NULL,
-                            err);
+    bool ok = develop_frame(view == FRAME_PICTURE ? &files->shown : files->frame, &look,
+                            frame_view(files->exr, view, &own), own, NULL, err);
     arena_release(&own);
     return ok;
 }
@@ -163,8 +197,9 @@ static bool write_frame(const FrameArgs *args, const SceneCamera *camera,
     const char *exr = exr_of(args, &scratch);
     FrameImage  frame = film_to_frame(result->film, WORDS, &scratch);
     set_words(&frame, args, camera, result, &scratch);
-    FrameFiles files = {&frame, exr, args->exposure};
-    return parallel_try(args->setup->tools.threads, 1 + views_of(args), write_file, &files,
+    FrameFiles files = {.frame = &frame, .exr = exr};
+    return set_shown(args, &files, &scratch, err) &&
+           parallel_try(args->setup->tools.threads, 1 + views_of(args), write_file, &files,
                         scratch, err);
 }
 
@@ -186,6 +221,7 @@ static const char *identity_of(const FrameArgs *args, const SceneCamera *camera,
     identity_line(&text, "layers", "%u", options->layers);
     identity_line(&text, "samples", "%u", options->end_sample);
     if (args->exposure) identity_line(&text, "exposure", "%s", args->exposure);
+    if (args->setup->request->frames.is_denoised) identity_line(&text, "picture", "denoised");
     identity_number(&text, "noise", options->noise);
     identity_line(&text, "eye", "%s", args->eye->name);
     for (int i = 0; i < scene->display_count; i++)

@@ -4,8 +4,11 @@
  * Frames go to FOLDER/frames: NAME.exr in cd m^-2 with the layers of displays, NAME.png
  * developed, and in false colours NAME-luminance.png and NAME-contrast.png: what contrast full
  * white would have with full black at each pixel of a display. A frame ends at the request's
- * noise or at FRAMES_SAMPLES. What was done before a kill is not done again: a frame that is
- * whole is kept as it is, one that was begun goes on from its checkpoint, to the same bytes.
+ * noise or at FRAMES_SAMPLES. Where the request says so NAME.png, and it alone, is of filtered
+ * light (denoise/denoise.h), exposed as without, and NAME.exr has the layers for that. What was
+ * done before a kill is not done again: a frame that is whole is kept as it is, one that was
+ * begun goes on from its checkpoint, to the same bytes. One of another program, or of other
+ * layers, begins anew.
  *
  * Memory   scratch only; names live in the arena.
  * Threads  starts its own; the same frames for any count.
