@@ -11,7 +11,7 @@
 
 #define CELLS 512          /* of a display, or one a triangle if it has more */
 #define SIDE_MOST 16       /* cells along a triangle's side */
-#define LATTICE ((SIDE_MOST + 1) * (SIDE_MOST + 2) / 2)
+#define LATTICE ((PANE_RASTER + 1) * (PANE_RASTER + 1)) /* a triangle's has half as many */
 #define HIDES_BELOW 0.01f  /* of the light that passes */
 
 /* ---- what hides -------------------------------------------------------------------------- */
@@ -129,6 +129,7 @@ typedef struct PaneLattice {
     double      area;       /* of a cell, as a share of the display's */
     double     *covered;    /* [part] */
     uint32_t    hint;
+    int         met;        /* cells so far */
     PanePoint   at[LATTICE];
 } PaneLattice;
 
@@ -166,7 +167,7 @@ static void add_cell(PaneLattice *lattice, const int corner[3], TrianglePoint mi
     const Scene      *scene = search->context->scene;
     PanePoint at = point_of(search, lattice->pane, middle.position, &lattice->hint);
     bool      is_there = at.is_there;
-    PaneCell  cell;
+    PaneCell  cell = {.id = lattice->met++};
     for (int k = 0; k < 3; k++) {
         is_there &= lattice->at[corner[k]].is_there;
         cell.corner[k] = lattice->at[corner[k]].towards;
@@ -192,6 +193,8 @@ static void add_cell(PaneLattice *lattice, const int corner[3], TrianglePoint mi
         lattice->covered[by] += lattice->area;
         return;
     }
+    cell.seen_from = vec3_along(pane.position, vec3_normalize(vec3_neg(way)),
+                                vec3_length(vec3_sub(search->eye, pane.position)));
     cell.sr = solid_angle(cell.corner);
     out->share.shown += lattice->area;
     out->cells[out->cell_count++] = cell;
@@ -323,6 +326,13 @@ static void set_middle(PaneImage *image)
     image->towards = vec3_normalize(sum);
 }
 
+static void set_covered_by(const Scene *scene, const double *covered, PaneImage *image)
+{
+    for (int i = 0; i < scene->part_count; i++)
+        if (covered[i] > (image->covered_by == NO_ID ? 0 : covered[image->covered_by]))
+            image->covered_by = i;
+}
+
 static void find_one(void *user, int item, int worker)
 {
     (void)worker;
@@ -341,9 +351,7 @@ static void find_one(void *user, int item, int worker)
         lattice.area = area_of(scene, lattice.triangle) / area / (lattice.side * lattice.side);
         add_triangle(&lattice, image);
     }
-    for (int i = 0; i < scene->part_count; i++)
-        if (covered[i] > (image->covered_by == NO_ID ? 0 : covered[image->covered_by]))
-            image->covered_by = i;
+    set_covered_by(scene, covered, image);
     set_middle(image);
 }
 
@@ -388,4 +396,46 @@ PaneImage *pane_images_find(const Setup *setup, Vec3 eye, int *count, Arena *are
     for (int i = 0; i < *count; i++)
         if (search.images[i].cell_count) set_outline(&search.images[i], arena);
     return search.images;
+}
+
+/* ---- part of a display ------------------------------------------------------------------- */
+
+int pane_images_panes(const Scene *scene, int *out)
+{
+    return list_parts(scene, false, out);
+}
+
+static void add_raster(PaneLattice *lattice, const PaneRaster *raster, PaneImage *out)
+{
+    const int wide = PANE_RASTER + 1;
+    for (int i = 0; i < wide * wide; i++)
+        lattice->at[i] = point_of(lattice->search, lattice->pane, raster->corner[i].position,
+                                  &lattice->hint);
+    for (int i = 0; i < PANE_RASTER * PANE_RASTER; i++) {
+        int a = i / PANE_RASTER * wide + i % PANE_RASTER, b = a + 1, c = a + wide, d = c + 1;
+        add_cell(lattice, (int[]){a, b, c}, raster->middle[2 * i], out);
+        add_cell(lattice, (int[]){b, d, c}, raster->middle[2 * i + 1], out);
+    }
+}
+
+PaneImage pane_image_of(const Setup *setup, Vec3 eye, int pane_id, const PaneRaster *raster,
+                        Arena *arena)
+{
+    const int    cells = 2 * PANE_RASTER * PANE_RASTER;
+    const Scene *scene = setup->scene;
+    const Part  *pane = &scene->parts[pane_id];
+    Wavelengths  wavelengths;
+    PaneImage    image = {.pane_id = pane_id, .part_id = raster->part_id, .covered_by = NO_ID,
+                          .cells = ARENA_NEW(arena, PaneCell, cells)};
+    Arena        scratch = *arena;
+    PaneSearch   search = {.context = &setup->context, .wavelengths = &wavelengths, .eye = eye};
+    PaneLattice *lattice = ARENA_NEW(&scratch, PaneLattice, 1);
+    *lattice = (PaneLattice){.search = &search, .pane = pane, .area = 1.0 / cells,
+                             .covered = ARENA_NEW(&scratch, double, scene->part_count),
+                             .hint = pane->first_triangle};
+    wavelengths_sample(0.5f, &wavelengths);
+    add_raster(lattice, raster, &image);
+    set_covered_by(scene, lattice->covered, &image);
+    if (image.cell_count) set_middle(&image);
+    return image;
 }
