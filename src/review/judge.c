@@ -6,6 +6,7 @@
 #include "base/confidence.h"
 #include "base/count.h"
 #include "base/mathd.h"
+#include "review/private_image.h"
 #include "review/visibility_figure.h"
 
 #define ROOT_HALF 0.70710678118654752
@@ -188,7 +189,7 @@ static Verdict worse(Verdict one, Verdict other)
 static Unjudged why_unjudged(const ReviewCase *c, int counted)
 {
     if (c->verdict != VERDICT_UNJUDGED) return UNJUDGED_NOT;
-    if (!case_is_seen(c)) return UNJUDGED_HIDDEN;
+    if (!case_is_seen(c) && !c->image_count) return UNJUDGED_HIDDEN;
     if (c->panel.is_unusable) return UNJUDGED_PANEL;
     if (!counted) return UNJUDGED_LIMIT;
     return c->without_data_share > UNJUDGED_DATA_SHARE ? UNJUDGED_DATA : UNJUDGED_FIGURE;
@@ -275,6 +276,11 @@ void judge_paths(ReviewCase *review_case, double fixed)
     for (int i = 0; i < c->limit_count; i++) {
         const LimitVerdict *limit = &c->limits[i];
         if (!limit_is_open(limit)) continue;
+        if (limit->by_pane) {
+            c->paths_to_decide = (double)INFINITY;
+            c->open_by = OPEN_BY_IMAGE;
+            return;
+        }
         OpenLimit open = open_limit(c, limit, fixed);
         double    paths = (double)c->paths * times_to_decide(&open);
         if (paths <= c->paths_to_decide) continue;
@@ -310,10 +316,59 @@ static void hold_against(const ProfileLimit *limit, Judging *to, ReviewCase *c)
     }
 }
 
+/* ---- images in glass --------------------------------------------------------------------- */
+
+/* The case as if the image were the symbol: what a limit of visual security looks at. Nothing
+ * is known of how much of its light came by what has no data. */
+static ReviewCase seen_by_pane(const ReviewCase *c, const CaseImage *image)
+{
+    ReviewCase as = *c;
+    as.visible_share = image->shown_share;
+    as.height_arcmin = image->height_arcmin;
+    as.contrast_ratio = image->contrast_ratio;
+    as.contrast_low = image->contrast_low;
+    as.contrast_high = image->contrast_high;
+    as.without_data_share = 0;
+    return as;
+}
+
+static void hold_image(const ProfileLimit *limit, CaseImage *image, Judging *to, ReviewCase *c)
+{
+    ReviewCase   as = seen_by_pane(c, image);
+    LimitVerdict judged = judge_limit(limit, &as, to->profile);
+    judged.by_pane = image->pane;
+    to->limits[c->limit_count++] = judged;
+    if (!counts(limit, c)) return;
+    to->counted++;
+    image->verdict = worse(judged.verdict, image->verdict);
+    c->verdict = worse(judged.verdict, c->verdict);
+    if (c->limit_id >= 0 && !(judged.margin < c->margin)) return;
+    c->limit_id = c->limit_count - 1;
+    c->margin = judged.margin;
+}
+
+/* Each by the limits that the symbol itself is held against. */
+static void hold_images(Judging *to, ReviewCase *c, Arena *arena)
+{
+    const Profile *profile = to->profile;
+    CaseImage     *images = ARENA_NEW(arena, CaseImage, c->image_count);
+    for (int k = 0; k < c->image_count; k++) {
+        int before = to->counted;
+        images[k] = c->images[k];
+        images[k].verdict = VERDICT_PASS;
+        for (int i = 0; i < profile->limit_count && !profile->is_security_own; i++)
+            if (is_asked(&profile->limits[i], c))
+                hold_image(&profile->limits[i], &images[k], to, c);
+        if (to->counted == before) hold_image(&profile->security, &images[k], to, c);
+    }
+    c->images = images;
+}
+
 void judge_case(ReviewCase *review_case, const Profile *profile, Arena *arena)
 {
     ReviewCase *c = review_case;
-    Judging     to = {profile, ARENA_NEW(arena, LimitVerdict, profile->limit_count + 1),
+    int         limits = (profile->limit_count + 1) * (c->image_count + 1);
+    Judging     to = {profile, ARENA_NEW(arena, LimitVerdict, limits),
                       -INFINITY, 0};
     bool        is_hidden = c->must_not_be_read && c->visible_share <= 0;
     bool        is_own = c->must_not_be_read && profile->is_security_own;
@@ -327,6 +382,7 @@ void judge_case(ReviewCase *review_case, const Profile *profile, Arena *arena)
         if (is_asked(&profile->limits[i], c)) hold_against(&profile->limits[i], &to, c);
     if (c->must_not_be_read && !is_hidden && !to.counted)
         hold_against(&profile->security, &to, c);
+    if (c->image_count) hold_images(&to, c, arena);
     if (!is_hidden && (!to.counted || is_unjudged(c, false))) c->verdict = VERDICT_UNJUDGED;
     c->unjudged = why_unjudged(c, to.counted);
     if (c->verdict != VERDICT_TOO_CLOSE) {

@@ -18,7 +18,9 @@
  * review's own. It passes where S is surely as high as required, so that it cannot be read; a
  * contrast that misses a limit of reading is no such thing. The veil in the eye, which hides
  * more, does not count. Anything that is seen of it is judged; it passes, too, where nothing of
- * it is.
+ * it is. Each of its images in glass (private_image.h) is held against the same limits, which
+ * follow its own in the list; the case is as bad as the worst of all, and limit_id and margin
+ * are those of the least margin.
  *
  * Memory   lists come from the arena.
  * Threads  pure functions but for the case that is passed in.

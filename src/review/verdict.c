@@ -6,7 +6,7 @@
 const char *const verdict_names[5] = {"pass", "fail", "too close", "cannot be judged"};
 const char *const open_names[OPEN_COUNT + 1] = {
     [OPEN_BY_PATHS] = "paths", [OPEN_BY_PANEL] = "panel error", [OPEN_BY_SUN] = "sun's image",
-    [OPEN_BY_VEIL] = "veil"};
+    [OPEN_BY_VEIL] = "veil", [OPEN_BY_IMAGE] = "image in glass"};
 
 const char *const unjudged_names[UNJUDGED_COUNT + 1] = {
     [UNJUDGED_HIDDEN] = "hidden", [UNJUDGED_PANEL] = "panel not usable",
@@ -88,7 +88,7 @@ bool case_is_seen(const ReviewCase *c)
 KeptBy case_kept_by(const ReviewCase *c)
 {
     if (!c->must_not_be_read || c->verdict != VERDICT_PASS) return KEPT_NOT;
-    return case_is_seen(c) ? KEPT_SECURITY : KEPT_HIDDEN;
+    return case_is_seen(c) || c->image_count ? KEPT_SECURITY : KEPT_HIDDEN;
 }
 
 bool review_case_counts(const ReviewCase *c)

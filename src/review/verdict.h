@@ -44,9 +44,9 @@ extern const char *const unjudged_names[UNJUDGED_COUNT + 1]; /* NULL, "hidden", 
 
 /* What keeps a case open that is too close: sampling, which more paths lessen; or, whatever
  * their number, what its panel states of its own errors, what is known of the sun's image in
- * its mirror, or, of a visibility level, of the veil in the eye. */
+ * its mirror, of a visibility level of the veil in the eye, or of a symbol's image in glass. */
 typedef enum OpenBy {
-    OPEN_NOT, OPEN_BY_PATHS, OPEN_BY_PANEL, OPEN_BY_SUN, OPEN_BY_VEIL, OPEN_COUNT
+    OPEN_NOT, OPEN_BY_PATHS, OPEN_BY_PANEL, OPEN_BY_SUN, OPEN_BY_VEIL, OPEN_BY_IMAGE, OPEN_COUNT
 } OpenBy;
 extern const char *const open_names[OPEN_COUNT + 1]; /* NULL, "paths", "panel error", ... */
 
@@ -86,6 +86,7 @@ typedef struct LimitVerdict {
     double      margin;       /* above; NaN where `found` is */
     Verdict     verdict;
     double      age_years;    /* of a visibility level: who has it; 0 or NaN: nobody */
+    const char *by_pane;      /* of a symbol's image in glass (private_image.h); NULL: itself */
 } LimitVerdict;
 
 /* What a display's panel says of itself (panel/query/panel_stated.h). */
@@ -307,6 +308,8 @@ typedef struct ReviewCase {
     bool    must_not_be_read;    /* nor may it read it: the verdict is of that (judge.h) */
     const CasePlace *places;     /* of that, and of an eye box or ellipse: all of its points */
     int     place_count;
+    const struct CaseImage *images; /* of that: by panes (private_image.h) */
+    int     image_count;
     double  level;               /* at which the display was set, 1: as measured */
     double  glasses_transmittance; /* luminous, of the observer's sunglasses; 1: none. All
                                     luminances are reported without that factor */

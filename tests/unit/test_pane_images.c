@@ -301,7 +301,7 @@ static void add_behind(World *world)
 
 static PaneImageReading read_image(const Setup *setup, const PaneImage *image, Arena scratch)
 {
-    PaneImageGoal goal = {eye, image, 0.01, 1 << 15};
+    PaneImageGoal goal = {eye, image, 0.01, 1 << 15, 0};
     return pane_image_read(setup, &goal, scratch);
 }
 

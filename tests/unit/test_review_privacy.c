@@ -6,6 +6,7 @@
 #include "review/judge.h"
 #include "review/output/review_json.h"
 #include "review/output/review_words.h"
+#include "review/private_image.h"
 #include "review_page_fixture.h"
 #include "vision/privacy.h"
 
@@ -130,22 +131,22 @@ static int columns_of(const char *csv)
 TEST(csv_has_columns_of_its_own)
 {
     static const char HEAD[] = "lit_share,must_not_be_read,kept_by,visual_security,security_s,"
-                               "security_s_low,security_s_high\r\n";
+                               "security_s_low,security_s_high,limit_by_pane\r\n";
     Review      plain = fixture_review(&arena), review = private_review();
     const char *path = in_folder("t.csv");
     assert_done(review_csv_write(&plain, path, &err));
     const char *without = taken(path);
     assert_done(review_csv_write(&review, path, &err));
     const char *with = taken(path), *head = strstr(with, HEAD);
-    assert_int_equal(columns_of(with), columns_of(without) + 6);
+    assert_int_equal(columns_of(with), columns_of(without) + 7);
     assert_null(strstr(without, "must_not_be_read"));
     assert_non_null(head);
     const char *end = strchr(strchr(head, '\n') + 1, '\r'); /* of the first row */
     assert_non_null(strstr(head, ",true,,1.5"));
     assert_true(strstr(head, ",true,,1.5") < end);
     assert_non_null(strstr(end + 2, ",true,visual security,31."));
-    assert_non_null(strstr(end + 2, ",true,hidden,,,,\r\n"));
-    assert_non_null(strstr(end + 2, ",,,,,,\r\n")); /* what may be read */
+    assert_non_null(strstr(end + 2, ",true,hidden,,,,,\r\n"));
+    assert_non_null(strstr(end + 2, ",,,,,,,\r\n")); /* what may be read */
 }
 
 TEST(junit_and_page_say_it)
@@ -232,6 +233,100 @@ TEST(places_are_kept_and_drawn)
     assert_non_null(strstr(page, "0.20, 1.10, -0.20 m: pass, hidden"));
     assert_true(strstr(page, ">y 1.1 m</text>") > strstr(page, ">y 1.2 m</text>"));
     assert_null(strstr(strstr(page, ": fail, S 0.17"), "<circle ")); /* it lies on top */
+}
+
+/* ---- in glass ---------------------------------------------------------------------------- */
+
+/* The first case, which passes itself, with two images: that in the side window can be read. */
+static Review mirrored_review(void)
+{
+    Review     review = private_review();
+    CaseImage *images = ARENA_NEW(&arena, CaseImage, 2);
+    for (int i = 0; i < 2; i++) {
+        images[i] = (CaseImage){.pane = i ? "side <glass>" : "windscreen (glass)",
+                                .eye_m = {0.1, 1.2, -0.3}, .shown_share = i ? 0.5 : 1,
+                                .height_arcmin = 12, .sent_foreground = 10,
+                                .sent_background = 0.1, .reflectance = i ? 0.1 : 1e-3,
+                                .against = 1, .against_range = {0.9, 1.1}};
+        images[i].reflectance_range.low = 0.9 * images[i].reflectance;
+        images[i].reflectance_range.high = 1.1 * images[i].reflectance;
+        case_image_set_contrast(&images[i], 0.01);
+    }
+    review.cases[1].images = images;
+    review.cases[1].image_count = 2;
+    forbid(&review.cases[1], 30 * review.cases[1].luminance_cd_m2.foreground, 0.01);
+    review_decide(&review);
+    return review;
+}
+
+static const char IN_PANE[] = "must not be read, but can be: visual security 0.31 in side "
+                              "<glass>, required >= 1; contrast 1.98 : 1, reversed left to "
+                              "right";
+
+/* What is said of a case is its worst image's, by the same figures everywhere. */
+TEST(a_case_that_glass_lets_read_says_by_which_pane)
+{
+    Review              review = mirrored_review();
+    const ReviewCase   *c = &review.cases[1];
+    const LimitVerdict *limit = case_worst_limit(c);
+    const char         *reason = words_reason(c, &arena);
+    assert_int_equal(c->verdict, VERDICT_FAIL);
+    assert_int_equal(c->limits[0].verdict, VERDICT_PASS);
+    assert_string_equal(limit->by_pane, "side <glass>");
+    if (strcmp(reason, IN_PANE) != 0) fail_msg("%s", reason);
+    assert_done(review_csv_write(&review, in_folder("t.csv"), &err));
+    assert_non_null(strstr(taken(in_folder("t.csv")), ",side <glass>\r\n"));
+    assert_done(review_junit_write(&review, in_folder("t.xml"), &err));
+    assert_non_null(strstr(taken(in_folder("t.xml")), "0.31 in side &lt;glass&gt;, required"));
+    const char *page = page_of(&(ReviewPage){.review = &review});
+    assert_non_null(strstr(page, "<dt>… in windscreen (glass)</dt><dd>surely cannot be read"));
+    assert_non_null(strstr(page, "<dt>… in side &lt;glass&gt;</dt><dd>can be read, reversed"));
+    assert_non_null(strstr(page, "12.0 arc minutes high, 50 % shown"));
+}
+
+TEST(json_has_its_images_and_reads_them_back)
+{
+    Review      review = mirrored_review(), again;
+    const char *path = fresh_name(".json");
+    json_t     *root = review_json(&review), *cases = member(root, "cases");
+    json_t     *of = member(json_array_get(cases, 1), "must_not_be_read");
+    json_t     *list = member(of, "images");
+    assert_null(json_object_get(member(json_array_get(cases, 0), "must_not_be_read"),
+                                "images"));
+    for (int i = 0; i < 2; i++) {
+        const CaseImage *image = &review.cases[1].images[i];
+        json_t          *one = json_array_get(list, (size_t)i);
+        double s = log10_d(privacy_security(image->foreground, image->background, 1));
+        assert_close(json_real_value(member(one, "s")), s, 1e-9);
+        double low = json_real_value(json_array_get(member(one, "s_interval"), 0));
+        double high = json_real_value(json_array_get(member(one, "s_interval"), 1));
+        assert_true(low < s && s < high);
+        assert_string_equal(json_string_value(member(one, "verdict")), i ? "fail" : "pass");
+    }
+    assert_done(review_json_write(root, path, &err));
+    assert_done(review_json_read(path, &arena, &again, &err));
+    remove(path);
+    const ReviewCase *c = &again.cases[1];
+    assert_int_equal(c->image_count, 2);
+    assert_string_equal(case_worst_limit(c)->by_pane, "side <glass>");
+    assert_close(c->images[1].reflectance_range.high, 0.11, 1e-6);
+    assert_int_equal(c->images[1].verdict, VERDICT_FAIL);
+    assert_int_equal(case_kept_by(c), KEPT_NOT);
+}
+
+/* An image that is brighter in one review is worse there, whatever the symbol itself is. */
+TEST(a_difference_counts_images)
+{
+    Review     before = mirrored_review(), after = mirrored_review();
+    CaseImage *images = ARENA_NEW(&arena, CaseImage, 2);
+    memcpy(images, after.cases[1].images, 2 * sizeof *images);
+    images[0].contrast_low *= 2;
+    images[0].contrast_ratio *= 2;
+    images[0].contrast_high *= 2;
+    after.cases[1].images = images;
+    ReviewDiff diff = review_diff(&before, &after, "a", "b", &arena);
+    assert_int_equal(diff.count[DIFF_WORSE], 1);
+    assert_ptr_equal(diff.cases[0].after, &after.cases[1]);
 }
 
 TEST_PROGRAM(page_begin, clear_folder)

@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "path/path_context.h"
 #include "review/judge.h"
+#include "review/private_image.h"
 #include "review/quantity.h"
 #include "review/request/request.h"
 #include "review/symbol/symbol_surface.h"
@@ -157,6 +158,7 @@ static ReviewCase judged_with(const Remedying *m, Remedied with)
     l->veil += (with.brighter - 1) * m->c->veil_displays;
     double scale = before > 0 ? l->reflected / before : 1;
     out.level *= with.brighter;
+    out.images = case_images_scaled(&out, with.brighter, m->arena);
     judge_contrasts(&out, (MeanInterval){scale * m->c->reflected_range.low,
                                          scale * m->c->reflected_range.high});
     judge_case(&out, m->args->profile, m->arena);
@@ -239,11 +241,11 @@ static double veil_of(const Remedying *m)
 
 /* ---- what no closed form gives ----------------------------------------------------------- */
 
-/* A level of visibility: it rises with the display's brightness, and falls with what is
- * reflected. */
-static bool is_of_level(const Remedying *m)
+/* A level of visibility, and an image in glass. */
+static bool is_searched(const Remedying *m)
 {
-    return limit_kind_named(m->c->limits[m->limit].kind) == LIMIT_VISIBILITY_LEVEL;
+    const LimitVerdict *limit = &m->c->limits[m->limit];
+    return limit->by_pane || limit_kind_named(limit->kind) == LIMIT_VISIBILITY_LEVEL;
 }
 
 typedef ReviewCase JudgedBy(const Remedying *m, double factor);
@@ -311,8 +313,8 @@ static void add_brightness(Remedying *m)
     double own = own_light(m), other = m->c->luminance_cd_m2.reflected - own;
     double veil = veil_of(m), grows = veil > 0 ? m->c->veil_displays : 0;
     double most = fmax(other + veil - grows + 2 * doubt_of(m), 0);
-    double end = wants_less ? 1 / BRIGHTER_MOST : BRIGHTER_MOST;
-    double x = is_of_level(m) ? factor_by(m, judged_brighter, end)
+    double end = is_private ? DIMMEST : wants_less ? 1 / BRIGHTER_MOST : BRIGHTER_MOST;
+    double x = is_searched(m) ? factor_by(m, judged_brighter, end)
                               : brighter_for(&m->c->luminance_cd_m2, own + grows, most,
                                              ratio_needed(m));
     for (int i = 0; i < TRIES && x > 0 && x < BRIGHTER_MOST; i++) {
@@ -379,9 +381,8 @@ CaseLeast case_least_level(const Profile *profile, const ReviewCase *c, Arena sc
         least = fmax(least, x <= BRIGHTER_MOST ? x : (double)INFINITY);
     }
     if (least < 0) return (CaseLeast){NAN, NAN};
-    if (isinf(least)) return (CaseLeast){INFINITY, INFINITY};
-    return (CaseLeast){least * of.level,
-                       surely_from(&m, fmax(least, 1e-6), other) * of.level};
+    double sure = isinf(least) ? least : surely_from(&m, fmax(least, 1e-6), other);
+    return (CaseLeast){least * of.level, sure * of.level};
 }
 
 /* ---- tilt -------------------------------------------------------------------------------- */
@@ -519,7 +520,7 @@ static void add_panel(Remedying *m)
     double doubt = doubt_of(m), share;
     if (limit_wants_less(&m->c->limits[m->limit])) return;
     share = (reflected_at(l, ratio_needed(m)) - veil_of(m)) / (l->reflected + 2 * doubt);
-    if (is_of_level(m)) share = factor_by(m, judged_reflecting, PANEL_LEAST);
+    if (is_searched(m)) share = factor_by(m, judged_reflecting, PANEL_LEAST);
     for (int i = 0; i < TRIES && share > PANEL_LEAST && share < 1; i++) {
         double     factor = rounded_out(share);
         ReviewCase sure = judged_reflecting(m, factor);
@@ -548,11 +549,9 @@ static Vec3 ahead_of(const RemedyArgs *args)
 {
     Vec3 gaze = vec3_sub(args->middle.position, args->aim->eye);
     Vec3 ahead = vec3_from_doubles(args->forward);
-    gaze.y = ahead.y = 0;
-    gaze = vec3_normalize(gaze);
-    ahead = vec3_normalize(ahead);
-    bool is_aside = vec3_dot(gaze, gaze) > 0 && vec3_dot(gaze, ahead) < (float)TURNED;
-    return is_aside ? gaze : ahead;
+    gaze = vec3_normalize(vec3(gaze.x, 0, gaze.z));
+    ahead = vec3_normalize(vec3(ahead.x, 0, ahead.z));
+    return vec3_dot(gaze, gaze) > 0 && vec3_dot(gaze, ahead) < (float)TURNED ? gaze : ahead;
 }
 
 static const bool *occupant_parts(const RemedyArgs *args, Arena *arena)
@@ -592,6 +591,7 @@ void case_remedies(const RemedyArgs *args, const CauseFacts *facts, ReviewCase *
     if (c->verdict == VERDICT_UNJUDGED || m.limit < 0) return;
     c->remedies = m.list = ARENA_NEW(arena, CaseRemedy, REMEDY_KINDS);
     add_brightness(&m);
+    if (c->image_count) return; /* how glass would show it else is not known */
     add_tilt(&m);
     add_hood(&m);
     add_coating(&m);

@@ -145,6 +145,7 @@ bool review_csv_write(const Review *review, const char *path, Error *err)
     set_ages(document, review);
     page_set_flag(document, "has_private", review_has_privacy(review));
     page_set(document, "must_not_be_read", NULL); /* of cases without it */
+    page_set(document, "by_pane", NULL); /* of limits about the symbol itself */
     return page_write_values("cases.csv", document, NULL, path, err);
 }
 

@@ -320,7 +320,7 @@ static void set_ghost(const PaneImagePaths *paths, PaneImageReading *out)
 
 PaneImageReading pane_image_read(const Setup *setup, const PaneImageGoal *goal, Arena scratch)
 {
-    uint32_t      seed = review_seed(setup->request, SEED);
+    uint32_t      seed = review_seed(setup->request, SEED ^ goal->seed);
     uint32_t      first = hash_combine(hash_u32(seed), PILOT_SEED);
     PaneImagePair pilot = pair_of(setup, goal, first, &scratch);
     PaneImagePair fresh = pair_of(setup, goal, seed, &scratch);

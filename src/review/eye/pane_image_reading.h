@@ -26,6 +26,7 @@ typedef struct PaneImageGoal {
     const PaneImage *image;     /* with cells */
     double           precision; /* relative standard error of the image and of `against`, */
     int              most;      /* unless it takes more paths: a power of two from 2048 on */
+    uint32_t         seed;      /* other paths than those of 0 */
 } PaneImageGoal;
 
 typedef struct PaneImageReading {

@@ -13,7 +13,7 @@
 #define SIDE_MOST 16       /* cells along a triangle's side */
 #define DEPTH_MOST 4       /* halvings of the sides of a cell that is shown in part */
 #define CELLS_MOST 131072  /* of a display, by those */
-#define LATTICE ((SIDE_MOST + 1) * (SIDE_MOST + 2) / 2)
+#define LATTICE ((PANE_RASTER + 1) * (PANE_RASTER + 1)) /* a triangle's has half as many */
 #define HIDES_BELOW 0.01f  /* of the light that passes */
 
 /* ---- what hides -------------------------------------------------------------------------- */
@@ -75,6 +75,7 @@ typedef struct PanePoint {
     float     u, v;
     Vec3      towards;    /* unit, from the eye */
     Vec3      place;      /* that it is turned to */
+    Vec3      seen_from;  /* as PaneCell has it */
 } PanePoint;
 
 static MirrorTriangle mirror_of(const Scene *scene, const Part *part, uint32_t triangle)
@@ -137,6 +138,7 @@ typedef struct PaneLattice {
     double      area;       /* of a cell, as a share of the display's */
     double     *covered;    /* [part] */
     uint32_t    hint;
+    int         met;        /* cells so far */
     PanePoint   at[LATTICE];
 } PaneLattice;
 
@@ -156,23 +158,32 @@ static int hiding_way(const PaneSearch *search, const TrianglePoint *pane,
                        ray_to(ray_start(pane, way), display, vec3_neg(way)));
 }
 
-static PanePoint look_at(PaneLattice *lattice, float s, float t)
+static PanePoint look_at(PaneLattice *lattice, const TrianglePoint *display)
 {
     const PaneSearch *search = lattice->search;
     const Scene      *scene = search->context->scene;
-    TrianglePoint display = triangle_point(scene, lattice->triangle, s, t);
-    PanePoint     at = point_of(search, lattice->pane, display.position, &lattice->hint);
-    at.s = s;
-    at.t = t;
+    PanePoint at = point_of(search, lattice->pane, display->position, &lattice->hint);
     if (at.state == PANE_ENDS) return at;
     TrianglePoint pane = triangle_point(scene, at.triangle, at.u, at.v);
-    Vec3          way = vec3_sub(display.position, pane.position);
-    if (!(vec3_dot(way, display.ng) < 0)) {
+    Vec3          way = vec3_sub(display->position, pane.position);
+    at.seen_from = vec3_along(pane.position, vec3_normalize(vec3_neg(way)),
+                              vec3_length(vec3_sub(search->eye, pane.position)));
+    if (!(vec3_dot(way, display->ng) < 0)) {
         at.state = PANE_AWAY;
         return at;
     }
-    at.covered_by = hiding_way(search, &pane, &display, way);
+    at.covered_by = hiding_way(search, &pane, display, way);
     if (at.covered_by != NO_ID) at.state = PANE_COVERED;
+    return at;
+}
+
+static PanePoint look_at_triangle(PaneLattice *lattice, float s, float t)
+{
+    TrianglePoint display =
+        triangle_point(lattice->search->context->scene, lattice->triangle, s, t);
+    PanePoint at = look_at(lattice, &display);
+    at.s = s;
+    at.t = t;
     return at;
 }
 
@@ -182,7 +193,7 @@ static void fill_lattice(PaneLattice *lattice)
     for (int j = 0; j <= side; j++)
         for (int i = 0; i + j <= side; i++)
             lattice->at[lattice_index(side, i, j)] =
-                look_at(lattice, (float)i / (float)side, (float)j / (float)side);
+                look_at_triangle(lattice, (float)i / (float)side, (float)j / (float)side);
 }
 
 /* By Van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125-126. */
@@ -219,7 +230,7 @@ static bool set_corners(const PanePoint corner[3], const PanePoint *middle, Pane
 static void add_whole(PaneLattice *lattice, const PanePoint corner[3], const PanePoint *middle,
                       double area, PaneImage *out)
 {
-    PaneCell  cell;
+    PaneCell  cell = {.id = lattice->met++, .seen_from = middle->seen_from};
     PaneState state = middle->state;
     if (state == PANE_SHOWS && !set_corners(corner, middle, &cell)) state = PANE_ENDS;
     switch (state) {
@@ -242,15 +253,16 @@ static void add_cell(PaneLattice *lattice, const PanePoint corner[3], int halvin
                      PaneImage *out)
 {
     const PanePoint *a = &corner[0], *b = &corner[1], *c = &corner[2];
-    PanePoint m = look_at(lattice, (a->s + b->s + c->s) / 3, (a->t + b->t + c->t) / 3);
+    PanePoint m =
+        look_at_triangle(lattice, (a->s + b->s + c->s) / 3, (a->t + b->t + c->t) / 3);
     bool is_one = a->state == m.state && b->state == m.state && c->state == m.state;
     if (is_one || halvings == 0) {
         add_whole(lattice, corner, &m, area, out);
         return;
     }
-    PanePoint ab = look_at(lattice, (a->s + b->s) / 2, (a->t + b->t) / 2);
-    PanePoint bc = look_at(lattice, (b->s + c->s) / 2, (b->t + c->t) / 2);
-    PanePoint ca = look_at(lattice, (c->s + a->s) / 2, (c->t + a->t) / 2);
+    PanePoint ab = look_at_triangle(lattice, (a->s + b->s) / 2, (a->t + b->t) / 2);
+    PanePoint bc = look_at_triangle(lattice, (b->s + c->s) / 2, (b->t + c->t) / 2);
+    PanePoint ca = look_at_triangle(lattice, (c->s + a->s) / 2, (c->t + a->t) / 2);
     add_cell(lattice, (PanePoint[]){*a, ab, ca}, halvings - 1, area / 4, out);
     add_cell(lattice, (PanePoint[]){ab, *b, bc}, halvings - 1, area / 4, out);
     add_cell(lattice, (PanePoint[]){ca, bc, *c}, halvings - 1, area / 4, out);
@@ -388,6 +400,13 @@ static void set_middle(PaneImage *image)
     image->towards = vec3_normalize(sum);
 }
 
+static void set_covered_by(const Scene *scene, const double *covered, PaneImage *image)
+{
+    for (int i = 0; i < scene->part_count; i++)
+        if (covered[i] > (image->covered_by == NO_ID ? 0 : covered[image->covered_by]))
+            image->covered_by = i;
+}
+
 static void find_one(void *user, int item, int worker)
 {
     (void)worker;
@@ -407,9 +426,7 @@ static void find_one(void *user, int item, int worker)
         lattice.area = area_of(scene, lattice.triangle) / area / (lattice.side * lattice.side);
         add_triangle(&lattice, image);
     }
-    for (int i = 0; i < scene->part_count; i++)
-        if (covered[i] > (image->covered_by == NO_ID ? 0 : covered[image->covered_by]))
-            image->covered_by = i;
+    set_covered_by(scene, covered, image);
     set_middle(image);
 }
 
@@ -455,4 +472,47 @@ PaneImage *pane_images_find(const Setup *setup, Vec3 eye, int *count, Arena *are
     for (int i = 0; i < *count; i++)
         if (search.images[i].cell_count) set_outline(&search.images[i], arena);
     return search.images;
+}
+
+/* ---- part of a display ------------------------------------------------------------------- */
+
+int pane_images_panes(const Scene *scene, int *out)
+{
+    return list_parts(scene, false, out);
+}
+
+static void add_raster(PaneLattice *lattice, const PaneRaster *raster, PaneImage *out)
+{
+    const int  wide = PANE_RASTER + 1;
+    PanePoint *at = lattice->at;
+    for (int i = 0; i < wide * wide; i++) at[i] = look_at(lattice, &raster->corner[i]);
+    for (int i = 0; i < PANE_RASTER * PANE_RASTER; i++) {
+        int a = i / PANE_RASTER * wide + i % PANE_RASTER, b = a + 1, c = a + wide, d = c + 1;
+        PanePoint near = look_at(lattice, &raster->middle[2 * i]);
+        PanePoint far = look_at(lattice, &raster->middle[2 * i + 1]);
+        add_whole(lattice, (PanePoint[]){at[a], at[b], at[c]}, &near, lattice->area, out);
+        add_whole(lattice, (PanePoint[]){at[b], at[d], at[c]}, &far, lattice->area, out);
+    }
+}
+
+PaneImage pane_image_of(const Setup *setup, Vec3 eye, int pane_id, const PaneRaster *raster,
+                        Arena *arena)
+{
+    const int    cells = 2 * PANE_RASTER * PANE_RASTER;
+    const Scene *scene = setup->scene;
+    const Part  *pane = &scene->parts[pane_id];
+    Wavelengths  wavelengths;
+    PaneImage    image = {.pane_id = pane_id, .part_id = raster->part_id, .covered_by = NO_ID,
+                          .cells = ARENA_NEW(arena, PaneCell, cells)};
+    Arena        scratch = *arena;
+    PaneSearch   search = {.context = &setup->context, .wavelengths = &wavelengths, .eye = eye};
+    PaneLattice *lattice = ARENA_NEW(&scratch, PaneLattice, 1);
+    *lattice = (PaneLattice){.search = &search, .pane = pane, .area = 1.0 / cells,
+                             .covered = ARENA_NEW(&scratch, double, scene->part_count),
+                             .hint = pane->first_triangle};
+    wavelengths_sample(0.5f, &wavelengths);
+    add_raster(lattice, raster, &image);
+    set_covered_by(scene, lattice->covered, &image);
+    if (image.cell_count) set_middle(&image);
+    return image;
 }

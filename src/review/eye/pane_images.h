@@ -22,11 +22,15 @@
  */
 #pragma once
 #include "review/light/setup.h"
+#include "scene/point/ray_ends.h"
 
 /* A triangle of the field of view. */
 typedef struct PaneCell {
     Vec3   corner[3];
     Vec3   place[3]; /* of the display, that the first face shows there, m, scene */
+    Vec3   seen_from; /* m, scene: as far along the way from the display to the pane as the eye
+                         is: a flat pane shows what an eye there would see straight */
+    int    id;       /* among all cells of the display or raster */
     double sr;
 } PaneCell;
 
@@ -55,3 +59,20 @@ typedef struct PaneImage {
 /* Of every display in every pane of the setup's scene, by panes, in the scene's order: also
  * those that have no image, whose shares say why. */
 PaneImage *pane_images_find(const Setup *setup, Vec3 eye, int *count, Arena *arena);
+
+/* Part of a display: a raster of side x side fields of two cells each. Corner (i, j) is
+ * corner[j (side + 1) + i]; the cells of field f are 2f, with its corners (0, 0), (1, 0) and
+ * (0, 1), and 2f + 1; middle[cell] lies in the middle of each. */
+#define PANE_RASTER 16
+typedef struct PaneRaster {
+    int           part_id; /* the display's */
+    TrianglePoint corner[(PANE_RASTER + 1) * (PANE_RASTER + 1)];
+    TrianglePoint middle[2 * PANE_RASTER * PANE_RASTER];
+} PaneRaster;
+
+/* The panes of a scene: parts, of which `out` has room for all; their number. */
+int pane_images_panes(const Scene *scene, int *out);
+
+/* A raster as one pane shows it; shares are of its cells, by number. Without an outline. */
+PaneImage pane_image_of(const Setup *setup, Vec3 eye, int pane_id, const PaneRaster *raster,
+                        Arena *arena);

@@ -7,8 +7,10 @@
 #include "review/output/json_rows.h"
 #include "review/output/review_facts.h"
 #include "review/output/review_privacy.h"
+#include "review/private_image.h"
 #include "review/review_decide.h"
 #include "text/json_text.h"
+#include "vision/privacy.h"
 
 /* Reviews before there were four outcomes call one of them otherwise. */
 bool case_read_verdict(const JsonView *view, const RecordRow *row, void *item, Error *err)
@@ -34,7 +36,8 @@ PUBLIC_TABLE(limit_json, LimitVerdict,
     OWN(FIGURE, LimitVerdict, found), AS("interval", RANGE, LimitVerdict, low),
     OWN(FIGURE, LimitVerdict, margin), OWN(VERDICT, LimitVerdict, verdict),
     {"age_years", RECORD_NUMBER, RECORD_NULL | RECORD_BRIEF, RECORD_AT(LimitVerdict, age_years),
-     RECORD_RANGE(-HUGE_VAL, HUGE_VAL), .write = write_age});
+     RECORD_RANGE(-HUGE_VAL, HUGE_VAL), .write = write_age},
+    {"by_pane", RECORD_TEXT, RECORD_NULL | RECORD_BRIEF, RECORD_AT(LimitVerdict, by_pane)});
 
 TABLE(cause_json, CaseCause,
     {"chain", RECORD_TEXTS, MUST, RECORD_MANY(CaseCause, chain, links)},
@@ -112,7 +115,35 @@ TABLE(place_json, CasePlace,
     OWN(VERDICT, CasePlace, verdict), OWN(FIGURE, CasePlace, visible_share),
     OWN(FIGURE, CasePlace, contrast_ratio), AS("interval", RANGE, CasePlace, contrast_low));
 
-TABLE(private_json, ReviewCase, LIST("places", 0, ReviewCase, places, place_count, place_json));
+static json_t *write_image_s(const void *item)
+{
+    return json_figure(privacy_s_of_contrast(((const CaseImage *)item)->contrast_ratio));
+}
+
+static json_t *write_image_s_range(const void *item)
+{
+    const CaseImage *image = item;
+    return json_pack("[o,o]", json_figure(privacy_s_of_contrast(image->contrast_high)),
+                     json_figure(privacy_s_of_contrast(image->contrast_low)));
+}
+
+/* What is infinite, such as a contrast before black, is null. */
+TABLE(image_json, CaseImage,
+    OWN(TEXT, CaseImage, pane), OWN(VERDICT, CaseImage, verdict),
+    {"position_m", RECORD_NUMBERS, MUST, RECORD_AT(CaseImage, eye_m),
+     RECORD_RANGE(-HUGE_VAL, HUGE_VAL), RECORD_COUNT(3, 3)},
+    OWN(FIGURE, CaseImage, shown_share), OWN(FIGURE, CaseImage, height_arcmin),
+    OWN(FIGURE, CaseImage, sent_foreground), OWN(FIGURE, CaseImage, sent_background),
+    OWN(FIGURE, CaseImage, reflectance),
+    AS("reflectance_interval", RANGE, CaseImage, reflectance_range),
+    OWN(FIGURE, CaseImage, foreground), OWN(FIGURE, CaseImage, background),
+    OWN(FIGURE, CaseImage, against), AS("against_interval", RANGE, CaseImage, against_range),
+    OWN(FIGURE, CaseImage, contrast_ratio),
+    AS("contrast_interval", RANGE, CaseImage, contrast_low), TOLD("s", 0, write_image_s),
+    TOLD("s_interval", 0, write_image_s_range));
+
+TABLE(private_json, ReviewCase, LIST("places", 0, ReviewCase, places, place_count, place_json),
+    LIST("images", 0, ReviewCase, images, image_count, image_json));
 
 static json_t *write_privacy(const void *item)
 {
@@ -121,6 +152,9 @@ static json_t *write_privacy(const void *item)
     if (out && c->place_count)
         json_object_set_new(out, "places",
                             record_write_list(&place_json, c->places, c->place_count));
+    if (out && c->image_count)
+        json_object_set_new(out, "images",
+                            record_write_list(&image_json, c->images, c->image_count));
     return out;
 }
 
@@ -226,6 +260,7 @@ FOLLOWS(LimitVerdict, high, low);
 FOLLOWS(CaseVisibility, high, low);
 FOLLOWS(CaseCause, high, low);
 FOLLOWS(CasePlace, contrast_high, contrast_low);
+FOLLOWS(CaseImage, contrast_high, contrast_low);
 
 /* ---- parts that others show -------------------------------------------------------------- */
 

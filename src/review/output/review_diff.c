@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include "review/output/review_words.h"
+#include "review/private_image.h"
 #include "review/review_decide.h"
 #include "text/json_text.h"
 
@@ -48,6 +49,24 @@ static DiffKind contrast_change(const ReviewCase *before, const ReviewCase *afte
     return DIFF_SAME;
 }
 
+static const CaseImage *image_like(const ReviewCase *c, const CaseImage *like)
+{
+    for (int i = 0; i < c->image_count; i++)
+        if (words_same(c->images[i].pane, like->pane)) return &c->images[i];
+    return NULL;
+}
+
+/* Of the first pane whose image moved where both have it. */
+static DiffKind image_change(const ReviewCase *before, const ReviewCase *after)
+{
+    for (int i = 0; i < after->image_count; i++) {
+        const CaseImage *a = &after->images[i], *b = image_like(before, a);
+        if (b && a->contrast_high < b->contrast_low) return DIFF_BETTER;
+        if (b && a->contrast_low > b->contrast_high) return DIFF_WORSE;
+    }
+    return DIFF_SAME;
+}
+
 /* Of the first age whose level moved where both have it: its interval is the light's. */
 static DiffKind level_change(const ReviewCase *before, const ReviewCase *after)
 {
@@ -65,6 +84,7 @@ static DiffKind case_change(const ReviewCase *before, const ReviewCase *after)
     if (!before) return DIFF_NEW;
     DiffKind kind = verdict_change(before->verdict, after->verdict);
     if (kind == DIFF_SAME) kind = contrast_change(before, after);
+    if (kind == DIFF_SAME) kind = image_change(before, after);
     return kind == DIFF_SAME ? level_change(before, after) : kind;
 }
 

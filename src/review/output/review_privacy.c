@@ -4,10 +4,14 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "page/page.h"
+#include "review/output/review_values.h"
 #include "review/output/review_words.h"
 #include "text/json_text.h"
 #include "text/text.h"
 #include "vision/privacy.h"
+
+#define ALL_SHOWN 1e-6
 
 PrivacyFigures privacy_figures(const ReviewCase *c)
 {
@@ -19,6 +23,47 @@ PrivacyFigures privacy_figures(const ReviewCase *c)
                             privacy_security_of_contrast(c->contrast_low), privacy_s(v),
                             privacy_s_of_contrast(c->contrast_high),
                             privacy_s_of_contrast(c->contrast_low)};
+}
+
+const char *privacy_image_words(const CaseImage *i, Arena *arena)
+{
+    static const char *const READ[4] = {
+        [VERDICT_PASS] = "surely cannot be read", [VERDICT_FAIL] = "can be read, reversed",
+        [VERDICT_TOO_CLOSE] = "can perhaps be read, reversed",
+        [VERDICT_UNJUDGED] = "cannot be judged"};
+    double v[3], s[3], ratios[3] = {i->contrast_ratio, i->contrast_high, i->contrast_low};
+    for (int k = 0; k < 3; k++) {
+        v[k] = privacy_security_of_contrast(ratios[k]);
+        s[k] = privacy_s(v[k]);
+    }
+    const char *share = i->shown_share > 1 - ALL_SHOWN
+                            ? "all of it" : words_share(i->shown_share, arena);
+    return arena_format(
+        arena, "%s: V %s (%s), S %s (%s); %s and %s cd/m² over %s; %s arc minutes high, %s "
+        "shown", READ[i->verdict], words_within(v[0], v[1], v[2], arena),
+        words_interval(v[1], v[2], arena), words_within(s[0], s[1], s[2], arena),
+        words_interval(s[1], s[2], arena), words_figure(i->foreground, arena),
+        words_figure(i->background, arena), words_figure(i->against, arena),
+        words_figure(i->height_arcmin, arena), share);
+}
+
+void values_set_privacy(json_t *to, const ReviewCase *c, Arena *arena)
+{
+    PrivacyFigures of = privacy_figures(c);
+    page_set_flag(to, "is_private", c->must_not_be_read);
+    page_set(to, "places_drawn", privacy_places_drawn(c, arena));
+    page_set(to, "security",
+             !c->must_not_be_read || isnan(of.v)
+                 ? NULL
+                 : arena_format(arena, "V %s, S %s",
+                                words_within(of.v, of.v_low, of.v_high, arena),
+                                words_within(of.s, of.s_low, of.s_high, arena)));
+    json_t *images = values_list(to, "private_images");
+    for (int i = 0; i < c->image_count; i++) {
+        json_t *image = page_add(images);
+        page_set(image, "pane", c->images[i].pane);
+        page_set(image, "told", privacy_image_words(&c->images[i], arena));
+    }
 }
 
 /* ---- from where -------------------------------------------------------------------------- */

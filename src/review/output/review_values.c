@@ -211,20 +211,6 @@ static void set_levels(json_t *to, const ReviewCase *c, Arena *arena)
     }
 }
 
-/* Of what must not be read. */
-static void set_privacy(json_t *to, const ReviewCase *c, Arena *arena)
-{
-    PrivacyFigures of = privacy_figures(c);
-    page_set_flag(to, "is_private", c->must_not_be_read);
-    page_set(to, "places_drawn", privacy_places_drawn(c, arena));
-    page_set(to, "security",
-             !c->must_not_be_read || isnan(of.v)
-                 ? NULL
-                 : arena_format(arena, "V %s, S %s",
-                                words_within(of.v, of.v_low, of.v_high, arena),
-                                words_within(of.s, of.s_low, of.s_high, arena)));
-}
-
 /* Figures made for rooms. */
 static void set_glare(json_t *to, const CaseGlare *g, Arena *arena)
 {
@@ -334,7 +320,7 @@ static bool add_case(const PageValues *v, json_t *to, const ReviewCase *c, Error
     page_set_flag(to, "is_worst", review_sweep_of(v->review, c) != NULL);
     set_contrast(to, c, arena);
     set_levels(to, c, arena);
-    set_privacy(to, c, arena);
+    values_set_privacy(to, c, arena);
     set_glare(to, &c->glare, arena);
     set_limits(to, c, arena);
     set_causes(to, c, arena);

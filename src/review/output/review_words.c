@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "plot/draw/ticks.h"
+#include "review/private_image.h"
 #include "review/quantity.h"
 #include "review/review_decide.h"
 #include "text/interval_text.h"
@@ -134,9 +135,10 @@ static bool is_belied(const LimitVerdict *limit, const char *figure)
     return isfinite(limit->found) && is != 0 && !(is * looks > 0);
 }
 
-/* Whose it is, where it is somebody's. */
+/* Whose it is, where it is somebody's; where, where glass shows it. */
 static const char *with_age(const LimitVerdict *limit, const char *figure, Arena *arena)
 {
+    if (limit->by_pane) return arena_format(arena, "%s in %s", figure, limit->by_pane);
     if (!(limit->age_years > 0)) return figure;
     return arena_format(arena, "%s at %g years", figure, limit->age_years);
 }
@@ -324,6 +326,9 @@ static const char *words_undecidable(const ReviewCase *c, Arena *arena)
         [OPEN_BY_SUN] = "what is known of the sun's image in the display",
         [OPEN_BY_VEIL] = "what is known of the veil in the eye"};
     const char *brighter = "", *helps = "";
+    if (c->open_by == OPEN_BY_IMAGE)
+        return "; the limit lies within what is known of its image in the glass, which is not "
+               "read by more paths";
     for (int i = 0; i < c->remedy_count; i++)
         if (c->remedies[i].kind == REMEDY_BRIGHTNESS) brighter = c->remedies[i].what;
     if (c->open_by == OPEN_BY_PANEL)
@@ -513,10 +518,18 @@ const char *words_reason(const ReviewCase *c, Arena *arena)
 {
     const char *reason = reason_of(c, arena);
     if (!c->must_not_be_read) return reason;
-    bool has_contrast = !isnan(c->contrast_ratio);
-    return arena_format(arena, "%s: %s%s%s", FORBIDDEN[c->verdict], reason,
+    const CaseImage *image = case_image_of(c, case_worst_limit(c));
+    ReviewCase       as = *c;
+    if (image) {
+        as.contrast_ratio = image->contrast_ratio;
+        as.contrast_low = image->contrast_low;
+        as.contrast_high = image->contrast_high;
+    }
+    bool has_contrast = !isnan(as.contrast_ratio);
+    return arena_format(arena, "%s: %s%s%s%s", FORBIDDEN[c->verdict], reason,
                         has_contrast ? "; contrast " : "",
-                        has_contrast ? words_contrast(c, arena) : "");
+                        has_contrast ? words_contrast(&as, arena) : "",
+                        image ? ", reversed left to right" : "");
 }
 
 const char *words_headline(const ReviewCase *c, Arena *arena)

@@ -16,6 +16,7 @@
 #include "review/review_decide.h"
 #include "review/run/case_halo.h"
 #include "review/run/case_visibility.h"
+#include "review/run/private_images.h"
 #include "review/run/symbols.h"
 #include "scene/load/material_data.h"
 #include "text/text.h"
@@ -110,6 +111,8 @@ typedef struct CaseLook {
     const SetupSymbol *symbol;
     Vec3               eye;
     bool               is_coarse, is_bare;
+    const Vec3        *points; /* [point_count], all of the eye's; NULL: no glass is searched */
+    int                point_count;
 } CaseLook;
 
 /* ---- until its verdict is clear ---------------------------------------------------------- */
@@ -458,6 +461,9 @@ static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewC
 {
     DirectSun direct = {0, 0};
     ProbeAim aim = see_symbol(tools, look, c, &direct, arena);
+    if (c->must_not_be_read && look->points)
+        private_images_find(&(PrivateLook){tools->setup, look->symbol, look->points,
+                                           look->point_count}, c, arena);
     judge_ambient(c, tools->profile,
                   aim.target_count && is_in_sun(direct, c->luminance_cd_m2.reflected));
     c->without_data_share = data_share_of(tools, look, &aim, c, *arena);
@@ -492,7 +498,7 @@ static int worst_point(const CaseTools *tools, const CaseLook *look, const EyePl
     int        at = 0, failed = 0;
     for (int i = 0; i < of->count; i++) {
         Arena      room = scratch;
-        CaseLook   one = {look->symbol, of->points[i], true, true};
+        CaseLook   one = {look->symbol, of->points[i], true, true, NULL, 0};
         ReviewCase seen = start;
         judge_look(tools, &one, &seen, &room);
         failed += seen.verdict == VERDICT_FAIL || seen.verdict == VERDICT_UNJUDGED;
@@ -511,8 +517,7 @@ static Vec3 worst_place(const CaseTools *tools, const CaseLook *look, EyePlaces 
 {
     if (of.count == 1) return of.points[0];
     if (c->must_not_be_read) {
-        of.places = ARENA_NEW(arena, CasePlace, of.count);
-        c->places = of.places;
+        c->places = of.places = ARENA_NEW(arena, CasePlace, of.count);
         c->place_count = of.count;
     }
     return of.points[worst_point(tools, look, &of, c, *arena)];
@@ -540,6 +545,7 @@ static bool case_of(const CaseTools *tools, const CaseArgs *args, Arena *arena, 
     c.display_lux = args->face_lux;
     c.eye_failed_share = (double)NAN;
     look.eye = worst_place(tools, &look, (EyePlaces){points, count, NULL}, &c, arena);
+    if (!tools->no_images) look.points = points, look.point_count = count;
     ProbeAim aim = judge_look(tools, &look, &c, arena);
     world_from_scene(tools->setup->scene->origin, look.eye, c.eye_m);
     c.panel = symbol_panel(args->symbol, arena);
@@ -570,8 +576,7 @@ bool setup_case(const CaseTools *tools, const SetupSymbol *symbol, const ReviewE
 bool setup_verdict(const CaseTools *tools, const SetupSymbol *symbol, const ReviewEye *eye,
                    Arena *arena, ReviewCase *out, Error *err)
 {
-    CaseArgs args = {eye, symbol, out->display_lux, true};
-    return case_of(tools, &args, arena, out, err);
+    return case_of(tools, &(CaseArgs){eye, symbol, out->display_lux, true}, arena, out, err);
 }
 
 bool setup_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *err)

@@ -27,6 +27,8 @@ typedef struct CaseTools {
     const Review      *base;        /* of a variant: the review itself. Cases are bare then
                                        (setup_verdict), and read from no fewer paths than its
                                        own, so that what differs is known sharply; or NULL */
+    bool               no_images;   /* what must not be read is not looked for in glass: of a
+                                       part of a job, whose merge does */
 } CaseTools;
 
 /* Share of what a display reflects from which on its light is that of direct sun. */

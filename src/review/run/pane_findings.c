@@ -136,7 +136,7 @@ static void set_figure(GazeFound found, double least, double *value, MeanInterva
 static void set_light(const Setup *setup, Vec3 eye, const PaneImage *image, PaneFinding *out,
                       Arena scratch)
 {
-    PaneImageGoal    goal = {eye, image, PRECISION, PATHS_MOST};
+    PaneImageGoal    goal = {eye, image, PRECISION, PATHS_MOST, 0};
     PaneImageReading found = pane_image_read(setup, &goal, scratch);
     set_figure(found.image, 0, &out->image, &out->image_range);
     set_figure(found.through, 0, &out->behind, &out->behind_range);

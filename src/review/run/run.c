@@ -107,7 +107,8 @@ static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena
     const ReviewCondition *condition = setup->condition;
     Review   *review = &out->review;
     CaseTools tools = {.setup = setup, .profile = run->profile, .work = run->work,
-                       .share = share_of(run, condition), .base = run->base};
+                       .share = share_of(run, condition), .base = run->base,
+                       .no_images = run->share.count > 0};
     SetupSymbol *symbols;
     const Environment *sky = condition->has_environment ? &condition->environment : NULL;
     if (!setup_light(setup, sky, scratch, err) ||
