@@ -145,6 +145,8 @@ static void assert_states(const Review *review)
     const ReviewCase *after = case_of(shared->review, "night", "driver");
     const CaseLuminances *l = &after->luminance_cd_m2;
     assert_string_equal(shared->name, "shared");
+    assert_string_equal(before->panel.state, "private");
+    assert_string_equal(after->panel.state, "shared");
     assert_true(after->must_not_be_read);
     assert_int_equal(before->verdict, VERDICT_FAIL);
     assert_true(l->foreground != before->luminance_cd_m2.foreground);

@@ -165,7 +165,7 @@ static int list_options(Words *words, Option *option, Arena *arena)
         {"--role", OPTION_TEXTS, "PATTERN=ROLE", "what files are: red:255, black, white, "
          "brdf:INCIDENCE[:AZIMUTH[:NM]], dark, reference[:INCIDENCE], skip", &words->roles},
         {"--skip", OPTION_TEXTS, "PATTERN", "files to leave out", &words->skip},
-        {"--state", OPTION_TEXTS, "NAME=PATTERN", "files of one state; all others: of all states",
+        {"--state", OPTION_TEXTS, "NAME=PATTERN", "files of one state; others: of all states",
          &words->states},
         {"--format", OPTION_TEXT, "NAME", "the files' format (default: found from each file)",
          &words->format},
