@@ -231,7 +231,8 @@ static void black_place(const Texture *texture, const Backlight *light, int sign
 {
     double best = -INFINITY;
     for (int i = 0; i < 120 * 40; i++) {
-        const float place[2] = {((float)(i % 120) + 0.5f) / 120, ((float)(i / 120) + 0.5f) / 40};
+        const float place[2] = {((float)(i % 120) + 0.5f) / 120,
+                                ((float)(i / 120) + 0.5f) / 40};
         double value = sign * (double)backlight_at(light, place);
         if (!is_black(texture, place) || value <= best) continue;
         best = value;
