@@ -16,6 +16,8 @@
 #include "panel/query/panel_place.h"
 #include "panel/query/panel_reflection.h"
 #include "panel/query/panel_sampling.h"
+#include "panel/query/panel_zones.h"
+#include "panel/zones/backlight_at.h"
 
 static bool all_in(const float *value, int count, float low)
 {
@@ -68,6 +70,78 @@ static void claim_reflection(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelen
     fuzz_claim(fabsf(vec3_dot(wi, wi) - 1) < 1e-3f, "and unit length");
 }
 
+/* ---- local dimming ----------------------------------------------------------------------- */
+
+#define FEW_ZONES 256 /* a map of more takes a while */
+
+static void checkered(const void *user, const float place[2], float codes[3])
+{
+    bool is_lit = (int)(4 * place[0]) % 2 == (int)(4 * place[1]) % 2;
+    (void)user;
+    for (int p = 0; p < 3; p++) codes[p] = is_lit ? 200 : 0;
+}
+
+static void claim_zones(const Panel *panel, Arena *arena)
+{
+    const DimmingZones *zones = panel_zones(panel);
+    const char  *key;
+    LevelShares  levels;
+    ShownPicture picture = {64, 64, checkered, NULL};
+    if (!zones) return;
+    fuzz_claim(!dimming_zones_fault(zones, &key), "zones that were taken are some");
+    int count = zones->count[0] * zones->count[1];
+    if (count > FEW_ZONES) return;
+    double *drive = ARENA_NEW(arena, double, count);
+    panel_level_shares(panel, &levels);
+    double mean = backlight_drives(zones, &levels, &picture, drive);
+    fuzz_claim(mean >= 0 && mean <= 1, "the mean drive is a share");
+    for (int i = 0; i < count; i++)
+        fuzz_claim(drive[i] >= zones->least && drive[i] <= 1, "no drive is below the least");
+    const Backlight *light = backlight_make(zones, &levels, drive, arena);
+    for (int i = 0; i < 25; i++) {
+        const float place[2] = {0.25f * (float)(i % 5), 0.25f * (float)(i / 5)};
+        const float shown[3] = {255, 90.5f, 0};
+        float       codes[3], b = backlight_at(light, place);
+        fuzz_claim(b > 0 && b <= 1.0001f, "the backlight is a share of full");
+        backlight_codes(light, b, shown, codes);
+        fuzz_claim(all_in(codes, 3, 0) && codes[0] <= 255 && codes[2] == 0,
+                   "pixels get codes, black ones none");
+    }
+}
+
+/* ---- states ------------------------------------------------------------------------------ */
+
+/* Each by its name: refused in one line, or a panel that emits. */
+static void claim_states(const uint8_t *data, size_t size, Arena *arena)
+{
+    Error         err = {0};
+    Panel        *first, *other;
+    PanelOpenArgs args = {data, size, "x.panel", NULL};
+    int           state;
+    if (!panel_open_state(&args, arena, &first, &err)) {
+        fuzz_claim_refusal(&err);
+        return;
+    }
+    int count = panel_info_states(first, &state);
+    fuzz_claim(state == 0, "who names no state gets the first");
+    for (int i = 0; i < count; i++) {
+        const float white[3] = {255, 255, 255};
+        float       xyz[3];
+        args.state = panel_info_state_name(first, i);
+        fuzz_claim(panel_info_is_state_name(args.state), "a state's name is one");
+        if (!panel_open_state(&args, arena, &other, &err)) {
+            fuzz_claim_refusal(&err);
+            continue;
+        }
+        fuzz_claim(panel_info_states(other, &state) == count && state == i, "it is that one");
+        panel_emission_xyz(other, direction(0.3f, 1), white, xyz);
+        fuzz_claim(all_in(xyz, 3, 0), "a state's light is finite and not negative");
+    }
+    args.state = "no state";
+    fuzz_claim(!panel_open_state(&args, arena, &other, &err), "no state has that name");
+    fuzz_claim_refusal(&err);
+}
+
 void fuzz_panel(const uint8_t *data, size_t size, Arena *arena)
 {
     Error  err = {0};
@@ -96,6 +170,8 @@ void fuzz_panel(const uint8_t *data, size_t size, Arena *arena)
     panel_info_wavelengths(panel, nm);
     panel_info_incidences(panel, number);
     panel_info_azimuths(panel, number);
+    claim_zones(panel, arena);
+    claim_states(data, size, arena);
 }
 
 /* ---- mutation ---------------------------------------------------------------------------- */

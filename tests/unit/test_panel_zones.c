@@ -218,6 +218,34 @@ TEST(damaged_bytes_are_refused_or_zones)
     }
 }
 
+/* Every prefix of a whole file with zones, as it is and with a head that says it is whole: one
+ * line that says what is wrong. */
+TEST(every_prefix_is_one_clear_error)
+{
+    FileBytes   bytes;
+    PanelHeader head;
+    fitted(ZONED(ALL_OF_IT), &bytes);
+    for (size_t cut = 0; cut < bytes.size; cut++)
+        for (int is_mended = 0; is_mended < 2; is_mended++) {
+            Error          err = {0};
+            Arena          scratch = folder.arena;
+            Panel         *panel;
+            unsigned char *copy = malloc(cut + 1);
+            memcpy(copy, bytes.data, cut);
+            if (is_mended && cut > sizeof head) {
+                memcpy(&head, copy, sizeof head);
+                head.size = cut;
+                memcpy(copy, &head, sizeof head);
+                repair_checksum(copy, cut);
+            }
+            if (panel_from_bytes(copy, cut, "x.panel", &scratch, &panel, &err))
+                fail_msg("%zu of %zu bytes are taken", cut, bytes.size);
+            free(copy);
+            assert_true(!strcmp(err.file, "x.panel") && err.text[0]);
+            assert_null(strchr(err.text, '\n'));
+        }
+}
+
 TEST(versions_fit_what_is_there)
 {
     PanelSection *toc;

@@ -128,7 +128,7 @@ static double patch_arcmin(const HaloGrid *grid, const double uv[4])
         if (!look_at(grid, ends[i], y, &at[i])) return (double)NAN;
     Vec3   a = vec3_normalize(vec3_sub(at[0], grid->look->eye));
     Vec3   b = vec3_normalize(vec3_sub(at[1], grid->look->eye));
-    double whole = acos_d(fmin(1, (double)vec3_dot(a, b)));
+    double whole = atan2((double)vec3_length(vec3_cross(a, b)), (double)vec3_dot(a, b));
     double share = 2 * spread_share(panel_zones(grid->display->panel), 0) /
                    ((double)grid->display->place_from_uv[0] * (ends[1][0] - ends[0][0]));
     return fmin(60 * degrees_from_radians(whole * share), VISIBILITY_SIZE_LARGE);
