@@ -326,8 +326,8 @@ def check_rate(report, program, page_file, card):
     block = re.search(r'id="live-data">\n(.*?)</script>', text, re.S).group(1)
     data = json.loads(block)
     for picture in data["pictures"]:
-        picture["layers"] = [enlarged(layer, 96, 54, 10) for layer in picture["layers"][:2]]
-        picture["layers"] += ["", ""]
+        picture["layers"] = [layer if at in (2, 3) else enlarged(layer, 96, 54, 10)
+                             for at, layer in enumerate(picture["layers"])]
         picture["width"], picture["height"] = 960, 540
     large = page_file[:-5] + "_large.html"
     with open(large, "w", encoding="utf-8") as file:
