@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""review_denoised.py PARHELION -- a review's pictures are denoised, and nothing else is: review,
-tables, frames' light and maps are the same bytes with and without; the label stands at each
-picture that is, and nowhere else; such a picture is what `develop --denoise` makes of the frame
-beside it, exposed as the frame itself.
+"""review_denoised.py PARHELION [FOLDER] -- a review's pictures are denoised, nothing else is:
+review, tables, frames' light and maps are the same bytes with and without; the label stands at
+each picture that is, and nowhere else; such a picture is what `develop --denoise` makes of the
+frame beside it, exposed as the frame itself. FOLDER: where a copy of all goes.
 """
 import os
 import re

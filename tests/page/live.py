@@ -244,6 +244,17 @@ def check_value(report, look):
                          f"{wanted:.6g} in the frame")
 
 
+def check_label(report, look):
+    """It stands at the denoised picture alone: not at false colours, nor at the eye's view."""
+    for label in ("False colours", "Spread as in an eye"):
+        for value in (True, False):
+            look.set(label, value)
+            shown = look.page.run(f"{look.card}.querySelector('.look b.label').offsetHeight>0")
+            said = look.page.run(f"{look.card}.querySelector('.look b.label').textContent")
+            report.claim(shown == (not value) and said == "denoised preview, not for figures",
+                         f"{label} {value}: the label is shown: {shown}, '{said}'")
+
+
 def check_picture(report, look):
     """At first it is the frame's own picture."""
     for label, value in (("False colours", False), ("Exposure", 0)):
@@ -274,7 +285,8 @@ def check_eye(report, look):
           out.push(codes.reduce((s,c)=>s+(c&4095?1e-5*Math.exp(((c&4095)-1)*Math.log(1e15)/
             4094):0),0)/codes.length);}
         return out;})()""")
-    report.claim(close(means[2], means[0], 0.005) and close(means[3], means[1], 0.005),
+    report.claim(len(means) == 6 and close(means[2], means[0], 0.005) and
+                 close(means[3], means[1], 0.005) and close(means[5], means[1], 0.05),
                  f"means of the layers {means}")
     sharp = look.value_at(48, 27)
     look.set("Spread as in an eye", True)
@@ -314,8 +326,8 @@ def check_rate(report, program, page_file, card):
     block = re.search(r'id="live-data">\n(.*?)</script>', text, re.S).group(1)
     data = json.loads(block)
     for picture in data["pictures"]:
-        picture["layers"] = [enlarged(layer, 96, 54, 10) for layer in picture["layers"][:2]]
-        picture["layers"] += ["", ""]
+        picture["layers"] = [layer if at in (2, 3) else enlarged(layer, 96, 54, 10)
+                             for at, layer in enumerate(picture["layers"])]
         picture["width"], picture["height"] = 960, 540
     large = page_file[:-5] + "_large.html"
     with open(large, "w", encoding="utf-8") as file:
@@ -470,6 +482,7 @@ def check(report, program, reviewer, folder_of_shots):
             look = Look(page, folder, case, card)
             check_value(report, look)
             check_picture(report, look)
+            check_label(report, look)
         check_eye(report, look)
         check_rays(report, page, cards[0][0])
         check_paper(report, page)

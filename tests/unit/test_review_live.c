@@ -224,6 +224,38 @@ ARENA_TEST(parts_add_up)
         }
 }
 
+/* What displays show of a denoised frame is display.fine, bit for bit, where that is known, and
+ * the samples' own elsewhere; both parts add up to the picture, and no light is negative. */
+ARENA_TEST(displays_of_a_clean_picture_are_not_filtered)
+{
+    FrameImage frame = shown_frame(&arena);
+    LiveFrame  plain, split;
+    const float *rgb[3];
+    float       *filtered[3];
+    assert_done(live_frame_split(&frame, &arena, &plain, &err));
+    for (int c = 0; c < 3; c++) {
+        char name[] = "display.fine.R";
+        name[13] = "RGB"[c];
+        float *fine = frame_add_channel(&frame, name, false, &arena);
+        filtered[c] = ARENA_NEW(&arena, float, 1200);
+        for (int i = 0; i < 1200; i++) {
+            fine[i] = i % 7 == 0 || i % 40 > 19 ? NAN : 39.3f + 0.1f * (float)(i % 5);
+            filtered[c][i] = i == 3 ? 1 : 45 + (float)c;
+        }
+    }
+    FrameImage clean = frame_with_rgb(&frame, filtered, &arena);
+    assert_done(live_clean_split(&clean, &arena, &split, &err));
+    assert_true(frame_rgb(&clean, "display.fine", rgb));
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < 1200; i++) {
+            bool  has_fine = i % 7 != 0 && i % 40 <= 19;
+            float shown = has_fine ? rgb[c][i] : plain.displays.rgb[c][i];
+            assert_true(split.displays.rgb[c][i] == shown);
+            assert_true(split.scene.rgb[c][i] == fmaxf(filtered[c][i] - shown, 0));
+        }
+    assert_true(split.scene.rgb[0][3] == 0); /* less light than its display has */
+}
+
 ARENA_TEST(a_frame_without_displays_layers_is_refused)
 {
     FrameImage frame = uniform_frame(4, 4, 1, &arena);

@@ -5,8 +5,8 @@
  * A frame is divided into what displays emit to the eye and the rest; both are made smaller
  * (means of areas) to LIVE_WIDTH x LIVE_HEIGHT at most, and both are spread as in the
  * observer's eye. Where the request has frames denoised, the denoised frame is divided too, for
- * the picture alone: values, false colours and the eye's view are of the frame itself. What a display's light does in the cabin stays with the rest, at the level of
- * the frame.
+ * the picture alone: values, false colours and the eye's view are of the frame itself. What a
+ * display's light does in the cabin stays with the rest, at the level of the frame.
  *
  * Memory   what is packed lives in the arena; scratch: a frame with all its channels, and the
  *          filters'.

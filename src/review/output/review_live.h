@@ -7,10 +7,10 @@
  *
  * A picture is a sum: its light without what displays emit to the eye, and that, which goes
  * with their brightness; both again as the eye spreads them, and as they are shown where the
- * frame is denoised. Each is a layer of 4 bytes a pixel
- * in the manner of LogLuv (Larson 1998, "LogLuv encoding for full-gamut, high-dynamic range
- * images"): the logarithm of the luminance in 4095 steps from 1e-5 to 1e10 cd m^-2, within
- * LIVE_LAYER_ERROR, and CIE 1976 u', v' in steps of 1/410.
+ * frame is denoised. Each is a layer of 4 bytes a pixel in the manner of LogLuv (Larson 1998,
+ * "LogLuv encoding for full-gamut, high-dynamic range images"): the logarithm of the luminance
+ * in 4095 steps from 1e-5 to 1e10 cd m^-2, within LIVE_LAYER_ERROR, and CIE 1976 u', v' in
+ * steps of 1/410.
  *
  * Units    cd m^-2, lx; degrees, azimuths of the vehicle.
  * Memory   what is packed grows in the arena; scratch by value.
