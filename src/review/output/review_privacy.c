@@ -4,8 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "page/page.h"
-#include "review/output/review_values.h"
 #include "review/output/review_words.h"
 #include "text/json_text.h"
 #include "text/text.h"
@@ -45,25 +43,6 @@ const char *privacy_image_words(const CaseImage *i, Arena *arena)
         words_interval(s[1], s[2], arena), words_figure(i->foreground, arena),
         words_figure(i->background, arena), words_figure(i->against, arena),
         words_figure(i->height_arcmin, arena), share);
-}
-
-void values_set_privacy(json_t *to, const ReviewCase *c, Arena *arena)
-{
-    PrivacyFigures of = privacy_figures(c);
-    page_set_flag(to, "is_private", c->must_not_be_read);
-    page_set(to, "places_drawn", privacy_places_drawn(c, arena));
-    page_set(to, "security",
-             !c->must_not_be_read || isnan(of.v)
-                 ? NULL
-                 : arena_format(arena, "V %s, S %s",
-                                words_within(of.v, of.v_low, of.v_high, arena),
-                                words_within(of.s, of.s_low, of.s_high, arena)));
-    json_t *images = values_list(to, "private_images");
-    for (int i = 0; i < c->image_count; i++) {
-        json_t *image = page_add(images);
-        page_set(image, "pane", c->images[i].pane);
-        page_set(image, "told", privacy_image_words(&c->images[i], arena));
-    }
 }
 
 /* ---- from where -------------------------------------------------------------------------- */

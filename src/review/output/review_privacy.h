@@ -26,9 +26,6 @@ const char *privacy_image_words(const CaseImage *image, Arena *arena);
  * on; of more than nine one plan, those that can read it on top. NULL: it has one place. */
 const char *privacy_places_drawn(const ReviewCase *c, Arena *arena);
 
-/* Of a case on the page. */
-void values_set_privacy(json_t *to, const ReviewCase *c, Arena *arena);
-
 /* What review.json says of it: those figures, and what keeps it from being read. What is
  * infinite is null. NULL: it may be read. */
 json_t *privacy_json(const ReviewCase *c);

@@ -12,10 +12,10 @@
 #include "review/output/review_facts.h"
 #include "review/output/review_link.h"
 #include "review/output/pane_outlines.h"
+#include "review/output/privacy_page.h"
 #include "review/output/ray_file.h"
 #include "review/output/review_levels.h"
 #include "review/output/review_road.h"
-#include "review/output/review_privacy.h"
 #include "review/output/review_words.h"
 #include "review/quantity.h"
 #include "review/review_decide.h"
@@ -319,7 +319,7 @@ static bool add_case(const PageValues *v, json_t *to, const ReviewCase *c, Error
     page_set_flag(to, "is_worst", review_sweep_of(v->review, c) != NULL);
     set_contrast(to, c, arena);
     set_levels(to, c, arena);
-    values_set_privacy(to, c, arena);
+    privacy_set_values(to, c, arena);
     set_glare(to, &c->glare, arena);
     set_limits(to, c, arena);
     set_causes(to, c, arena);

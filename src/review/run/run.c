@@ -15,6 +15,7 @@
 #include "review/run/gazes.h"
 #include "review/run/pane_findings.h"
 #include "review/run/rests.h"
+#include "review/run/road_steps.h"
 #include "review/run/sweep.h"
 #include "review/run/sweep_probes.h"
 #include "review/run/sweep_weather.h"
@@ -151,6 +152,7 @@ static bool run_after_dark(const ReviewRun *run, const ReviewCondition *conditio
     if (!count || run->base || run->share.count) return true;
     Arena scratch = arena_reserve(SETUP_BYTES);
     Setup setup;
+    GazeFinding *found = review->gazes + review->gaze_count;
     bool  ok = setup_open(&options, &scratch, run->problems, &setup, err);
     if (ok) {
         Environment dark = setup.scene->environment;
@@ -158,11 +160,12 @@ static bool run_after_dark(const ReviewRun *run, const ReviewCondition *conditio
         dark.kind = ENVIRONMENT_NONE;
         dark.has_sun = false;
         ok = setup_light(&setup, &dark, &scratch, err) &&
-             setup_gazes(&looks, arena, review->gazes + review->gaze_count, err);
+             setup_gazes(&looks, arena, found, err);
+        for (int i = 0; ok && i < count; i++) found[i].road->is_after_dark = true;
+        ok = ok && road_steps_find(&(RoadStepsArgs){run, &setup}, found, count, arena, err);
         setup_close(&setup);
     }
-    for (int i = 0; ok && i < count; i++)
-        review->gazes[review->gaze_count++].road->is_after_dark = true;
+    if (ok) review->gaze_count += count;
     arena_release(&scratch);
     return ok;
 }
