@@ -224,6 +224,31 @@ def check_twilight(report, reviews):
     report.claim(low <= own_high and own_low <= high, "a step is what the moment has")
 
 
+def check_variants(report, reviews):
+    """Half as bright displays make half of their increment; the rest stays."""
+    document = request({"*": 0.05}, 1)
+    document["variants"] = {"half": {"brightness": {"*": 0.5}},
+                            "back": {"eyes": {"eye": {"move_m": [0, 0, 0.3]}}}}
+    done, out, gaze = reviews.gaze("variants", document)
+    with open(os.path.join(out, "review.json"), encoding="utf-8") as file:
+        half, back = json.load(file)["variants"]
+    age = gaze["road"]["ages"][-1]
+    shown = age["threshold_increment_pct"]
+    displays = sum(d["threshold_increment_pct"] for d in age["displays"])
+    row = half["roads"][0]
+    report.claim(row["before"]["threshold_increment_pct"] == shown, "before is the review's")
+    report.claim(math.isclose(row["after"]["threshold_increment_pct"], shown - displays / 2,
+                              rel_tol=1e-3), f"light is linear: {row}, {displays} of {shown}")
+    report.claim(row["before"]["outcome"] == "fail" and half["verdict"] == "pass",
+                 "and what it keeps counts")
+    report.claim(back["roads"][0]["after"]["threshold_increment_interval"][0] >
+                 row["before"]["threshold_increment_interval"][1] and
+                 back["roads"][0]["after"]["outcome"] == back["verdict"],
+                 "from farther back they stand nearer to the gaze and veil more")
+    report.claim("variant half: road, seen by eye, night: threshold increment" in done.stdout,
+                 "the console has it")
+
+
 def main():
     report = Report()
     program = os.path.abspath(sys.argv[1])
@@ -236,6 +261,7 @@ def main():
         check_level(report, reviews, gaze["road"])
         check_left_out(report, reviews)
         check_twilight(report, reviews)
+        check_variants(report, reviews)
     report.finish()
 
 

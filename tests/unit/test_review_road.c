@@ -296,4 +296,30 @@ TEST(the_worse_road_is_that_of_verdict_then_margin_then_increment)
         }
 }
 
+/* ---- of variants ------------------------------------------------------------------------- */
+
+/* The deciding age of the variant beside the review's of that age. */
+TEST(a_variants_road_stands_beside_the_reviews)
+{
+    Review      before = review_with(judged(30, 1, 0, 0));
+    Review      after = review_with(judged(9, 1, 0, 0));
+    RoadChange  change;
+    GazeFinding only = after.gazes[2];
+    after.gazes = &only; /* a variant's has roads alone */
+    after.gaze_count = 1;
+    assert_true(road_change_at(&before, &after, 0, &change));
+    assert_ptr_equal(change.before, &before.gazes[2]);
+    assert_same(30, change.age_before->increment_pct);
+    assert_same(9, change.age_after->increment_pct);
+    assert_false(road_change_at(&before, &after, 1, &change));
+    const char *words = road_change_words(&change, &arena);
+    assert_non_null(strstr(words, ": threshold increment 30.0 → 9.0 % (8.0 to 10.0) at "
+                                  "70 years, fail → pass"));
+    only.condition = "another";
+    assert_true(road_change_at(&before, &after, 0, &change));
+    assert_null(change.before);
+    words = road_change_words(&change, &arena);
+    assert_non_null(strstr(words, "threshold increment 9.0 % (8.0"));
+}
+
 TEST_PROGRAM(page_begin, clear_folder)
