@@ -3,7 +3,8 @@
  * symbol as the first eye sees it, held against limits that leave its true contrast a margin of
  * -10 to 10 %, TRIALS seeds each, by what decides a review's verdicts. verdicts.py makes the
  * reviews. Where the eye must not read the symbol the limit is one of visual security, and the
- * margins are those of S (review/judge.h), six of them.
+ * margins are those of S (review/judge.h), six of them; of one that is seen in glass alone they
+ * are those of its image.
  *
  * The truth is the mean of 400 longer readings with seeds of their own; printed are its
  * contrast, the error of that in percent, and what is shown, foreground and background. Then of
@@ -12,6 +13,7 @@
 #include <string.h>
 
 #include "coverage_trials.h"
+#include "review/private_image.h"
 #include "review/request/request_read.h"
 #include "review/run/cases.h"
 
@@ -39,6 +41,35 @@ static ReviewCase judged(const Verdicts *v, const Profile *profile, unsigned see
     return c;
 }
 
+static double contrast_in_glass(const CaseImage *image, double mirrored, double against)
+{
+    return luminance_contrast(mirrored * image->sent_foreground,
+                              mirrored * image->sent_background, against);
+}
+
+/* Of a symbol that the eye sees in the first pane alone: the contrast that the means of the
+ * share that is mirrored and of what lies behind make. */
+static double true_contrast_in_glass(const Verdicts *v, const Profile *open, Arena arena)
+{
+    Trial    *mirrored = ARENA_NEW(&arena, Trial, TRUTH_RUNS);
+    Trial    *against = ARENA_NEW(&arena, Trial, TRUTH_RUNS);
+    CaseImage image = {0};
+    for (int i = 0; i < TRUTH_RUNS; i++) {
+        ReviewCase c = judged(v, open, (1u << 28) + (unsigned)i);
+        image = c.images[0];
+        mirrored[i].found = image.reflectance;
+        against[i].found = image.against;
+    }
+    Truth  share = trials_mean(mirrored, TRUTH_RUNS), behind = trials_mean(against, TRUTH_RUNS);
+    double ratio = contrast_in_glass(&image, share.value, behind.value);
+    double off = contrast_in_glass(&image, share.value + share.error,
+                                   behind.value - behind.error);
+    printf("%s\ttruth\t%.5f\t%.4f\n", v->setup->condition->name, ratio,
+           100 * fabs(off / ratio - 1));
+    fflush(stdout);
+    return ratio;
+}
+
 /* The contrast that the mean of the reflected light makes. */
 static double true_contrast(const Verdicts *v, Arena arena)
 {
@@ -48,6 +79,9 @@ static double true_contrast(const Verdicts *v, Arena arena)
     Trial         *list = ARENA_NEW(&arena, Trial, TRUTH_RUNS);
     CaseLuminances l = {0};
     CaseBox        part = {0};
+    ReviewCase first = judged(v, &open, 1u << 28);
+    if (first.image_count && !(first.visible_share > 0))
+        return true_contrast_in_glass(v, &open, arena);
     r->precision_contrast = r->precision_clear = NEVER;
     r->precision_paths = TRUTH_PATHS;
     for (int i = 0; i < TRUTH_RUNS; i++) {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""verdicts.py BUILD [--trials N] [--rooms open,window,grey,sun,trim] [--private] -- how often a
+"""verdicts.py BUILD [--trials N] [--rooms open,window,grey,sun,trim,glass] [--private] -- how often a
 verdict is wrong whose true margin is -10 to 10 %: a table. BUILD has bench_verdicts. --private:
 of a symbol that must not be read, by its visual security.
 
@@ -7,7 +7,8 @@ Rooms: a display in the open under an even sky, and in a black box that an even 
 light through a window, whose truths are closed forms (the panel's BRDF as `panel eval` tells
 it, over the sky, or over the window and for the sun) and are held against those of long runs;
 in a grey box with a small window; in the open under a sun and a sky; by small lamps over a
-glossy trim. A wrong verdict passes where the truth fails, or fails where it passes; "too close"
+glossy trim; with --private also `glass`: a display that turns its back to the eye, which sees
+it in a pane. A wrong verdict passes where the truth fails, or fails where it passes; "too close"
 is none. At most one in a hundred may be; the upper end is that of Clopper and Pearson's 95 %
 interval of one side.
 """
@@ -151,6 +152,20 @@ def trim():
     return scene, {"type": "constant", "luminance": 200}
 
 
+def glass():
+    """A display that the eye sees in a window alone, before an even sky."""
+    scene = Scene()
+    bars = png(60, 30, [[255 if 20 <= x < 40 and 8 <= y < 22 else 0 for x in range(60)
+                         for _ in range(3)] for y in range(30)])
+    screen = scene.material("screen", extensions={"PARHELION_display": {
+        "panel": "ips.panel", "content": {"index": scene.image("image/png", bars)},
+        "level": 1}})
+    scene.quad(screen, [0.65, -0.075, 0.2], [-0.3, 0, 0], [0, 0.15, 0])
+    scene.quad(scene.window(1.52), [-2, -2, -0.5], [4, 0, 0], [0, 4, 0])
+    scene.view("eye", EYE, [0, 0, -1], 40)
+    return scene, {"type": "constant", "luminance": 100}
+
+
 def write_review(room, folder, is_private):
     scene, light = room()
     scene.write(os.path.join(folder, "room.gltf"))
@@ -177,7 +192,8 @@ def upper_end(wrong, trials):
     return high
 
 
-ROOMS = {"open": open_sky, "window": window, "grey": grey, "sun": sun, "trim": trim}
+ROOMS = {"open": open_sky, "window": window, "grey": grey, "sun": sun, "trim": trim,
+         "glass": glass}
 CLOSED = {"open": open_light, "window": window_light}
 CLOSED_WITHIN = 0.003  # the sum over directions, and D65 between wavelengths
 

@@ -215,4 +215,111 @@ TEST(words_say_the_ways_of_light)
     assert_string_equal(road_outcome(&gaze), "fail");
 }
 
+/* ---- steps of a sweep -------------------------------------------------------------------- */
+
+/* After dark 5 % and in twilight 30 % of the older age. */
+static GazeRoad *stepped(void)
+{
+    GazeRoad *road = judged(30, 1, 0, 0);
+    road->when = "2026-10-10 17:12, heading 270 degrees";
+    road->steps = ARENA_NEW(&arena, RoadStep, 2);
+    road->step_count = 2;
+    road->twilight_count = 5;
+    for (int i = 0; i < 2; i++)
+        road->steps[i] = (RoadStep){
+            .when = i ? road->when : NULL, .sun_azimuth_deg = i ? 10 : NAN,
+            .sun_elevation_deg = i ? -7.5 : NAN, .sky_lx = i, .road_cd_m2 = 0.3 + 0.07 * i,
+            .minutes = i ? 20 : NAN, .age_years = 70, .veil = 0.2 * (i + 1),
+            .veil_range = {0.19 * (i + 1), 0.21 * (i + 1)}, .increment_pct = i ? 30 : 5,
+            .increment_range = {i ? 29 : 4, i ? 31 : 6}, .displays_share = 0.25,
+            .margin = i ? -0.5 : 2, .verdict = i ? VERDICT_FAIL : VERDICT_PASS};
+    road->age_count = 1;
+    road->ages++;
+    return road;
+}
+
+TEST(steps_are_told_and_read_back)
+{
+    Review      again, review = review_with(stepped());
+    Review      plain = review_with(judged(30, 1, 0, 0));
+    const char *path = fresh_name(".json");
+    assert_true(review_has_road_steps(&review) && !review_has_road_steps(&plain));
+    assert_done(review_json_write(review_json(&plain), path, &err));
+    const char *text = taken(path);
+    assert_true(!strstr(text, "twilight_count") && !strstr(text, "\"steps\""));
+    path = fresh_name(".json");
+    assert_done(review_json_write(review_json(&review), path, &err));
+    assert_done(review_json_read(path, &arena, &again, &err));
+    const GazeRoad *r = again.gazes[2].road;
+    assert_int_equal(r->step_count, 2);
+    assert_int_equal(r->twilight_count, 5);
+    assert_string_equal(r->when, stepped()->when);
+    assert_null(r->steps[0].when);
+    assert_true(isnan(r->steps[0].sun_elevation_deg) && isnan(r->steps[0].minutes));
+    assert_same(0.37, r->steps[1].road_cd_m2);
+    assert_same(29, r->steps[1].increment_range.low);
+    assert_int_equal(r->steps[1].verdict, VERDICT_FAIL);
+    const char *table = written(review_csv_write_road_steps, &review);
+    assert_non_null(strstr(table, "10,-7.5,1,0.37,20,70,0.4,0.38,0.42,30,29,31,0.25,-0.5,"
+                                  "fail\r\n"));
+    int rows = 0;
+    for (const char *at = table; (at = strstr(at, "\r\n")); at++) rows++;
+    assert_int_equal(rows, 3); /* the head, and two steps: no other gaze has any */
+}
+
+TEST(the_page_shows_steps_and_names_the_worst)
+{
+    Review      review = review_with(stepped());
+    ReviewPage  page = {.review = &review};
+    const char *text = page_of(&page);
+    assert_non_null(strstr(text, "hour by hour: 1 of 5 steps in twilight"));
+    assert_non_null(strstr(text, "<td>after dark</td><td class=\"n\">–</td>"));
+    assert_non_null(strstr(text, "heading 270 degrees</td><td class=\"n\">7.5°</td>"));
+    assert_non_null(strstr(text, "at 2026-10-10 17:12, heading 270 degrees: threshold "
+                                 "increment 30.0"));
+    review = review_with(judged(30, 1, 0, 0));
+    assert_null(strstr(page_of(&page), "hour by hour"));
+}
+
+TEST(the_worse_road_is_that_of_verdict_then_margin_then_increment)
+{
+    const Profile none = {.increment_most_pct = NAN};
+    const double  pct[] = {5, 14.5, 20, 30};
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 4; k++) {
+            GazeFinding a = {.road = judged(pct[i], 1, 0, 0)};
+            GazeFinding b = {.road = judged(pct[k], 1, 0, 0)};
+            assert_int_equal(road_is_worse(&a, &b), i > k);
+            judge_road(a.road, &none, 0);
+            judge_road(b.road, &none, 0);
+            assert_int_equal(road_is_worse(&a, &b), i > k);
+        }
+}
+
+/* ---- of variants ------------------------------------------------------------------------- */
+
+/* The deciding age of the variant beside the review's of that age. */
+TEST(a_variants_road_stands_beside_the_reviews)
+{
+    Review      before = review_with(judged(30, 1, 0, 0));
+    Review      after = review_with(judged(9, 1, 0, 0));
+    RoadChange  change;
+    GazeFinding only = after.gazes[2];
+    after.gazes = &only; /* a variant's has roads alone */
+    after.gaze_count = 1;
+    assert_true(road_change_at(&before, &after, 0, &change));
+    assert_ptr_equal(change.before, &before.gazes[2]);
+    assert_same(30, change.age_before->increment_pct);
+    assert_same(9, change.age_after->increment_pct);
+    assert_false(road_change_at(&before, &after, 1, &change));
+    const char *words = road_change_words(&change, &arena);
+    assert_non_null(strstr(words, ": threshold increment 30.0 → 9.0 % (8.0 to 10.0) at "
+                                  "70 years, fail → pass"));
+    only.condition = "another";
+    assert_true(road_change_at(&before, &after, 0, &change));
+    assert_null(change.before);
+    words = road_change_words(&change, &arena);
+    assert_non_null(strstr(words, "threshold increment 9.0 % (8.0"));
+}
+
 TEST_PROGRAM(page_begin, clear_folder)

@@ -127,10 +127,14 @@ static void print_panes(const Review *review, Arena scratch)
         print("%-16s %d image%s of displays in glass\n", "panes", shown, shown == 1 ? "" : "s");
 }
 
-static void print_variant(const ReviewVariantFound *v, Arena scratch)
+static void print_variant(const Review *review, const ReviewVariantFound *v, Arena scratch)
 {
+    RoadChange change;
     print("%-16s variant %s: %s\n", verdict_names[review_verdict(v->review)], v->name,
           review_variants_words(v, &scratch));
+    for (int i = 0; road_change_at(review, v->review, i, &change); i++)
+        print("%-16s variant %s: %s\n", road_outcome(change.after), v->name,
+              road_change_words(&change, &scratch));
 }
 
 static void print_mend(const ReviewMend *m, Arena *scratch)
@@ -165,7 +169,7 @@ static void print_review(const Review *review, Arena scratch)
     print_panes(review, scratch);
     const ReviewCase *worst = review_worst(review, scratch);
     for (int i = 0; i < review->variant_count; i++)
-        print_variant(&review->variants[i], scratch);
+        print_variant(review, &review->variants[i], scratch);
     for (int i = 0; i < review->mend_count; i++) print_mend(&review->mends[i], &scratch);
     if (worst) print_worst(review, worst, scratch);
     const char *rests = review_rests_words(review, &scratch);

@@ -9,6 +9,7 @@
 #include "review/output/json_rows.h"
 #include "review/output/review_facts.h"
 #include "review/output/review_privacy.h"
+#include "review/output/review_road.h"
 #include "review/pane_verdict.h"
 #include "review/review_decide.h"
 #include "review/road_verdict.h"
@@ -65,6 +66,23 @@ TABLE(road_dimming_json, RoadDimming,
     OWN(TEXT, RoadDimming, symbol),
     AS_WORD("window", MUST | RECORD_NULL, RoadDimming, window, road_windows + 1));
 
+TABLE(road_step_json, RoadStep,
+    {"when", RECORD_TEXT, MUST | RECORD_NULL, RECORD_AT(RoadStep, when)},
+    OWN(FIGURE, RoadStep, sun_azimuth_deg), OWN(FIGURE, RoadStep, sun_elevation_deg),
+    OWN(FIGURE, RoadStep, sky_lx), OWN(FIGURE, RoadStep, road_cd_m2),
+    OWN(FIGURE, RoadStep, minutes), OWN(FIGURE, RoadStep, age_years),
+    AS("veil_cd_m2", FIGURE, RoadStep, veil), AS("veil_interval", RANGE, RoadStep, veil_range),
+    AS("threshold_increment_pct", FIGURE, RoadStep, increment_pct),
+    AS("threshold_increment_interval", RANGE, RoadStep, increment_range),
+    OWN(FIGURE, RoadStep, displays_share), OWN(FIGURE, RoadStep, margin),
+    OWN(VERDICT, RoadStep, verdict));
+
+static json_t *write_twilight(const void *item)
+{
+    const GazeRoad *road = item;
+    return road->step_count ? json_integer(road->twilight_count) : json_null();
+}
+
 TABLE(road_json, GazeRoad,
     OWN(FIGURE, GazeRoad, luminance_cd_m2), OWN(FIGURE, GazeRoad, s_p),
     OWN(FIGURE, GazeRoad, mesopic_cd_m2),
@@ -75,7 +93,11 @@ TABLE(road_json, GazeRoad,
     AS("counts", FLAG, GazeRoad, has_limit), OWN(VERDICT, GazeRoad, verdict),
     AS("reason", REASON, GazeRoad, unjudged),
     LIST("ages", MUST, GazeRoad, ages, age_count, road_age_json),
-    LIST("dimming", MUST, GazeRoad, dimming, dimming_count, road_dimming_json));
+    LIST("dimming", MUST, GazeRoad, dimming, dimming_count, road_dimming_json),
+    {"when", RECORD_TEXT, RECORD_NULL | RECORD_BRIEF, RECORD_AT(GazeRoad, when)},
+    LIST("steps", RECORD_BRIEF, GazeRoad, steps, step_count, road_step_json),
+    {"twilight_count", RECORD_INTEGER, RECORD_LONG | RECORD_NULL | RECORD_BRIEF,
+     RECORD_AT(GazeRoad, twilight_count), RECORD_RANGE(0, 1e18), .write = write_twilight});
 
 TABLE(gaze_json, GazeFinding,
     OWN(TEXT, GazeFinding, condition), OWN(TEXT, GazeFinding, eye),
@@ -199,7 +221,31 @@ static json_t *difference_json(const ReviewDifference *d)
     return out;
 }
 
-static json_t *variant_json(const ReviewVariantFound *v)
+/* A road as it is before or after a change. */
+static json_t *road_side_json(const GazeFinding *gaze, const RoadAge *age)
+{
+    if (!gaze || !age) return json_null();
+    return json_pack("{s:o, s:[o,o], s:s}", "threshold_increment_pct",
+                     json_figure(age->increment_pct), "threshold_increment_interval",
+                     json_figure(age->increment_range.low),
+                     json_figure(age->increment_range.high), "outcome", road_outcome(gaze));
+}
+
+static json_t *road_changes_json(const Review *review, const Review *variant)
+{
+    json_t    *list = json_array();
+    RoadChange c;
+    for (int i = 0; road_change_at(review, variant, i, &c); i++)
+        json_array_append_new(
+            list, json_pack("{s:o, s:o, s:o, s:f, s:o, s:o}", "condition",
+                            text(c.after->condition), "eye", text(c.after->eye), "gaze",
+                            text(c.after->gaze), "age_years", c.age_after->age_years, "before",
+                            road_side_json(c.before, c.age_before), "after",
+                            road_side_json(c.after, c.age_after)));
+    return list;
+}
+
+static json_t *variant_json(const Review *review, const ReviewVariantFound *v)
 {
     json_t *out = json_pack("{s:o, s:o, s:b, s:s}", "name", text(v->name), "changes",
                             json_texts(v->words, v->word_count), "pass", v->review->pass,
@@ -211,6 +257,9 @@ static json_t *variant_json(const ReviewVariantFound *v)
                               difference_json(&v->differences[i]));
     set(out, "cases", cases);
     set(out, "sweeps", sweeps);
+    json_t *roads = road_changes_json(review, v->review);
+    if (json_array_size(roads)) set(out, "roads", roads);
+    else json_decref(roads);
     if (v->frame)
         set(out, "frames", json_pack("{s:o, s:o}", "before", text(v->frame_before), "after",
                                      text(v->frame)));
@@ -249,7 +298,7 @@ static json_t *write_variants(const void *item)
     const Review *review = item;
     json_t       *variants = json_array();
     for (int i = 0; i < review->variant_count; i++)
-        json_array_append_new(variants, variant_json(&review->variants[i]));
+        json_array_append_new(variants, variant_json(review, &review->variants[i]));
     return variants;
 }
 

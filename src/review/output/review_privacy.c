@@ -5,15 +5,21 @@
 #include <stdlib.h>
 
 #include "page/page.h"
-#include "review/output/review_values.h"
 #include "review/output/review_words.h"
+#include "review/private_image.h"
 #include "text/json_text.h"
 #include "text/text.h"
 #include "vision/privacy.h"
 
 #define ALL_SHOWN 1e-6
 
-PrivacyFigures privacy_figures(const ReviewCase *c)
+/* V and S with their 95 % intervals, whose ends are those of the contrast, the other way round.
+ * NaN where the contrast is. */
+typedef struct PrivacyFigures {
+    double v, v_low, v_high, s, s_low, s_high;
+} PrivacyFigures;
+
+static PrivacyFigures privacy_figures(const ReviewCase *c)
 {
     const CaseLuminances *l = &c->luminance_cd_m2;
     double white = fmax(l->foreground, l->background);
@@ -25,7 +31,9 @@ PrivacyFigures privacy_figures(const ReviewCase *c)
                             privacy_s_of_contrast(c->contrast_low)};
 }
 
-const char *privacy_image_words(const CaseImage *i, Arena *arena)
+/* Of its image in a pane: "can be read, reversed: V 1.2 (1.1 to 1.3), S 0.08 (0.04 to 0.11);
+ * 0.21 and 0.002 cd/m² over 0.1; 24 arc minutes high, all of it shown". */
+static const char *privacy_image_words(const CaseImage *i, Arena *arena)
 {
     static const char *const READ[4] = {
         [VERDICT_PASS] = "surely cannot be read", [VERDICT_FAIL] = "can be read, reversed",
@@ -45,25 +53,6 @@ const char *privacy_image_words(const CaseImage *i, Arena *arena)
         words_interval(s[1], s[2], arena), words_figure(i->foreground, arena),
         words_figure(i->background, arena), words_figure(i->against, arena),
         words_figure(i->height_arcmin, arena), share);
-}
-
-void values_set_privacy(json_t *to, const ReviewCase *c, Arena *arena)
-{
-    PrivacyFigures of = privacy_figures(c);
-    page_set_flag(to, "is_private", c->must_not_be_read);
-    page_set(to, "places_drawn", privacy_places_drawn(c, arena));
-    page_set(to, "security",
-             !c->must_not_be_read || isnan(of.v)
-                 ? NULL
-                 : arena_format(arena, "V %s, S %s",
-                                words_within(of.v, of.v_low, of.v_high, arena),
-                                words_within(of.s, of.s_low, of.s_high, arena)));
-    json_t *images = values_list(to, "private_images");
-    for (int i = 0; i < c->image_count; i++) {
-        json_t *image = page_add(images);
-        page_set(image, "pane", c->images[i].pane);
-        page_set(image, "told", privacy_image_words(&c->images[i], arena));
-    }
 }
 
 /* ---- from where -------------------------------------------------------------------------- */
@@ -131,7 +120,10 @@ static void add_place(Text *svg, const Plans *plans, const CasePlace *p, Arena *
     text_add(svg, p->visible_share > 0 ? "</title></circle>" : ", hidden</title></circle>");
 }
 
-const char *privacy_places_drawn(const ReviewCase *c, Arena *arena)
+/* From where in an eye box or ellipse it can be read, as inline SVG: a plan of each height,
+ * seen from above, x to the right and z down as the scene has them, the heights from the top
+ * on; of more than nine one plan, those that can read it on top. NULL: it has one place. */
+static const char *privacy_places_drawn(const ReviewCase *c, Arena *arena)
 {
     Text  svg = {.arena = arena};
     Plans plans = make_plans(c);
@@ -148,6 +140,28 @@ const char *privacy_places_drawn(const ReviewCase *c, Arena *arena)
                 add_place(&svg, &plans, &c->places[i], arena);
     text_add(&svg, "</svg>");
     return svg.data;
+}
+
+/* ---- on the page ------------------------------------------------------------------------- */
+
+void privacy_set_values(json_t *to, const ReviewCase *c, Arena *arena)
+{
+    PrivacyFigures of = privacy_figures(c);
+    page_set_flag(to, "is_private", c->must_not_be_read);
+    page_set(to, "places_drawn", privacy_places_drawn(c, arena));
+    page_set(to, "security",
+             !c->must_not_be_read || isnan(of.v)
+                 ? NULL
+                 : arena_format(arena, "V %s, S %s",
+                                words_within(of.v, of.v_low, of.v_high, arena),
+                                words_within(of.s, of.s_low, of.s_high, arena)));
+    json_t *images = json_array();
+    json_object_set_new(to, "private_images", images);
+    for (int i = 0; i < c->image_count; i++) {
+        json_t *image = page_add(images);
+        page_set(image, "pane", c->images[i].pane);
+        page_set(image, "told", privacy_image_words(&c->images[i], arena));
+    }
 }
 
 /* ---- as JSON ----------------------------------------------------------------------------- */

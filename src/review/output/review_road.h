@@ -25,11 +25,29 @@ const char *road_name(const GazeFinding *gaze, Arena *arena);
  * be read; *count of them. */
 const char **road_empty_windows(const GazeFinding *gaze, int *count, Arena *arena);
 
+/* A variant's road and the review's own, of the same condition, eye and gaze, by the age that
+ * is told of the variant. */
+typedef struct RoadChange {
+    const GazeFinding *before, *after;
+    const RoadAge     *age_before, *age_after;
+} RoadChange;
+
+/* The at-th of a variant's evaluated roads; false: it has no more. before NULL: none is like
+ * it. */
+bool road_change_at(const Review *review, const Review *variant, int at, RoadChange *out);
+
+/* "road, seen by driver, night: threshold increment 24.7 -> 9.9 % (9.8 to 10.0) at 70 years,
+ * fail -> pass". */
+const char *road_change_words(const RoadChange *change, Arena *arena);
+
 /* Adds `roads` to the page's document. */
 void road_add_values(json_t *document, const Review *review, Arena *arena);
 
 /* For gazes.csv and dimming.csv: has_roads, and the deciding age of each gaze beside it. */
 void road_add_columns(json_t *document, const Review *review);
+
+/* Has any gaze a table of a sweep's steps? */
+bool review_has_road_steps(const Review *review);
 
 /* Has any gaze a table of levels? */
 bool review_has_dimming(const Review *review);

@@ -320,7 +320,7 @@ static bool add_case(const PageValues *v, json_t *to, const ReviewCase *c, Error
     page_set_flag(to, "is_worst", review_sweep_of(v->review, c) != NULL);
     set_contrast(to, c, arena);
     set_levels(to, c, arena);
-    values_set_privacy(to, c, arena);
+    privacy_set_values(to, c, arena);
     set_glare(to, &c->glare, arena);
     set_limits(to, c, arena);
     set_causes(to, c, arena);

@@ -208,6 +208,23 @@ int roads_of_sweep(const ReviewRequest *request, const ReviewCondition *conditio
     return count;
 }
 
+static bool is_wanted(const Setup *setup, const ReviewGaze *gaze)
+{
+    if (setup->condition->kind != CONDITION_MOMENT) return is_in_sweep(gaze, setup->condition);
+    return gaze->road && !road_left_out(setup, gaze->road);
+}
+
+int roads_of_moment(const Setup *setup)
+{
+    const ReviewRequest *request = setup->request;
+    int                  count = 0;
+    for (int g = 0; g < request->gaze_count; g++)
+        for (int e = 0; e < request->eye_count; e++)
+            count += !request->gazes[g].at_symbols && request->gazes[g].for_eye[e] &&
+                     is_wanted(setup, &request->gazes[g]);
+    return count;
+}
+
 bool setup_gazes(const GazesArgs *gazes, Arena *arena, GazeFinding *out, Error *err)
 {
     const Setup         *setup = gazes->setup;
@@ -219,7 +236,7 @@ bool setup_gazes(const GazesArgs *gazes, Arena *arena, GazeFinding *out, Error *
             const ReviewEye  *eye = &request->eyes[e];
             int count;
             if (gaze->at_symbols || !gaze->for_eye[e]) continue;
-            if (gazes->roads_only && !is_in_sweep(gaze, setup->condition)) continue;
+            if (gazes->roads_only && !is_wanted(setup, gaze)) continue;
             if (!moment_share_has(gazes->share, ++at, looks)) continue;
             Vec3 *points = setup_eye_points(setup, eye, &count, arena, err);
             if (!points) return false;

@@ -24,9 +24,12 @@ typedef struct GazesArgs {
 } GazesArgs;
 
 /* Fills review_look_count(request) findings, eyes fastest, but for those that are others'; with
- * roads_only those of roads that the condition has, one behind the other.
+ * roads_only those of roads that are evaluated in the condition, one behind the other.
  * Fails where an eye's camera is missing. */
 bool setup_gazes(const GazesArgs *gazes, Arena *arena, GazeFinding *out, Error *err);
 
 /* How many roads the request has evaluated in that sweep or route: gazes times eyes. */
 int roads_of_sweep(const ReviewRequest *request, const ReviewCondition *condition);
+
+/* Of a moment that is lit, likewise. */
+int roads_of_moment(const Setup *setup);

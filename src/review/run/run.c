@@ -15,6 +15,7 @@
 #include "review/run/gazes.h"
 #include "review/run/pane_findings.h"
 #include "review/run/rests.h"
+#include "review/run/road_steps.h"
 #include "review/run/sweep.h"
 #include "review/run/sweep_probes.h"
 #include "review/run/sweep_weather.h"
@@ -69,6 +70,16 @@ static void replan(const ReviewRun *run, const WorkPlan *now)
     *run->plan = *now;
 }
 
+static const MomentShare ALL_OF_IT = {{0, 0}, 0, 1};
+
+/* Of a variant's gazes only the roads' increments: nothing else of them has a limit. */
+static bool add_roads(const GazesArgs *looks, Arena *arena, Review *review, Error *err)
+{
+    if (!setup_gazes(looks, arena, review->gazes + review->gaze_count, err)) return false;
+    review->gaze_count += roads_of_moment(looks->setup);
+    return true;
+}
+
 /* The same cases under a rider's levels. */
 static bool ride_moment(const CaseTools *base_tools, const ReviewRider *rider,
                         const ReviewRun *run, const Review *base, Arena *arena, Error *err)
@@ -86,8 +97,15 @@ static bool ride_moment(const CaseTools *base_tools, const ReviewRider *rider,
     ReviewCase *cases = review->cases + review->case_count;
     int         count = tools.symbol_count * rider->request->eye_count;
     bool        ok = setup_cases(&tools, arena, cases, err);
-    if (ok) keep_names(cases, count, arena);
     if (ok) review->case_count += count;
+    if (ok && roads_of_moment(&setup)) {
+        Setup     lit = setup_lit(&setup);
+        GazesArgs looks = {&lit, &ALL_OF_IT, run->sun_searches, run->profile, cases, count,
+                           true};
+        ok = add_roads(&looks, arena, review, err);
+        setup_unlight(&setup);
+    }
+    if (ok) keep_names(cases, count, arena);
     else if (err->code) error_prefix(err, "variant '%.100s'", rider->variant->name);
     arena_release(&of_context);
     return ok;
@@ -127,7 +145,8 @@ static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena
     if (!run->share.count) keep_names(cases, count, arena); /* others' cases have none */
     review->case_count += count;
     if (!ride_moments(run, &tools, review, arena, err)) return false;
-    if (run->base) return true;
+    GazesArgs roads = {setup, &ALL_OF_IT, run->sun_searches, run->profile, cases, count, true};
+    if (run->base) return add_roads(&roads, arena, review, err);
     GazeFinding *gazes = review->gazes + review->gaze_count;
     GazesArgs looks = {setup, &tools.share, run->sun_searches, run->profile, cases, count,
                       false};
@@ -146,23 +165,25 @@ static bool run_after_dark(const ReviewRun *run, const ReviewCondition *conditio
 {
     SetupOptions options = {run->request, condition, run->means};
     Review      *review = &out->review;
-    MomentShare  all = {{0, 0}, 0, 1};
     int          count = roads_of_sweep(run->request, condition);
     if (!count || run->base || run->share.count) return true;
     Arena scratch = arena_reserve(SETUP_BYTES);
     Setup setup;
+    GazeFinding *found = review->gazes + review->gaze_count;
     bool  ok = setup_open(&options, &scratch, run->problems, &setup, err);
     if (ok) {
         Environment dark = setup.scene->environment;
-        GazesArgs    looks = {&setup, &all, run->sun_searches, run->profile, NULL, 0, true};
+        GazesArgs    looks = {&setup, &ALL_OF_IT, run->sun_searches, run->profile, NULL, 0,
+                              true};
         dark.kind = ENVIRONMENT_NONE;
         dark.has_sun = false;
         ok = setup_light(&setup, &dark, &scratch, err) &&
-             setup_gazes(&looks, arena, review->gazes + review->gaze_count, err);
+             setup_gazes(&looks, arena, found, err);
+        for (int i = 0; ok && i < count; i++) found[i].road->is_after_dark = true;
+        ok = ok && road_steps_find(&(RoadStepsArgs){run, &setup}, found, count, arena, err);
         setup_close(&setup);
     }
-    for (int i = 0; ok && i < count; i++)
-        review->gazes[review->gaze_count++].road->is_after_dark = true;
+    if (ok) review->gaze_count += count;
     arena_release(&scratch);
     return ok;
 }
