@@ -105,8 +105,8 @@ static double margin_without(const ReviewCase *of, int batch, const Profile *pro
     return margin_with(of, left, profile, scratch);
 }
 
-/* Half the interval of a margin that an image in glass decides, whose batches are not kept: with
- * the panel's own error, so that a difference is known at least as well; 0: none does. */
+/* Half the interval of a margin that an image in glass decides, whose batches are not kept:
+ * with the panel's own error, so that a difference is known at least as well; 0: none does. */
 static double image_half(const ReviewCase *of)
 {
     const LimitVerdict *limit = of->limit_id >= 0 ? &of->limits[of->limit_id] : NULL;
