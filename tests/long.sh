@@ -144,6 +144,7 @@ of "$review scenes tests/image"
 start 'why a display looks so' explain python3 tests/image/explain.py $program
 start 'what would mend it, built' remedies python3 tests/image/remedies.py $program
 start 'the road after dark' road python3 tests/image/road.py $program
+start 'what glass lets be read' private python3 tests/image/private.py $program
 start 'through sunglasses' sunglasses python3 tests/image/sunglasses.py $program
 start 'visible to whom' visibility-levels \
     python3 tests/image/visibility_levels.py $program

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""verdicts.py BUILD [--trials N] [--rooms open,window,grey,sun,trim,glass] [--private] -- how often a
-verdict is wrong whose true margin is -10 to 10 %: a table. BUILD has bench_verdicts. --private:
-of a symbol that must not be read, by its visual security.
+"""verdicts.py BUILD [--trials N] [--rooms open,window,grey,sun,trim,glass] [--private] -- how
+often a verdict is wrong whose true margin is -10 to 10 %: a table. BUILD has bench_verdicts.
+--private: of a symbol that must not be read, by its visual security.
 
 Rooms: a display in the open under an even sky, and in a black box that an even sky and a sun
 light through a window, whose truths are closed forms (the panel's BRDF as `panel eval` tells
 it, over the sky, or over the window and for the sun) and are held against those of long runs;
 in a grey box with a small window; in the open under a sun and a sky; by small lamps over a
 glossy trim; with --private also `glass`: a display that turns its back to the eye, which sees
-it in a pane. A wrong verdict passes where the truth fails, or fails where it passes; "too close"
-is none. At most one in a hundred may be; the upper end is that of Clopper and Pearson's 95 %
-interval of one side.
+it in a pane. A wrong verdict passes where the truth fails, or fails where it passes; "too
+close" is none. At most one in a hundred may be; the upper end is that of Clopper and Pearson's
+95 % interval of one side.
 """
 import argparse
 import json

@@ -105,6 +105,14 @@ static double margin_without(const ReviewCase *of, int batch, const Profile *pro
     return margin_with(of, left, profile, scratch);
 }
 
+/* Half the interval of a margin that an image in glass decides, whose batches are not kept:
+ * with the panel's own error, so that a difference is known at least as well; 0: none does. */
+static double image_half(const ReviewCase *of)
+{
+    const LimitVerdict *limit = of->limit_id >= 0 ? &of->limits[of->limit_id] : NULL;
+    return limit && limit->by_pane ? 0.5 * (limit->high - limit->low) / limit->value : 0;
+}
+
 static void set_difference(const Profile *profile, ReviewDifference *of, Arena scratch)
 {
     double each[CASE_BATCHES], mean = 0, squares = 0;
@@ -117,6 +125,8 @@ static void set_difference(const Profile *profile, ReviewDifference *of, Arena s
     for (int i = 0; i < CASE_BATCHES; i++) squares += (each[i] - mean) * (each[i] - mean);
     double error = sqrt(squares * (CASE_BATCHES - 1) / CASE_BATCHES);
     double half = student_quantile(CASE_BATCHES - 1) * error;
+    double images = hypot_d(image_half(of->before), image_half(of->after));
+    if (images > 0) half = hypot_d(half, images);
     of->margin_range = (MeanInterval){of->margin - half, of->margin + half};
 }
 
