@@ -113,7 +113,8 @@ WRONG_SUBPIXELS = [("subpixels", "stripe"), ("subpixels", {}), ("subpixels", {"f
                    ("subpixels", {"layout": "stripe", "columns": 9.5, "rows": 4}),
                    ("subpixels", {"layout": "stripe", "columns": 0, "rows": 4}),
                    ("subpixels", {"layout": "stripe", "shape": "round"})]
-DECLARATION = load(os.path.join(ROOT, "tests/unit/records/import.json"))
+DECLARATION = {**load(os.path.join(ROOT, "tests/unit/records/import.json")),
+               "states": {"shared": ["m01*"], "private": ["m02*"]}}
 WRONG_RECIPES = [("emission/red/peaks_nm", []), ("emission/red/peaks_nm", None),
                  ("emission/green", None), ("emission/gama", 2.2), ("emission/gamma", 9),
                  ("instrument/theta_step_deg", 20), ("reflection/haze_share", 1.5),
@@ -131,7 +132,10 @@ WRONG_DECLARATIONS = [("delimiter", "pipe"), ("azimuth_zero", "north"), ("azimut
                       ("backlight", "tube"), ("peaks_nm", [620, 530]), ("accept", 1),
                       ("specular", 7), ("specular_aperture_deg", 60), ("gloss", []),
                       ("gloss", [{"geometry_deg": 45, "gu": 9}]),
-                      ("gloss", [{"geometry_deg": 60}])]
+                      ("gloss", [{"geometry_deg": 60}]),
+                      ("states", {"shared": ["m0*"]}), ("states", ["m01*", "m02*"]),
+                      ("states/shared", []), ("states/shared", "m01*"),
+                      ("states/private", None)]
 WRONG_MANIFESTS = [("emission/black", None), ("emission/red", {}), ("emission/red/300", "a"),
                    ("emission/white", "white.csv"), ("emission/levels", "levels.csv"),
                    ("emission/purple", "a.csv"),
@@ -295,14 +299,16 @@ def check_formats(report, program, folder, schema_of):
                                         "polarisation": {"degree": 0.5, "azimuth_deg": 0}}}}
     check_format(report, sets, of_states, WRONG_STATES,
                  trying("panel", "fit", "DOCUMENT", "-o", "FOLDER/a.panel"))
-    with open(os.path.join(folder, "m01.txt"), "w", encoding="utf-8") as file:
-        file.write("0;0;1,5;2;1\n5;0;1;2,5;1\n5;90;1;2;1\n5;180;1;2;1\n5;270;1;2,5;1\n")
+    for name in ("m01.txt", "m02.txt"):
+        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+            file.write("0;0;1,5;2;1\n5;0;1;2,5;1\n5;90;1;2;1\n5;180;1;2;1\n5;270;1;2,5;1\n")
     with open(os.path.join(folder, "levels.csv"), "w", encoding="utf-8") as file:
         file.write("level,luminance\n0,0.01\n0.5,0.4\n1,2\n")
     check_format(report, schema_of("import_declaration"), DECLARATION, WRONG_DECLARATIONS,
                  lambda document: refuses(
-                     program, ("panel", "import", "FOLDER/m01.txt", "--layout", "DOCUMENT",
-                               "--role", "m01.txt=white", "-o", "FOLDER/again/MANIFEST.json"),
+                     program, ("panel", "import", "FOLDER/m01.txt", "FOLDER/m02.txt",
+                               "--layout", "DOCUMENT", "--role", "m01.txt=white", "--role",
+                               "m02.txt=white", "-o", "FOLDER/again/MANIFEST.json"),
                      folder, document))
 
 
