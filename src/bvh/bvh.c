@@ -191,12 +191,17 @@ static void keep_first_message(void *user, enum RTCError code, const char *text)
         error_set(err, ERROR_LIBRARY, "ray tracing: %s", why);
 }
 
+/* What all threads may be granted in one moment, and the kernel's own pages for it, which count
+ * in a control group, too. */
+#define GRANTED_AT_ONCE ((size_t)1 << 22)
+
 /* Where the memory is short the library's next block is refused: it says so then, and nobody is
  * killed. */
 static bool grant_memory(void *user, ssize_t bytes, bool is_done)
 {
     (void)user;
-    return is_done || bytes <= 0 || (size_t)bytes < machine_memory_left();
+    if (is_done || bytes <= 0) return true;
+    return (size_t)bytes + GRANTED_AT_ONCE < machine_memory_left();
 }
 
 static bool has_holes(const Scene *scene)

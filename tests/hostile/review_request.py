@@ -48,7 +48,8 @@ GOOD = {
     "gaze": [{"at": "symbols", "name": "here", "eyes": ["driver"]},
              {"name": "road", "direction": [0, 0, -4], "eyes": ["tall", "driver"],
               "road": {"luminance_cd_m2": 0.3, "s_p": 1.4, "ages_years": [25, 70],
-                       "dimming_cd_m2": [0.1, 1]}}],
+                       "dimming_cd_m2": [0.1, 1], "twilight_steps": 2,
+                       "sky_cd_m2_per_lx": 0.05}}],
     "with": {"somebody": ["person.gltf"]},
     "symbols": {"bar": {"display": "screen", "content": "letters.png",
                         "uv": [0.1, 0.1, 0.9, 0.9], "polarity": "light-on-dark"},
@@ -66,7 +67,7 @@ GOOD = {
                         "table_lx": [[0, 0.02], [100, 0.1], [10000, 1]]}},
     "max_level": 2,
     "precision": {"contrast": 0.02, "clear": 0.05, "paths": 65536, "seed": 3},
-    "frames": {"size": [64, 36], "noise": 0.1, "worst": 2},
+    "frames": {"size": [64, 36], "noise": 0.1, "worst": 2, "denoise": False},
     "variants": {
         "all": {"panels": {"screen": "both.panel"}, "states": {"screen": "private"},
                 "contents": {"screen": "letters.png"},
