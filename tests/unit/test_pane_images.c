@@ -220,6 +220,34 @@ TEST(what_stands_between_hides_it_and_is_named)
     }
 }
 
+/* A raster over the display's first triangle, of whose places the later fields are none. */
+TEST(a_place_that_the_display_lacks_is_not_shown)
+{
+    static PaneRaster raster;
+    const int    wide = PANE_RASTER + 1, cells = 2 * PANE_RASTER * PANE_RASTER;
+    SCOPED_WORLD world = world_start();
+    add_display(&world, below);
+    add_pane(&world, builder_pane(1.52f), 3);
+    Setup setup = setup_of(&world);
+    for (int lacking = 0; lacking < 2; lacking++) {
+        for (int i = 0; i < wide * wide; i++) {
+            float v = (float)(i / wide) / PANE_RASTER;
+            float u = (float)(i % wide) / PANE_RASTER * (1 - v);
+            raster.corner[i] = triangle_point(setup.scene, 0, u, v);
+            raster.has_corner[i] = !lacking || i / wide <= PANE_RASTER / 2;
+        }
+        for (int i = 0; i < cells; i++) {
+            float v = ((float)(i / 2 / PANE_RASTER) + 0.5f) / PANE_RASTER;
+            float u = ((float)(i / 2 % PANE_RASTER) + 0.5f) / PANE_RASTER * (1 - v);
+            raster.middle[i] = triangle_point(setup.scene, 0, u, v);
+            raster.has_middle[i] = !lacking || i < cells / 2;
+        }
+        PaneImage image = pane_image_of(&setup, eye, 1, &raster, &world.arena);
+        assert_near(image.share.shown, lacking ? 0.5 : 1, 1e-9);
+        assert_near(image.share.ends, lacking ? 0.5 : 0, 1e-9);
+    }
+}
+
 /* ---- how bright -------------------------------------------------------------------------- */
 
 #define GLASS 1.52

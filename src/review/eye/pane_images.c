@@ -481,15 +481,23 @@ int pane_images_panes(const Scene *scene, int *out)
     return list_parts(scene, false, out);
 }
 
+static PanePoint look_at_place(PaneLattice *lattice, const TrianglePoint *at, bool is_there)
+{
+    return is_there ? look_at(lattice, at) : (PanePoint){.state = PANE_ENDS};
+}
+
 static void add_raster(PaneLattice *lattice, const PaneRaster *raster, PaneImage *out)
 {
     const int  wide = PANE_RASTER + 1;
     PanePoint *at = lattice->at;
-    for (int i = 0; i < wide * wide; i++) at[i] = look_at(lattice, &raster->corner[i]);
+    for (int i = 0; i < wide * wide; i++)
+        at[i] = look_at_place(lattice, &raster->corner[i], raster->has_corner[i]);
     for (int i = 0; i < PANE_RASTER * PANE_RASTER; i++) {
         int a = i / PANE_RASTER * wide + i % PANE_RASTER, b = a + 1, c = a + wide, d = c + 1;
-        PanePoint near = look_at(lattice, &raster->middle[2 * i]);
-        PanePoint far = look_at(lattice, &raster->middle[2 * i + 1]);
+        const TrianglePoint *middle = &raster->middle[2 * i];
+        const bool          *is_there = &raster->has_middle[2 * i];
+        PanePoint near = look_at_place(lattice, &middle[0], is_there[0]);
+        PanePoint far = look_at_place(lattice, &middle[1], is_there[1]);
         add_whole(lattice, (PanePoint[]){at[a], at[b], at[c]}, &near, lattice->area, out);
         add_whole(lattice, (PanePoint[]){at[b], at[d], at[c]}, &far, lattice->area, out);
     }

@@ -68,6 +68,9 @@ typedef struct PaneRaster {
     int           part_id; /* the display's */
     TrianglePoint corner[(PANE_RASTER + 1) * (PANE_RASTER + 1)];
     TrianglePoint middle[2 * PANE_RASTER * PANE_RASTER];
+    /* false: the display has no such place */
+    bool has_corner[(PANE_RASTER + 1) * (PANE_RASTER + 1)];
+    bool has_middle[2 * PANE_RASTER * PANE_RASTER];
 } PaneRaster;
 
 /* The panes of a scene: parts, of which `out` has room for all; their number. */

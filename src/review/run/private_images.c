@@ -36,26 +36,23 @@ static bool box_point(const SymbolSurface *surface, double s, double t, uint32_t
     return true;
 }
 
-/* False: the display shows some of it nowhere. */
-static bool raster_of(const SetupSymbol *symbol, PaneRaster *out)
+static void set_raster(const SetupSymbol *symbol, PaneRaster *out)
 {
     const SymbolSurface *surface = &symbol->surface;
     const double         n = PANE_RASTER;
     const int            wide = PANE_RASTER + 1;
-    uint32_t             triangle = 0;
-    bool                 is_whole = true;
+    uint32_t             triangle = surface->points[0].triangle;
     for (int i = 0; i < wide * wide; i++)
-        is_whole &= box_point(surface, i % wide / n, (double)(i / wide) / n, &triangle,
-                              &out->corner[i]);
-    for (int i = 0; i < 2 * PANE_RASTER * PANE_RASTER && is_whole; i++) {
+        out->has_corner[i] = box_point(surface, i % wide / n, (double)(i / wide) / n,
+                                       &triangle, &out->corner[i]);
+    for (int i = 0; i < 2 * PANE_RASTER * PANE_RASTER; i++) {
         double third = (1 + i % 2) / 3.0;
         int    field = i / 2;
-        is_whole &= box_point(surface, (field % PANE_RASTER + third) / n,
-                              ((double)(field / PANE_RASTER) + third) / n, &triangle,
-                              &out->middle[i]);
+        out->has_middle[i] = box_point(surface, (field % PANE_RASTER + third) / n,
+                                       ((double)(field / PANE_RASTER) + third) / n, &triangle,
+                                       &out->middle[i]);
     }
     out->part_id = (int)surface->scene->triangles[triangle].part_id;
-    return is_whole;
 }
 
 /* ---- what it sends towards a pane -------------------------------------------------------- */
@@ -195,7 +192,7 @@ void private_images_find(const PrivateLook *look, ReviewCase *c, Arena *arena)
     CaseImage   *list = ARENA_NEW(arena, CaseImage, count);
     c->images = list;
     c->image_count = 0;
-    if (raster_of(look->symbol, raster))
-        for (int i = 0; i < count; i++) add_image(look, panes[i], raster, c, list, arena);
+    set_raster(look->symbol, raster);
+    for (int i = 0; i < count; i++) add_image(look, panes[i], raster, c, list, arena);
     arena_release(&scratch);
 }
