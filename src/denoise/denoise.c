@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "base/program.h"
+#include "denoise/balance.h"
 #include "denoise/network.h"
 #include "denoise/transfer.h"
 
@@ -124,8 +125,7 @@ typedef struct Filtering {
     int           width, height;
     float         exposure; /* relative light per cd m^-2 */
     float        *out[3];
-    double       *before, *after; /* luminance of each row, summed up */
-    long         *left;           /* pixels of each row that were not filtered */
+    long         *left; /* pixels of each row that were not filtered */
 } Filtering;
 
 /* Pixels that show a surface, as far as the network's range goes. The others, the sky, suns and
@@ -175,10 +175,41 @@ static void take_row(void *user, int y, const float *row)
             work->out[c][i] = rgb[c];
         }
         work->left[y] += !filtered;
-        if (!are_finite(layers->light, i)) continue;
-        work->before[y] += (double)luminance_of(light);
-        work->after[y] += (double)luminance_of(rgb);
     }
+}
+
+/* ---- the light that the network took ----------------------------------------------------- */
+
+static void light_of_pixel(void *user, size_t i, BalanceLight *out)
+{
+    const Filtering *work = user;
+    const Layers    *layers = work->layers;
+    const float      light[3] = {layers->light[0][i], layers->light[1][i], layers->light[2][i]};
+    float            before[3], after[3], shown[3];
+    *out = (BalanceLight){0, 0, are_finite(layers->light, i) ? luminance_of(light) : 0};
+    if (!is_filtered(work, i)) return;
+    other_light(layers, i, before);
+    shown_light(layers, i, shown);
+    for (int c = 0; c < 3; c++) after[c] = fmaxf(work->out[c][i] - shown[c], 0);
+    out->before = luminance_of(before);
+    out->after = luminance_of(after);
+}
+
+static void scale_pixel(void *user, size_t i, float gain)
+{
+    const Filtering *work = user;
+    float            shown[3];
+    if (!(gain < 1 || gain > 1)) return;
+    shown_light(work->layers, i, shown);
+    for (int c = 0; c < 3; c++)
+        work->out[c][i] = shown[c] + gain * (work->out[c][i] - shown[c]);
+}
+
+static double give_back(Filtering *work, int threads, Arena scratch)
+{
+    const BalancePicture picture = {work->width, work->height, work, light_of_pixel,
+                                    scale_pixel};
+    return balance_run(&picture, threads, scratch);
 }
 
 /* ---- exposure ---------------------------------------------------------------------------- */
@@ -247,16 +278,19 @@ static bool read_weights(Arena *arena, Network *out, Error *err)
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-static DenoiseReport report_of(const Filtering *work)
+static DenoiseReport report_of(const Filtering *work, double block_error)
 {
-    double before = 0, after = 0, left = 0;
-    for (int y = 0; y < work->height; y++) {
-        before += work->before[y];
-        after += work->after[y];
-        left += (double)work->left[y];
+    const float *const *light = work->layers->light;
+    const size_t        count = (size_t)work->width * (size_t)work->height;
+    double              before = 0, after = 0, left = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (!are_finite(light, i)) continue;
+        before += (double)luminance_of((float[]){light[0][i], light[1][i], light[2][i]});
+        after += (double)luminance_of(
+            (float[]){work->out[0][i], work->out[1][i], work->out[2][i]});
     }
-    return (DenoiseReport){before > 0 ? after / before : 1,
-                           left / ((double)work->width * (double)work->height)};
+    for (int y = 0; y < work->height; y++) left += (double)work->left[y];
+    return (DenoiseReport){before > 0 ? after / before : 1, block_error, left / (double)count};
 }
 
 bool denoise_frame(const FrameImage *frame, int threads, Arena *arena, FrameImage *out,
@@ -271,13 +305,11 @@ bool denoise_frame(const FrameImage *frame, int threads, Arena *arena, FrameImag
     FrameImage made = frame_with_rgb(frame, work.out, arena);
     Arena      scratch = *arena;
     if (!read_weights(&scratch, &network, err)) return false;
-    work.before = ARENA_NEW(&scratch, double, (size_t)work.height);
-    work.after = ARENA_NEW(&scratch, double, (size_t)work.height);
     work.left = ARENA_NEW(&scratch, long, (size_t)work.height);
     work.exposure = exposure_of(&work);
     const NetworkPicture picture = {work.width, work.height, &work, fill_row, take_row};
     network_run(&network, &picture, threads, scratch);
-    *report = report_of(&work);
+    *report = report_of(&work, give_back(&work, threads, scratch));
     *out = made;
     return true;
 }

@@ -22,6 +22,8 @@
 typedef struct DenoiseReport {
     double energy_ratio; /* luminance of the filtered frame by that of the frame, summed up;
                             pixels that are not finite left out */
+    double block_error;  /* of the light that is filtered, what the worst block of 64x64 pixels
+                            gained or lost; a share of all its light */
     double left_share;   /* of the pixels that were not filtered: sky, not finite */
 } DenoiseReport;
 

@@ -240,6 +240,7 @@ TEST(looks_that_are_no_figures_say_so)
     Outcome o = run_as(0, "develop n.exr -o n.png --denoise --adapt local --json");
     json_t *j = answer(&o), *denoised = json_object_get(j, "denoised");
     assert_close(number(denoised, "energy_ratio"), 1, 1e-4);
+    assert_true(number(denoised, "block_error") < 0.0081);
     assert_true(number(denoised, "left_share") == 0);
     assert_string_equal(json_string_value(json_object_get(j, "adapt")), "local");
     json_decref(j);

@@ -140,8 +140,10 @@ void look_options_json(const LookReport *report, json_t *answer)
     const DenoiseReport *denoise = &report->denoise;
     json_object_set_new(answer, "denoised",
                         report->develop.is_denoised
-                            ? json_pack("{s:f, s:f}", "energy_ratio", denoise->energy_ratio,
-                                        "left_share", denoise->left_share)
+                            ? json_pack("{s:f, s:f, s:f}", "energy_ratio",
+                                        denoise->energy_ratio, "block_error",
+                                        denoise->block_error, "left_share",
+                                        denoise->left_share)
                             : json_null());
     json_object_set_new(answer, "adapt",
                         report->develop.is_adapted ? json_string("local") : json_null());

@@ -82,6 +82,6 @@ bool look_options_develop(const LookRequest *request, Arena scratch, LookReport 
  * in an eye of ...". */
 const char *look_options_words(const LookReport *report, Arena *arena);
 
-/* Adds "denoised", {"energy_ratio","left_share"} or null, "adapt", "local" or null, and
- * "eye", {"age_years","pigment"} or null. */
+/* Adds "denoised", {"energy_ratio","block_error","left_share"} or null, "adapt", "local" or
+ * null, and "eye", {"age_years","pigment"} or null. */
 void look_options_json(const LookReport *report, json_t *answer);
