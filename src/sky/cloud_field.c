@@ -12,7 +12,7 @@
 #define STREETS (25 * PI / 180) /* the field's own x axis, from east to north */
 #define LOWEST_LIGHT (7 * PI / 180) /* below, light comes from a glow as high as this */
 #define WRAP 0.12f     /* how far light reaches round a cloud's edge: cosine */
-#define THIN 0.3f      /* of the thinnest cloud over that of the thickest: light sent back */
+#define THIN 0.12f      /* of the thinnest cloud over that of the thickest: light sent back */
 #define SHADOW_STEPS 11
 #define SHADOW_FIRST 1.0f /* texels of level 1 */
 #define SHADOW_GROWTH 1.4f
@@ -20,7 +20,7 @@
 /* Points of a lattice that repeats over the square: each cell has one, and a dome over it. */
 typedef struct Lattice {
     int period[2];
-    float (*point)[3]; /* of each cell: where in it, and how high its dome is */
+    float (*point)[3]; /* of each cell: where in it, and its dome's height squared */
 } Lattice;
 
 /* What changes slowly: two displacements and the swell, on a coarser square. */
@@ -101,7 +101,8 @@ static void make_lattice(const int period[2], uint32_t seed, Arena *scratch, Lat
             float   *point = out->point[j * period[0] + i];
             point[0] = 0.5f + 0.42f * part_of(hash, 0);
             point[1] = 0.5f + 0.42f * part_of(hash, 10);
-            point[2] = 0.8f + 0.2f * part_of(hash, 20);
+            float height = 0.8f + 0.2f * part_of(hash, 20);
+            point[2] = height * height;
         }
 }
 
@@ -111,13 +112,17 @@ static float puff(const Lattice *lattice, float u, float v)
     const int *period = lattice->period;
     float x = u * (float)period[0], y = v * (float)period[1], highest = 0;
     int   i = (int)floorf(x), j = (int)floorf(y);
-    for (int b = j - 1; b <= j + 1; b++)
-        for (int a = i - 1; a <= i + 1; a++) {
-            const float *point =
-                lattice->point[around(b, period[1]) * period[0] + around(a, period[0])];
-            float dx = (float)a + point[0] - x, dy = (float)b + point[1] - y;
-            highest = fmaxf(highest, point[2] * point[2] * (1 - dx * dx - dy * dy));
+    const int column[3] = {around(i - 1, period[0]), around(i, period[0]),
+                           around(i + 1, period[0])};
+    for (int b = -1; b <= 1; b++) {
+        float (*row)[3] = lattice->point + around(j + b, period[1]) * period[0];
+        for (int a = -1; a <= 1; a++) {
+            const float *point = row[column[a + 1]];
+            float dx = (float)(i + a) + point[0] - x, dy = (float)(j + b) + point[1] - y;
+            float dome = point[2] * (1 - dx * dx - dy * dy);
+            highest = dome > highest ? dome : highest;
         }
+    }
     return sqrtf(highest);
 }
 
@@ -206,6 +211,17 @@ static CloudSample between(const CloudField *field, int level, float x, float y)
         lerpf(lerpf(p->shade, q->shade, a), lerpf(r->shade, s->shade, a), b)};
 }
 
+/* The same of the height alone. */
+static float height_between(const CloudField *field, int level, float x, float y)
+{
+    float fx = floorf(x), fy = floorf(y), a = x - fx, b = y - fy;
+    int   i = (int)fx, j = (int)fy;
+    return lerpf(
+        lerpf(texel(field, level, i, j)->height, texel(field, level, i + 1, j)->height, a),
+        lerpf(texel(field, level, i, j + 1)->height,
+              texel(field, level, i + 1, j + 1)->height, a), b);
+}
+
 /* How much of the light passes what stands towards it: the steepest rise on the way, against
  * the light's own, with a wide half-shadow. x, y: of level 1. */
 static float passing(const FieldBuild *b, int x, int y)
@@ -215,10 +231,11 @@ static float passing(const FieldBuild *b, int x, int y)
     for (int i = 0; i < SHADOW_STEPS; i++, step *= SHADOW_GROWTH) {
         int   level = step < 4 ? 1 : step < 10 ? 2 : 3;
         float shrink = 1 / (float)(1 << (level - 1)), shift = 0.5f * shrink - 0.5f;
-        float there = between(b->field, level,
-                              ((float)x + step * b->towards[0]) * shrink + shift,
-                              ((float)y + step * b->towards[1]) * shrink + shift).height;
-        rise = fmaxf(rise, (there - height) / (2 * step * CLOUD_FIELD_TEXEL_M));
+        float there = height_between(b->field, level,
+                                     ((float)x + step * b->towards[0]) * shrink + shift,
+                                     ((float)y + step * b->towards[1]) * shrink + shift);
+        float slope = (there - height) / (2 * step * CLOUD_FIELD_TEXEL_M);
+        rise = slope > rise ? slope : rise;
     }
     float soft = 0.06f + 0.35f * tangent;
     float t = clampf(0.5f + (tangent - rise) / (2 * soft), 0, 1);
@@ -249,11 +266,11 @@ static float passing_at(const FieldBuild *b, int x, int y)
  * light finds its way out. */
 static float thickness(const FieldBuild *b, int x, int y, float height)
 {
-    float coarse = between(b->field, 4, ((float)x - 7.5f) / 16, ((float)y - 7.5f) / 16).height;
+    float coarse = height_between(b->field, 4, ((float)x - 7.5f) / 16, ((float)y - 7.5f) / 16);
     float relief = (float)b->input->relief_m;
-    float crease = clampf(1 + 1.6f * (height - coarse) / relief, 0.4f, 1.3f);
-    float t = clampf((0.4f * height + 0.6f * coarse) / relief + 0.5f, 0, 1);
-    return crease * (THIN + (1 - THIN) * t * (2 - t));
+    float crease = clampf(1 + 2.2f * (height - coarse) / relief, 0.3f, 1.5f);
+    float t = clampf(1.2f * (0.4f * height + 0.6f * coarse) / relief + 0.5f, 0, 1);
+    return crease * (THIN + (1 - THIN) * t);
 }
 
 static float lit(const FieldBuild *b, int x, int y)
@@ -264,7 +281,7 @@ static float lit(const FieldBuild *b, int x, int y)
     float sy = (texel(field, 0, x, y + 1)->height - texel(field, 0, x, y - 1)->height) / run;
     float facing = (b->sine - b->cosine * (sx * b->towards[0] + sy * b->towards[1])) /
                    sqrtf(1 + sx * sx + sy * sy);
-    float matte = fmaxf(facing + WRAP, 0) / (b->sine + WRAP);
+    float matte = facing > -WRAP ? (facing + WRAP) / (b->sine + WRAP) : 0;
     return thickness(b, x, y, height) * (0.1f + matte * (0.1f + 0.9f * passing_at(b, x, y)));
 }
 

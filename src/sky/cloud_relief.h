@@ -5,9 +5,9 @@
  * From the observer's foot every azimuth is followed outwards over the height field
  * (cloud_field.h) on the Earth's sphere. What stands highest hides what is behind it, and what
  * is seen is averaged over the angle of a cell of the table: so nothing is finer than that, and
- * far billows merge before they reach the horizon. The means over azimuth and over the side of
- * the light are then divided out: the deck sends what an even one does, from every side of the
- * observer, and only its structure is added.
+ * far billows merge before they reach the horizon. The mean over some degrees of elevation, a
+ * Fourier series of four orders in the azimuth, is then divided out: from every side of the
+ * observer the deck sends what an even one does, and only its structure is added.
  *
  * Approximate  the relief is synthetic and belongs to pictures (cloud_field.h); it repeats
  *              after 123 km; the light's direction is the observer's everywhere.

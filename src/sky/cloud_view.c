@@ -13,10 +13,11 @@
 #define ROWS CLOUD_RELIEF_ROWS
 #define COLUMNS CLOUD_RELIEF_COLUMNS
 #define FIRST (4 * PI / 180) /* rows are even in angle for so much, then widen */
-#define FADE (0.12 * PI / 180) /* at the horizon the relief is drawn out */
+#define FADE 4.0f /* rows at the horizon over which the relief grows from none */
 #define STRIDE 1.4 /* of a step, in widths of what it averages */
 #define STEPS_MAX 6000
-#define TERMS 3 /* of the mean's series in the azimuth from the light */
+#define ORDERS 4
+#define TERMS (2 * ORDERS + 1) /* of the mean's Fourier series in the azimuth */
 #define SMOOTH 40 /* rows to each side over which means are taken */
 
 /* A step outwards from the observer's foot, the same in every azimuth. */
@@ -92,8 +93,10 @@ static void fill_column(void *context, int column, int worker)
 static void fill_terms(ViewBuild *b)
 {
     for (int k = 0; k < TERMS; k++)
-        for (int j = 0; j < COLUMNS; j++)
-            b->term[k][j] = (float)cos_d(2 * PI * k * j / COLUMNS);
+        for (int j = 0; j < COLUMNS; j++) {
+            double angle = 2 * PI * ((k + 1) / 2) * j / COLUMNS;
+            b->term[k][j] = (float)(k % 2 ? sin_d(angle) : cos_d(angle));
+        }
 }
 
 static void row_means(void *context, int row, int worker)
@@ -136,19 +139,20 @@ static void smooth_mean(const ViewBuild *b, int row, double out[TERMS])
     for (int k = 0; k < TERMS; k++) out[k] /= weight;
 }
 
+/* At the foot all azimuths are one place: there the series is drawn in to its first term. */
 static void divide_row(void *context, int row, int worker)
 {
     ViewBuild *b = context;
-    double mean[TERMS], sum = 0;
-    double below = (double)b->out->horizon - row_elevation(b->out, row + 0.5);
-    float  strength = (float)fmin(1, below / FADE);
+    double mean[TERMS], sum = 0, level = cos_d(row_elevation(b->out, row + 0.5));
+    double drawn = fmin(1, 4 * level * level);
+    float  strength = clampf((float)row / FADE, 0, 1);
     (void)worker;
     smooth_mean(b, row, mean);
     for (int j = 0; j < COLUMNS; j++) {
         float *seen = &b->seen[(size_t)j * ROWS + (size_t)row];
         double by = mean[0];
-        for (int k = 1; k < TERMS; k++) by += mean[k] * (double)b->term[k][j];
-        *seen = 1 + (*seen / (float)fmax(by, 0.2 * mean[0]) - 1) * strength;
+        for (int k = 1; k < TERMS; k++) by += drawn * mean[k] * (double)b->term[k][j];
+        *seen = 1 + (*seen / (float)fmax(by, 0.3 * mean[0]) - 1) * strength;
         sum += (double)*seen;
     }
     b->sum[row] = sum * row_area(b->out, row);
@@ -172,7 +176,7 @@ static void store_row(void *context, int row, int worker)
 static float diffuse_share(double elevation)
 {
     double t = fmax(0, fmin(1, (elevation * 180 / PI + 3) / 6));
-    return (float)(1 - 0.65 * t * t * (3 - 2 * t));
+    return (float)(1 - 0.25 * t * t * (3 - 2 * t));
 }
 
 static void take_scratch(ViewBuild *b, Arena *scratch)
