@@ -9,6 +9,7 @@
 #include "sky/air/beam_table.h"
 #include "sky/air/diffuse_light.h"
 #include "sky/air/sphere_light.h"
+#include "sky/cloud_view.h"
 #include "sky/sun_position.h"
 
 #define SUN_ANGLES 17
@@ -382,10 +383,10 @@ static void add_relief(Atmosphere *out, Arena *arena)
     const AtmosphereInput *in = &out->input;
     double height = in->observer_m - in->floor_m;
     if (!(in->relief_m > 0) || height < RELIEF_LOWEST_M) return;
-    CloudReliefInput input = {height, in->relief_m, out->horizon, in->sun_azimuth,
+    CloudViewInput input = {height, in->relief_m, out->horizon, in->sun_azimuth,
                               in->sun_elevation, in->threads};
     out->relief = ARENA_NEW(arena, CloudRelief, 1);
-    cloud_relief_build(&input, arena, out->relief);
+    cloud_view_build(&input, arena, out->relief);
 }
 
 /* Smooth, with no corner at either end. */
@@ -440,13 +441,13 @@ typedef struct SkyParts {
 } SkyParts;
 
 /* The four entries around a direction. */
-typedef struct TablePlace {
+typedef struct Entries {
     bool   below;
     size_t from[4]; /* of the tables' half below the horizon, or above */
     float  weight[4];
-} TablePlace;
+} Entries;
 
-static TablePlace place_of(const Atmosphere *a, float elevation, float azimuth)
+static Entries place_of(const Atmosphere *a, float elevation, float azimuth)
 {
     bool  below = (double)elevation < a->horizon;
     float horizon = (float)a->horizon, reach = below ? -PI_F / 2 - horizon : PI_F / 2 - horizon;
@@ -457,7 +458,7 @@ static TablePlace place_of(const Atmosphere *a, float elevation, float azimuth)
     int   i = (int)y, j = (int)x;
     float t = y - (float)i, u = x - (float)j;
     size_t at = (size_t)i * ATMOSPHERE_COLUMNS + (size_t)j;
-    return (TablePlace){
+    return (Entries){
         below,
         {at, at + 1, at + ATMOSPHERE_COLUMNS, at + ATMOSPHERE_COLUMNS + 1},
         {(1 - t) * (1 - u), (1 - t) * u, t * (1 - u), t * u}};
@@ -465,7 +466,7 @@ static TablePlace place_of(const Atmosphere *a, float elevation, float azimuth)
 
 static SkyParts look_up(const Atmosphere *a, float elevation, float azimuth)
 {
-    TablePlace at = place_of(a, elevation, azimuth);
+    Entries at = place_of(a, elevation, azimuth);
     size_t     half = at.below ? (size_t)ATMOSPHERE_ROWS * ATMOSPHERE_COLUMNS : 0;
     Spectrum molecules = spectrum_all(0), aerosol = spectrum_all(0), sum = spectrum_all(0);
     for (int k = 0; k < 4; k++) {
@@ -493,7 +494,7 @@ Spectrum atmosphere_relief(const Atmosphere *a, float elevation, float azimuth)
 {
     Spectrum sum = spectrum_all(0);
     if (!a->relief) return sum;
-    TablePlace at = place_of(a, elevation, azimuth);
+    Entries at = place_of(a, elevation, azimuth);
     if (!at.below) return sum;
     Spectrum share = spectrum_all(a->relief->diffuse);
     for (int k = 0; k < 4; k++)

@@ -204,8 +204,9 @@ static CloudSample between(const CloudField *field, int level, float x, float y)
 {
     float fx = floorf(x), fy = floorf(y), a = x - fx, b = y - fy;
     int   i = (int)fx, j = (int)fy;
-    const CloudSample *p = texel(field, level, i, j), *q = texel(field, level, i + 1, j),
-                      *r = texel(field, level, i, j + 1), *s = texel(field, level, i + 1, j + 1);
+    const CloudSample *p = texel(field, level, i, j), *q = texel(field, level, i + 1, j);
+    const CloudSample *r = texel(field, level, i, j + 1);
+    const CloudSample *s = texel(field, level, i + 1, j + 1);
     return (CloudSample){
         lerpf(lerpf(p->height, q->height, a), lerpf(r->height, s->height, a), b),
         lerpf(lerpf(p->shade, q->shade, a), lerpf(r->shade, s->shade, a), b)};

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* cloud_field.h -- the tops of a cloud deck as a height field under a low or high light: heights
- * and how brightly each place is lit, on a square that repeats.
+/* cloud_field.h -- the tops of a cloud deck as a height field under a light: heights, and how
+ * brightly each place is lit, on a square that repeats.
  *
  * The field is synthetic: puffs (domes around jittered points of a lattice, Worley 1996) of
  * three sizes on swells of gradient noise (Perlin 1985), with our own hash, stretched a little
  * along one direction as cloud streets are. It is a picture's relief: no weather was measured.
- * A place's light is that of a matte surface with a slope, softened because light travels inside
- * a cloud, less the shadow of what stands towards the light, less what hollows lose.
+ * A place's light is that of a matte slope, softened because light travels inside a cloud, less
+ * the shadow of what stands towards the light, less what creases and thin cloud lose.
  *
  * Frame     x east, y north, metres from the observer's foot; azimuth from north over east.
  * Units     heights in metres over their mean, shades relative: their mean is 1.

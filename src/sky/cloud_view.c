@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The table of cloud_relief.h: not hot, so that every instruction set has the same. */
+/* Not hot: every instruction set has the same table. */
+#include "sky/cloud_view.h"
+
 #include <math.h>
 
 #include "base/mathd.h"
@@ -8,7 +10,6 @@
 #include "base/units.h"
 #include "sky/air/air.h"
 #include "sky/cloud_field.h"
-#include "sky/cloud_relief.h"
 
 #define ROWS CLOUD_RELIEF_ROWS
 #define COLUMNS CLOUD_RELIEF_COLUMNS
@@ -26,7 +27,7 @@ typedef struct Stride {
 } Stride;
 
 typedef struct ViewBuild {
-    const CloudReliefInput *input;
+    const CloudViewInput *input;
     CloudRelief *out;
     CloudField   field;
     Stride      *stride;
@@ -199,7 +200,7 @@ static void find_whole(ViewBuild *b)
     b->whole = sum / area;
 }
 
-static void build(const CloudReliefInput *in, CloudRelief *out, Arena scratch)
+static void build(const CloudViewInput *in, CloudRelief *out, Arena scratch)
 {
     ViewBuild b = {.input = in, .out = out};
     CloudFieldInput field = {fmin(in->relief_m, 0.5 * in->height_m), in->azimuth,
@@ -215,7 +216,7 @@ static void build(const CloudReliefInput *in, CloudRelief *out, Arena scratch)
     parallel_for(in->threads, ROWS, store_row, &b);
 }
 
-void cloud_relief_build(const CloudReliefInput *input, Arena *arena, CloudRelief *out)
+void cloud_view_build(const CloudViewInput *input, Arena *arena, CloudRelief *out)
 {
     double reach = PI / 2 + input->horizon; /* from the horizon to the foot */
     *out = (CloudRelief){.horizon = (float)input->horizon, .first = (float)FIRST,

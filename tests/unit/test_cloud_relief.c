@@ -4,14 +4,15 @@
 #include "fixture.h"
 
 #include "base/units.h"
+#include "sky/cloud_view.h"
 #include "sky/daylight.h"
 
 #define HEIGHT_M 7668.0
 
-static CloudReliefInput usual(double sun_deg, int threads)
+static CloudViewInput usual(double sun_deg, int threads)
 {
     double horizon = -acos((AIR_EARTH_M + 3000) / (AIR_EARTH_M + 3000 + HEIGHT_M));
-    return (CloudReliefInput){HEIGHT_M, 500, horizon, radians_from_degrees(130),
+    return (CloudViewInput){HEIGHT_M, 500, horizon, radians_from_degrees(130),
                               radians_from_degrees(sun_deg), threads};
 }
 
@@ -41,9 +42,9 @@ ARENA_TEST(the_mean_of_the_factor_is_one_on_every_side)
     for (int s = 0; s < 3; s++) {
         Arena            scratch = arena;
         CloudRelief      relief;
-        CloudReliefInput input = usual(sun_deg[s], 2);
+        CloudViewInput   input = usual(sun_deg[s], 2);
         double           found[2], edge = input.horizon;
-        cloud_relief_build(&input, &scratch, &relief);
+        cloud_view_build(&input, &scratch, &relief);
         statistics(&relief, (double[]){-PI / 2, edge, 0, 2 * PI}, found);
         assert_close(found[0], 1, 0.003);
         assert_true(found[1] > 0.1); /* there is something to see */
@@ -60,9 +61,9 @@ ARENA_TEST(the_mean_of_the_factor_is_one_on_every_side)
 ARENA_TEST(the_relief_fades_into_the_horizon)
 {
     CloudRelief      relief;
-    CloudReliefInput input = usual(30, 2);
+    CloudViewInput   input = usual(30, 2);
     double           near[2], far[2], edge = input.horizon;
-    cloud_relief_build(&input, &arena, &relief);
+    cloud_view_build(&input, &arena, &relief);
     statistics(&relief, (double[]){edge - 0.12, edge - 0.08, 0, 2 * PI}, near);
     statistics(&relief, (double[]){edge - 0.0015, edge, 0, 2 * PI}, far);
     assert_true(far[1] < 0.7 * near[1]);
@@ -75,10 +76,10 @@ ARENA_TEST(the_relief_fades_into_the_horizon)
 ARENA_TEST(the_relief_has_no_seam_at_any_azimuth)
 {
     CloudRelief      relief;
-    CloudReliefInput input = usual(30, 2);
+    CloudViewInput   input = usual(30, 2);
     double sum = 0, seam = 0;
     int    rows = 0;
-    cloud_relief_build(&input, &arena, &relief);
+    cloud_view_build(&input, &arena, &relief);
     for (float e = -0.06f; e > -1.2f; e -= 0.003f, rows++) {
         float step = 2 * PI_F / CLOUD_RELIEF_COLUMNS;
         assert_near((double)cloud_relief_factor(&relief, e, -1e-7f),
@@ -98,10 +99,10 @@ ARENA_TEST(the_relief_has_no_seam_at_any_azimuth)
 ARENA_TEST(the_relief_is_the_same_for_any_number_of_threads)
 {
     CloudRelief      one, three;
-    CloudReliefInput input = usual(30, 1);
-    cloud_relief_build(&input, &arena, &one);
+    CloudViewInput   input = usual(30, 1);
+    cloud_view_build(&input, &arena, &one);
     input.threads = 3;
-    cloud_relief_build(&input, &arena, &three);
+    cloud_view_build(&input, &arena, &three);
     assert_memory_equal(one.factor, three.factor,
                         sizeof(uint16_t) * CLOUD_RELIEF_ROWS * CLOUD_RELIEF_COLUMNS);
 }
@@ -168,7 +169,8 @@ ARENA_TEST(without_a_relief_a_deck_is_what_it_was)
     assert_null(a->relief);
     for (int i = 0; i < 2000; i++) {
         float e = -1.5f + 3.0f * (float)i / 2000, azimuth = 0.37f * (float)i;
-        Spectrum one = atmosphere_radiance(a, e, azimuth), two = atmosphere_radiance(b, e, azimuth);
+        Spectrum one = atmosphere_radiance(a, e, azimuth);
+        Spectrum two = atmosphere_radiance(b, e, azimuth);
         Spectrum seen[2] = {daylight_radiance(even, e, azimuth, &lanes),
                             daylight_radiance(rough, e, azimuth, &lanes)};
         assert_memory_equal(&one, &two, sizeof one);
