@@ -9,6 +9,7 @@
 #include "base/units.h"
 
 #define SIZE CLOUD_FIELD_SIZE
+#define HALF (SIZE / 2)
 #define STREETS (25 * PI / 180) /* the field's own x axis, from east to north */
 #define LOWEST_LIGHT (7 * PI / 180) /* below, light comes from a glow as high as this */
 #define WRAP 0.12f     /* how far light reaches round a cloud's edge: cosine */
@@ -36,7 +37,7 @@ typedef struct FieldBuild {
     CloudField *field;
     Lattice lattice[LATTICES];
     Slow   *slow;
-    float  *passing;      /* of the light, at the places of level 1 */
+    float  *half;         /* at the places of level 1: the larger puffs; then what passes */
     float   towards[2];   /* the light, in the field's axes, unit */
     float   sine, cosine; /* of its elevation */
     double *sum, *square; /* of each row */
@@ -147,9 +148,10 @@ static Slow mixed(Slow a, Slow b, float t)
                   lerpf(a.swell, b.swell, t)};
 }
 
+/* At a place of level 1. */
 static Slow slow_at(const FieldBuild *b, int x, int y)
 {
-    const int coarse = SIZE / SLOW_SIZE;
+    const int coarse = SIZE / 2 / SLOW_SIZE;
     int   i = x / coarse, j = y / coarse, i1 = (i + 1) % SLOW_SIZE, j1 = (j + 1) % SLOW_SIZE;
     float s = (float)(x % coarse) / (float)coarse, t = (float)(y % coarse) / (float)coarse;
     const Slow *low = b->slow + j * SLOW_SIZE, *high = b->slow + j1 * SLOW_SIZE;
@@ -157,14 +159,38 @@ static Slow slow_at(const FieldBuild *b, int x, int y)
 }
 
 /* Relative: puffs on larger puffs, on a swell that also makes them higher. */
-static float height_of(const FieldBuild *b, int x, int y)
+static float broad_height(const FieldBuild *b, int x, int y)
 {
     Slow  slow = slow_at(b, x, y);
-    float u = (float)x / SIZE + slow.bend[0], v = (float)y / SIZE + slow.bend[1];
+    float u = (float)x / HALF + slow.bend[0], v = (float)y / HALF + slow.bend[1];
     float large = puff(&b->lattice[0], u, v);
     return large * (0.9f + 0.7f * slow.swell) + 1.1f * slow.swell +
-           (0.15f + 0.4f * large) * puff(&b->lattice[1], u, v) +
-           0.14f * puff(&b->lattice[2], u, v);
+           (0.15f + 0.4f * large) * puff(&b->lattice[1], u, v);
+}
+
+static void fill_broad(void *context, int row, int worker)
+{
+    FieldBuild *b = context;
+    (void)worker;
+    for (int i = 0; i < HALF; i++)
+        b->half[(size_t)row * HALF + (size_t)i] = broad_height(b, i, row);
+}
+
+/* At a place of the finest level, from values at those of level 1, whose middles lie between. */
+static float half_at(const FieldBuild *b, int x, int y)
+{
+    int   i = (x + (x & 1)) / 2 - 1, j = (y + (y & 1)) / 2 - 1; /* the place before */
+    float s = x & 1 ? 0.25f : 0.75f, t = y & 1 ? 0.25f : 0.75f;
+    const float *low = b->half + (size_t)(j & (HALF - 1)) * HALF;
+    const float *high = b->half + (size_t)((j + 1) & (HALF - 1)) * HALF;
+    int   i0 = i & (HALF - 1), i1 = (i + 1) & (HALF - 1);
+    return lerpf(lerpf(low[i0], low[i1], s), lerpf(high[i0], high[i1], s), t);
+}
+
+/* The smallest puffs on those. */
+static float height_of(const FieldBuild *b, int x, int y)
+{
+    return half_at(b, x, y) + 0.14f * puff(&b->lattice[2], (float)x / SIZE, (float)y / SIZE);
 }
 
 static void fill_heights(void *context, int row, int worker)
@@ -247,20 +273,8 @@ static void fill_passing(void *context, int row, int worker)
 {
     FieldBuild *b = context;
     (void)worker;
-    for (int i = 0; i < SIZE / 2; i++)
-        b->passing[(size_t)row * (SIZE / 2) + (size_t)i] = passing(b, i, row);
-}
-
-/* At a place of the finest level. */
-static float passing_at(const FieldBuild *b, int x, int y)
-{
-    const int half = SIZE / 2, mask = half - 1;
-    int i = (x + (x & 1)) / 2 - 1, j = (y + (y & 1)) / 2 - 1; /* the place before */
-    float s = x & 1 ? 0.25f : 0.75f, t = y & 1 ? 0.25f : 0.75f;
-    const float *low = b->passing + (size_t)(j & mask) * (size_t)half;
-    const float *high = b->passing + (size_t)((j + 1) & mask) * (size_t)half;
-    return lerpf(lerpf(low[i & mask], low[(i + 1) & mask], s),
-                 lerpf(high[i & mask], high[(i + 1) & mask], s), t);
+    for (int i = 0; i < HALF; i++)
+        b->half[(size_t)row * HALF + (size_t)i] = passing(b, i, row);
 }
 
 /* Thin cloud between the banks is darker than their tops, and so are creases, from which less
@@ -283,7 +297,7 @@ static float lit(const FieldBuild *b, int x, int y)
     float facing = (b->sine - b->cosine * (sx * b->towards[0] + sy * b->towards[1])) /
                    sqrtf(1 + sx * sx + sy * sy);
     float matte = facing > -WRAP ? (facing + WRAP) / (b->sine + WRAP) : 0;
-    return thickness(b, x, y, height) * (0.1f + matte * (0.1f + 0.9f * passing_at(b, x, y)));
+    return thickness(b, x, y, height) * (0.1f + matte * (0.1f + 0.9f * half_at(b, x, y)));
 }
 
 static void fill_shades(void *context, int row, int worker)
@@ -353,7 +367,7 @@ static void take_scratch(FieldBuild *b, Arena *scratch)
     b->sum = ARENA_NEW(scratch, double, SIZE);
     b->square = ARENA_NEW(scratch, double, SIZE);
     b->slow = ARENA_NEW(scratch, Slow, SLOW_SIZE * SLOW_SIZE);
-    b->passing = ARENA_NEW(scratch, float, SIZE / 2 * (SIZE / 2));
+    b->half = ARENA_NEW(scratch, float, HALF * HALF);
     make_lattice(LARGE, 3, scratch, &b->lattice[0]);
     make_lattice(SMALL, 4, scratch, &b->lattice[1]);
     make_lattice(TINY, 5, scratch, &b->lattice[2]);
@@ -370,13 +384,14 @@ void cloud_field_build(const CloudFieldInput *input, Arena *arena, CloudField *o
     take_scratch(&b, &scratch);
     start(input, out, &b);
     parallel_for(threads, SLOW_SIZE, fill_slow, &b);
+    parallel_for(threads, HALF, fill_broad, &b);
     parallel_for(threads, SIZE, fill_heights, &b);
     double mean = total(b.sum), spread = sqrt(total(b.square) - mean * mean);
     b.mean = (float)mean;
     b.scale = (float)(input->relief_m / (4 * spread));
     parallel_for(threads, SIZE, scale_heights, &b);
     fill_levels(&b); /* the light reads heights of coarse levels */
-    parallel_for(threads, SIZE / 2, fill_passing, &b);
+    parallel_for(threads, HALF, fill_passing, &b);
     parallel_for(threads, SIZE, fill_shades, &b);
     b.scale = (float)(1 / total(b.sum));
     parallel_for(threads, SIZE, scale_shades, &b);

@@ -15,7 +15,7 @@
 #define COLUMNS CLOUD_RELIEF_COLUMNS
 #define FIRST (4 * PI / 180) /* rows are even in angle for so much, then widen */
 #define FADE 4.0f /* rows at the horizon over which the relief grows from none */
-#define STRIDE 1.4 /* of a step, in widths of what it averages */
+#define STRIDE 1.6 /* of a step, in widths of what it averages */
 #define STEPS_MAX 6000
 #define ORDERS 4
 #define TERMS (2 * ORDERS + 1) /* of the mean's Fourier series in the azimuth */
