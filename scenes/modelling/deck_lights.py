@@ -19,6 +19,7 @@ def sky(when, heading_deg, cloud_top_m=3000, place=None):
         "turbidity": 2.2,
         "ground": "cloud",
         "cloud_top_m": cloud_top_m,
+        "cloud_relief_m": 500,
         "albedo": 0.75,
     }
 

@@ -184,6 +184,15 @@ static json_t *efficacy_json(const SkyRun *work, const DaylightMetrics *f)
     return document;
 }
 
+/* The relief of the cloud deck that is drawn, m; 0: none. */
+static double relief_of(const SkyRun *work)
+{
+    const Daylight *daylight = work->sky.model ? work->sky.model->daylight : NULL;
+    bool has_relief = daylight && daylight->input.kind == DAYLIGHT_CLEAR &&
+                      daylight->sunlight.atmosphere.relief;
+    return has_relief ? daylight->input.cloud_relief_m : 0;
+}
+
 static bool print_json(const SkyRun *work, const DaylightMetrics *f, Error *err)
 {
     json_t *sun = work->sky.model || work->sky.has_sun
@@ -206,6 +215,8 @@ static bool print_json(const SkyRun *work, const DaylightMetrics *f, Error *err)
     json_object_set_new(document, "night_background_lx", json_real(f->night.background_lx));
     json_object_set_new(document, "luminous_efficacy", efficacy_json(work, f));
     json_object_set_new(document, "weather", weather_option_json(&work->scene->environment));
+    if (relief_of(work) > 0)
+        json_object_set_new(document, "synthetic_cloud_relief_m", json_real(relief_of(work)));
     if (work->output) json_object_set_new(document, "output", json_text(work->output));
     return cli_print_json(document, err);
 }
@@ -272,6 +283,9 @@ static int figure_lines(const SkyRun *work, const DaylightMetrics *f, const char
         line[n++] = arena_format(arena, "diffuse horizontal|%.1f W/m²",
                                  f->diffuse_horizontal_w_m2);
     n += efficacy_lines(work, f, line + n);
+    if (relief_of(work) > 0)
+        line[n++] = arena_format(arena, "cloud relief|%.0f m, synthetic, for pictures; the "
+                                 "deck's mean light stays", relief_of(work));
     if (f->horizon_deg < -0.01)
         line[n++] = arena_format(arena, "horizon|%.2f°", f->horizon_deg);
     return n + moon_lines(work, &f->night, line + n);

@@ -149,6 +149,8 @@ void identity_add_daylight(Text *text, const DaylightInput *daylight)
     identity_line(text, "moon", "%s", daylight->no_moon ? "left out" : "in its place");
     identity_line(text, "ground", "%s", floor_names[daylight->floor]);
     identity_number(text, "cloud top m", daylight->cloud_top_m);
+    if (daylight->cloud_relief_m > 0)
+        identity_number(text, "cloud relief m", daylight->cloud_relief_m);
 }
 
 void identity_add_environment(Text *text, const Scene *scene)

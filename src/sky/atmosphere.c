@@ -9,6 +9,7 @@
 #include "sky/air/beam_table.h"
 #include "sky/air/diffuse_light.h"
 #include "sky/air/sphere_light.h"
+#include "sky/cloud_view.h"
 #include "sky/sun_position.h"
 
 #define SUN_ANGLES 17
@@ -17,6 +18,7 @@
 #define TWILIGHT_FIRST (-2 * PI / 180) /* a sun that is lower: twilight's own light begins */
 #define TWILIGHT_ALONE (-4 * PI / 180) /* and is all there is */
 #define DARK (-27 * PI / 180) /* the floor's edge so far over the sun: nothing is left to add */
+#define RELIEF_LOWEST_M 20.0 /* over the deck: nearer it has no relief */
 #define LIGHT_BYTES ((size_t)64 << 20) /* address space for one diffuse_light_build */
 
 /* Tables that the rays share. */
@@ -100,7 +102,13 @@ static double ray_length(const AirRay *ray, const BeamTable *air, bool *meets_fl
     return -b + sqrt(fmax(0, b * b - r * r + top * top));
 }
 
-static Spectrum floor_radiance(const Builder *b, double altitude, double sun_cosine)
+/* What a floor reflects: of the beam, and of the sky's light. */
+typedef struct FloorLight {
+    Spectrum beam, sky;
+} FloorLight;
+
+/* Its exitance there over the albedo. */
+static FloorLight floor_light(const Builder *b, double altitude, double sun_cosine)
 {
     float    weight[2];
     Spectrum direct;
@@ -110,8 +118,18 @@ static Spectrum floor_radiance(const Builder *b, double altitude, double sun_cos
     BeamHeight height = beam_table_height(&b->beam, altitude);
     beam_table_sun(&b->beam, &height, sun_cosine, &direct);
     direct *= spectrum_all((float)fmax(0, sun_cosine));
-    return (diffuse + direct) *
-           spectrum_all((float)(b->atmosphere->input.air.ground_albedo / PI));
+    return (FloorLight){direct, diffuse};
+}
+
+static Spectrum reflected(const Builder *b, Spectrum irradiance)
+{
+    return irradiance * spectrum_all((float)(b->atmosphere->input.air.ground_albedo / PI));
+}
+
+static Spectrum floor_radiance(const Builder *b, double altitude, double sun_cosine)
+{
+    FloorLight light = floor_light(b, altitude, sun_cosine);
+    return reflected(b, light.sky + light.beam);
 }
 
 /* A step of a ray: all that does not depend on where the sun stands. */
@@ -179,6 +197,19 @@ static void add_step(const Builder *b, Step *step, const AirSun *sun, size_t slo
                                        spectrum_all(weight[1]));
 }
 
+/* Adds what the floor sends through the air to place `slot` of the tables. */
+static void add_floor(const Builder *b, Spectrum passing, double altitude, double sun_cosine,
+                      size_t slot)
+{
+    Atmosphere *a = b->atmosphere;
+    size_t      below = (size_t)ATMOSPHERE_ROWS * ATMOSPHERE_COLUMNS;
+    FloorLight  light = floor_light(b, altitude, sun_cosine);
+    a->rest[slot] += passing * reflected(b, light.sky + light.beam);
+    if (!a->floor_beam || slot < below) return;
+    a->floor_beam[slot - below] = passing * reflected(b, light.beam);
+    a->floor_sky[slot - below] = passing * reflected(b, light.sky);
+}
+
 /* ---- the table --------------------------------------------------------------------------- */
 
 static double row_elevation(const Atmosphere *a, bool below, int row)
@@ -230,8 +261,8 @@ static void fill_row(void *context, int item, int worker)
     if (!meets_floor) return;
     AirPoint end = place_at(&ray, length);
     for (int j = 0; j < ATMOSPHERE_COLUMNS; j++)
-        a->rest[first + (size_t)j] +=
-            passing * floor_radiance(b, end.altitude, sun_over(&ray, &end, sun[j]).cosine);
+        add_floor(b, passing, end.altitude, sun_over(&ray, &end, sun[j]).cosine,
+                  first + (size_t)j);
 }
 
 static Spectrum *spectra(Arena *arena, size_t count)
@@ -287,6 +318,9 @@ static void take_tables(Atmosphere *out, Arena *arena)
     out->molecules = spectra(arena, count);
     out->aerosol = spectra(arena, count);
     out->rest = spectra(arena, count);
+    if (!(out->input.relief_m > 0)) return;
+    out->floor_beam = spectra(arena, count / 2);
+    out->floor_sky = spectra(arena, count / 2);
 }
 
 static void mix(Spectrum *to, const Spectrum *with, size_t count, float share)
@@ -335,8 +369,24 @@ static void add_twilight(Atmosphere *out, float share, Arena scratch)
         mix(out->aerosol, twilight.aerosol, count, share);
         mix(out->rest, twilight.rest, count, share);
     }
+    if (share < 1 && out->floor_beam) {
+        mix(out->floor_beam, twilight.floor_beam, count / 2, share);
+        mix(out->floor_sky, twilight.floor_sky, count / 2, share);
+    }
     if (share >= 1) see_sun(out);
     mix(&out->floor_exitance, &twilight.floor_exitance, 1, share);
+}
+
+/* Of a deck that lies under the observer, and not around him. */
+static void add_relief(Atmosphere *out, Arena *arena)
+{
+    const AtmosphereInput *in = &out->input;
+    double height = in->observer_m - in->floor_m;
+    if (!(in->relief_m > 0) || height < RELIEF_LOWEST_M) return;
+    CloudViewInput input = {height, in->relief_m, out->horizon, in->sun_azimuth,
+                              in->sun_elevation, in->threads};
+    out->relief = ARENA_NEW(arena, CloudRelief, 1);
+    cloud_view_build(&input, arena, out->relief);
 }
 
 /* Smooth, with no corner at either end. */
@@ -380,6 +430,7 @@ bool atmosphere_build(const AtmosphereInput *input, Arena *arena, Atmosphere *ou
     take_tables(out, arena);
     if (share < 1) build_tables(out, &out->optics, false, *arena);
     if (share > 0 && !is_dark) add_twilight(out, share, *arena);
+    if (share < 1 || !is_dark) add_relief(out, arena);
     return true;
 }
 
@@ -389,7 +440,14 @@ typedef struct SkyParts {
     float    cosine;
 } SkyParts;
 
-static SkyParts look_up(const Atmosphere *a, float elevation, float azimuth)
+/* The four entries around a direction. */
+typedef struct Entries {
+    bool   below;
+    size_t from[4]; /* of the tables' half below the horizon, or above */
+    float  weight[4];
+} Entries;
+
+static Entries place_of(const Atmosphere *a, float elevation, float azimuth)
 {
     bool  below = (double)elevation < a->horizon;
     float horizon = (float)a->horizon, reach = below ? -PI_F / 2 - horizon : PI_F / 2 - horizon;
@@ -399,15 +457,23 @@ static SkyParts look_up(const Atmosphere *a, float elevation, float azimuth)
     y = clampf(y, 0, ATMOSPHERE_ROWS - 1.001f), x = clampf(x, 0, ATMOSPHERE_COLUMNS - 1.001f);
     int   i = (int)y, j = (int)x;
     float t = y - (float)i, u = x - (float)j;
-    size_t at = ((size_t)(i + (below ? ATMOSPHERE_ROWS : 0))) * ATMOSPHERE_COLUMNS + (size_t)j;
-    const float weight[4] = {(1 - t) * (1 - u), (1 - t) * u, t * (1 - u), t * u};
-    const size_t from[4] = {at, at + 1, at + ATMOSPHERE_COLUMNS, at + ATMOSPHERE_COLUMNS + 1};
+    size_t at = (size_t)i * ATMOSPHERE_COLUMNS + (size_t)j;
+    return (Entries){
+        below,
+        {at, at + 1, at + ATMOSPHERE_COLUMNS, at + ATMOSPHERE_COLUMNS + 1},
+        {(1 - t) * (1 - u), (1 - t) * u, t * (1 - u), t * u}};
+}
+
+static SkyParts look_up(const Atmosphere *a, float elevation, float azimuth)
+{
+    Entries at = place_of(a, elevation, azimuth);
+    size_t     half = at.below ? (size_t)ATMOSPHERE_ROWS * ATMOSPHERE_COLUMNS : 0;
     Spectrum molecules = spectrum_all(0), aerosol = spectrum_all(0), sum = spectrum_all(0);
     for (int k = 0; k < 4; k++) {
-        Spectrum w = spectrum_all(weight[k]);
-        molecules += w * a->molecules[from[k]];
-        aerosol += w * a->aerosol[from[k]];
-        sum += w * a->rest[from[k]];
+        Spectrum w = spectrum_all(at.weight[k]);
+        molecules += w * a->molecules[half + at.from[k]];
+        aerosol += w * a->aerosol[half + at.from[k]];
+        sum += w * a->rest[half + at.from[k]];
     }
     float s[3], c[3];
     sincos_turns(elevation * (0.5f * INV_PI_F), &s[0], &c[0]);
@@ -422,6 +488,19 @@ Spectrum atmosphere_radiance(const Atmosphere *a, float elevation, float azimuth
     SkyParts at = look_up(a, elevation, azimuth);
     return at.rest + at.molecules * spectrum_all(air_phase_molecules(at.cosine)) +
            at.aerosol * spectrum_all(air_phase_aerosol(at.cosine));
+}
+
+Spectrum atmosphere_relief(const Atmosphere *a, float elevation, float azimuth)
+{
+    Spectrum sum = spectrum_all(0);
+    if (!a->relief) return sum;
+    Entries at = place_of(a, elevation, azimuth);
+    if (!at.below) return sum;
+    Spectrum share = spectrum_all(a->relief->diffuse);
+    for (int k = 0; k < 4; k++)
+        sum += spectrum_all(at.weight[k]) *
+               (a->floor_beam[at.from[k]] + share * a->floor_sky[at.from[k]]);
+    return sum * spectrum_all(cloud_relief_factor(a->relief, elevation, azimuth) - 1);
 }
 
 /* The phase function is (1 + cos^2) times a constant; of it (1 - cos^2) is polarised. */

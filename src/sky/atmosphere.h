@@ -4,8 +4,10 @@
  * Light scattered once is marched along every ray through a spherical, layered air (air.h);
  * light scattered more often comes from flat layers lit by the true beam (diffuse_light.h) at
  * the ray's local sun angle. Below lies a Lambertian floor: ground, sea or a cloud deck of an
- * altitude and albedo. What is left out: polarisation, refraction of sky light, clouds above
- * the observer, the floor's relief; water vapour and oxygen are the caller's (spectrl2.h).
+ * altitude and albedo; a deck may have a relief (cloud_relief.h), which belongs to pictures: it
+ * changes what the floor sends towards the observer, before the air in between. What is left
+ * out: polarisation, refraction of sky light, clouds above the observer; water vapour and
+ * oxygen are the caller's (spectrl2.h).
  *
  * Twilight  A sun seen lower than -2 degrees lights air up to 120 km by bent rays from its true
  *           place (beam_table.h), and light scattered more often travels through the sphere
@@ -23,13 +25,15 @@
  * Frame     elevation from the observer's horizontal, azimuth from the sun's, radians.
  * Units     radiance in sr^-1 per unit of the sun's spectral irradiance outside the air, at the
  *           16 wavelengths of air.h.
- * Memory    the arena's, about 6 MB, 65 MB more while it builds. Threads: const once built.
+ * Memory    the arena's, about 6 MB, 65 MB more while it builds; a relief 7 MB more. Threads:
+ *           const once built.
  * Fails     on an observer below the floor or above 60 km.
  */
 #pragma once
 #include "base/arena.h"
 #include "base/error.h"
 #include "sky/air/air.h"
+#include "sky/cloud_relief.h"
 
 typedef struct AtmosphereInput {
     Air    air;              /* pressure: at sea level; ground_albedo: of the floor */
@@ -40,6 +44,8 @@ typedef struct AtmosphereInput {
     int    steps;            /* of a ray; 0: 48 */
     bool   sun_alone;        /* sun_passing is made, and no table: no direction may be
                                 evaluated */
+    double   relief_m;      /* of the floor, a cloud deck's (cloud_relief.h); 0: it is even */
+    double   sun_azimuth;   /* compass, radians: where the relief is lit from */
 } AtmosphereInput;
 
 typedef struct Atmosphere {
@@ -51,6 +57,10 @@ typedef struct Atmosphere {
     /* [below][row][column]: what molecules and aerosol scatter once, without their phase
      * functions, and the rest; row 0 touches the horizon */
     Spectrum *molecules, *aerosol, *rest;
+    /* with a relief, else NULL: of `rest` what the floor reflects of the beam, and of the light
+     * of the sky, [row][column] below the horizon */
+    Spectrum    *floor_beam, *floor_sky;
+    CloudRelief *relief;
 } Atmosphere;
 
 #define ATMOSPHERE_ROWS 96
@@ -58,8 +68,12 @@ typedef struct Atmosphere {
 
 bool atmosphere_build(const AtmosphereInput *input, Arena *arena, Atmosphere *out, Error *err);
 
-/* Sky or floor in a direction; the sun's disc is not part of it. */
+/* Sky or floor in a direction, of a floor with a relief its mean; the sun's disc is not part of
+ * it. */
 Spectrum atmosphere_radiance(const Atmosphere *atmosphere, float elevation, float azimuth);
+
+/* What a relief adds to that, or takes from it; 0 where there is none. */
+Spectrum atmosphere_relief(const Atmosphere *atmosphere, float elevation, float azimuth);
 
 /* The part of that radiance that is linearly polarised, across the plane of sun and direction:
  * light that molecules scattered once, sin^2 / (1 + cos^2) of it for the angle to the sun

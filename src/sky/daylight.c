@@ -37,6 +37,11 @@ static double floor_altitude(const DaylightInput *in)
     return stands ? fmax(0, in->where.altitude_m) : 0;
 }
 
+static double floor_relief(const DaylightInput *in)
+{
+    return in->floor == FLOOR_CLOUD ? in->cloud_relief_m : 0;
+}
+
 static int day_of_year(const SkyTime *time)
 {
     SkyTime first = {time->year, 1, 1, 0, 0, 0, 0}, now = {time->year, time->month, time->day,
@@ -398,7 +403,7 @@ static bool build_clear(Daylight *out, Arena *arena, Error *err)
     DaylightMetrics     *f = &out->metrics;
     AtmosphereInput input = {sea_level_air(in), fmax(0, in->where.altitude_m),
                              floor_altitude(in), out->sun_elevation, in->threads, 0,
-                             in->sun_alone};
+                             in->sun_alone, floor_relief(in), out->sun_azimuth};
     Curve beam, irradiance;
     fill_beam(out, &beam);
     if (!lit_air_build(&input, &beam, arena, &out->sunlight, err)) return false;

@@ -56,6 +56,7 @@ typedef struct DaylightInput {
     WaterSource water_source;
     FloorKind floor;
     double   cloud_top_m;
+    double   cloud_relief_m;     /* clear, of clouds: cloud_relief.h; 0: an even floor */
     bool     no_moon;            /* clear: as if there were none */
     int      integral_steps;     /* CIE, Perez: of the quadrature; 0: 1000, which takes 0.1 s
                                     (its error by steps: sky_shape_integral) */
@@ -117,7 +118,7 @@ Spectrum daylight_radiance(const Daylight *daylight, float elevation, float azim
 Spectrum daylight_polarisation(const Daylight *daylight, float elevation, float azimuth,
                                const Wavelengths *wavelengths);
 
-/* Its luminance, cd m^-2. */
+/* Its luminance, cd m^-2; of a cloud deck with a relief its mean. */
 float daylight_luminance(const Daylight *daylight, float elevation, float azimuth);
 
 /* Radiance of the disc at a sine of the angle to its centre over the sine of its radius. */

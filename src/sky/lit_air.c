@@ -69,17 +69,24 @@ static Spectrum between_nodes(const LitAir *air, Spectrum at, const Wavelengths 
     return value;
 }
 
+/* A relief only where there is one: adding 0 would turn a -0 into 0. */
+static Spectrum seen_radiance(const Atmosphere *air, float elevation, float azimuth)
+{
+    Spectrum at = atmosphere_radiance(air, elevation, azimuth);
+    return air->relief ? at + atmosphere_relief(air, elevation, azimuth) : at;
+}
+
 Spectrum lit_air_radiance(const LitAir *air, float elevation, float azimuth,
                           const Wavelengths *wavelengths)
 {
-    Spectrum at = atmosphere_radiance(&air->atmosphere, elevation, azimuth);
+    Spectrum at = seen_radiance(&air->atmosphere, elevation, azimuth);
     return between_nodes(air, at, wavelengths) * curve_lookup(&air->beam, wavelengths);
 }
 
 Spectrum lit_air_polarisation(const LitAir *air, float elevation, float azimuth,
                               const Wavelengths *wavelengths)
 {
-    Spectrum all = atmosphere_radiance(&air->atmosphere, elevation, azimuth);
+    Spectrum all = seen_radiance(&air->atmosphere, elevation, azimuth);
     Spectrum part = atmosphere_polarised(&air->atmosphere, elevation, azimuth);
     return spectrum_clamp(between_nodes(air, part, wavelengths) /
                               spectrum_max(between_nodes(air, all, wavelengths),

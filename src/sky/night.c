@@ -76,6 +76,7 @@ static bool light_moon(const NightInput *in, const Curve *beam, Arena *arena, Ni
     out->sun_azimuth = radians_from_degrees(in->moon->sun_azimuth_deg);
     out->sun_elevation = radians_from_degrees(in->moon->sun_elevation_deg);
     air.sun_elevation = out->moon_elevation;
+    air.sun_azimuth = out->moon_azimuth;
     if (!lit_air_build(&air, beam, arena, &out->moonlight, err)) return false;
     out->has_moonlight = out->metrics.is_moon_lit = true;
     const Atmosphere *lit = &out->moonlight.atmosphere;

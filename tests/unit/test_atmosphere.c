@@ -14,7 +14,7 @@ static Atmosphere build(double observer_m, double floor_m, double albedo, double
                         Arena *arena)
 {
     AtmosphereInput input = {usual, observer_m, floor_m, radians_from_degrees(elevation_deg),
-                             2,     0, false};
+                             2,     0, false, 0, 0};
     Atmosphere      atmosphere;
     input.air.ground_albedo = albedo;
     assert_done(atmosphere_build(&input, arena, &atmosphere, &err));
@@ -245,7 +245,7 @@ ARENA_TEST(steps_and_tables_have_converged)
 {
     for (int low = 0; low <= 1; low++) {
         AtmosphereInput input = {usual, low ? 11000 : 0, 0, low ? 0.03 : 0.7, 2, 0,
-                                 false};
+                                 false, 0, 0};
         Atmosphere coarse, fine;
         double     worst = 0;
         assert_done(atmosphere_build(&input, &arena, &coarse, &err));

@@ -77,6 +77,7 @@ static void kind(Subject *s) { s->scene.environment.kind = ENVIRONMENT_NONE; }
 static void air(Subject *s) { s->scene.environment.daylight.turbidity += 1e-13; }
 static void minute(Subject *s) { s->scene.environment.daylight.when.minute++; }
 static void ground(Subject *s) { s->scene.environment.daylight.floor = FLOOR_SEA; }
+static void billows(Subject *s) { s->scene.environment.daylight.cloud_relief_m = 300; }
 static void moon(Subject *s) { s->scene.environment.daylight.no_moon = true; }
 static void sun(Subject *s) { s->scene.environment.has_sun = true; }
 static void heading(Subject *s) { s->scene.environment.heading = 1; }
@@ -109,6 +110,7 @@ static const Change changes[] = {
     {"when: 2026-06-21T08:30:0+2h there, 2026-06-21T08:31:0+2h here", minute},
     {"turbidity: 2.5 there, 2.500000000000", air},
     {"ground: land there, sea here", ground},
+    {"cloud relief m: none there, 300 here", billows},
     {"moon: in its place there, left out here", moon},
     {"sun: not set there, set here", sun},
     {"heading: 0 there, 1 here", heading},

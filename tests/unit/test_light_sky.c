@@ -106,6 +106,42 @@ ARENA_TEST(modelled_sky_samples_follow_their_density)
     }
 }
 
+/* On a plane that faces down, lux, by quadrature over what is seen. */
+static double light_from_below(const Daylight *sky)
+{
+    enum { ROWS = 700, COLUMNS = 2400 };
+    const LitAir *air = &sky->sunlight;
+    double sum = 0;
+    for (int i = 0; i < ROWS; i++) {
+        double t = (i + 0.5) / ROWS, e = -PI / 2 * t * t, width = PI * t / ROWS;
+        for (int j = 0; j < COLUMNS; j++) {
+            float azimuth = (float)(2 * PI * (j + 0.5) / COLUMNS);
+            Spectrum light = atmosphere_radiance(&air->atmosphere, (float)e, azimuth) +
+                             atmosphere_relief(&air->atmosphere, (float)e, azimuth);
+            sum -= lit_air_luminance(air, light) * sin(e) * cos(e) * width * 2 * PI / COLUMNS;
+        }
+    }
+    return sum;
+}
+
+/* Directions are sampled by the mean of a cloud deck, and the light that they bring has its
+ * relief: the estimate is that of the relief. */
+ARENA_TEST(a_deck_with_a_relief_gives_its_light_by_its_own_samples)
+{
+    Scene *scene = sky_scene(ENVIRONMENT_SKY, 12, &arena);
+    Sky    sky, even;
+    scene->environment.daylight.floor = FLOOR_CLOUD;
+    assert_done(sky_build(&scene->environment, &arena, &even, &err));
+    scene->environment.daylight.cloud_relief_m = 600;
+    assert_done(sky_build(&scene->environment, &arena, &sky, &err));
+    const Lights *lights = build(scene, &arena);
+    double lux = light_from_below(sky.model->daylight);
+    assert_illuminance("a rough deck", lights, LIGHTS_SKY, vec3(0, -1, 0), lux);
+    assert_close(lux, light_from_below(even.model->daylight), 0.01);
+    assert_memory_equal(sky.model->cdf, even.model->cdf, sizeof even.model->cdf);
+    assert_memory_equal(sky.model->row_cdf, even.model->row_cdf, sizeof even.model->row_cdf);
+}
+
 ARENA_TEST(a_sky_without_a_sun_to_stand_by_is_refused)
 {
     Scene *scene = sky_scene(ENVIRONMENT_PEREZ, -5, &arena);

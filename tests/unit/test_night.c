@@ -246,7 +246,7 @@ ARENA_TEST(the_moon_sets_without_a_step)
                              .topocentric_km = 384400, .sun_moon_au = 1,
                              .sun_elevation_deg = -20, .sun_azimuth_deg = 90};
         Air air = {1013.25, 1.4, 0.34, 0.17, 1.14, 0.2};
-        NightInput input = {{air, 0, 0, 0, 2, 16, false}, air, 0, 0, &moon};
+        NightInput input = {{air, 0, 0, 0, 2, 16, false, 0, 0}, air, 0, 0, &moon};
         assert_done(night_build(&input, &scratch, night, &err));
         assert_true(night->has_moonlight);
         assert_true(night->metrics.moon_sky_lx < before);

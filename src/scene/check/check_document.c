@@ -249,7 +249,7 @@ static const EnvironmentType ENVIRONMENT_TYPES[] = {
     {"sky",
      {NULL, NULL},
      "|when|where|turbidity|visibility_km|ozone_atm_cm|water_cm|albedo|ground|cloud_top_m|"
-     "moon|"},
+     "cloud_relief_m|moon|"},
 };
 
 /* Of some type; any other key is reported as that. */

@@ -153,6 +153,10 @@ static const RecordRow ENVIRONMENT[] = {
     NUMBER("albedo", 0, 0, 1, "sky: albedo of the ground."),
     CHOICE("ground", 0, GROUNDS, NULL),
     NUMBER("cloud_top_m", 0, 0, HUGE_VAL, "sky: height of the cloud deck below, m."),
+    NUMBER("cloud_relief_m", 0, 0, 1000,
+           "sky over cloud: height of the deck's billows from hollows to tops, m; 0, an even "
+           "deck, unless given. It is synthetic and for pictures, no measured weather; the "
+           "deck's mean light stays."),
     FLAG("moon", "sky: whether its nights have a moon; true unless given."),
     COMMON};
 

@@ -106,6 +106,7 @@ static DaylightInput read_daylight(const GltfValue *extension, EnvironmentKind k
     out.albedo = tree_number(extension, "albedo", out.albedo);
     out.floor = floor_from_text(tree_text(extension, "ground", "land"));
     out.cloud_top_m = tree_number(extension, "cloud_top_m", out.cloud_top_m);
+    out.cloud_relief_m = tree_number(extension, "cloud_relief_m", 0);
     out.no_moon = !tree_boolean(extension, "moon", true);
     read_time_and_place(extension, &out);
     return out;
