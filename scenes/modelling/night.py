@@ -7,8 +7,11 @@ import random
 
 from mathutils import Vector
 
+import climate
 import dashboard
 import finish
+import legends
+import wheel
 from outside import LAMPS
 from shapes import box, frame_matrix, joined, mesh, tube
 
@@ -21,6 +24,7 @@ def build_night(path):
     signals()
     windows()
     ambient_line()
+    lit_legends()
     finish.finish_meshes()
     finish.export(path)
     finish.patch(path, SKY)
@@ -110,6 +114,12 @@ def house_fronts():
 def ambient_line():
     path = dashboard.along((0.7530, 0.9140), (-0.73, 0.73), 60)
     tube("ambient line", path, 0.0017, "ambient line", 6)
+
+
+def lit_legends():
+    """What is printed on the controls, lit from behind."""
+    legends.lit("lit legends", climate.prints() + wheel.prints(), "legend lit")
+    legends.lit("lit key lamps", climate.lamps(), "legend amber")
 
 
 def add_lights(path):
