@@ -118,6 +118,24 @@ def body_sides():
         )
 
 
+def hull():
+    """The closed tub below the windows: floor, firewall, sides, boot wall. The firewall meets
+    the bonnet from below, and the cowl where the bonnet ends before it."""
+    x, y0, y1, z0, z1 = 0.80, -1.92, 1.34, 0.22, 1.04
+    top = [
+        (a, y1, min(1.0, bonnet_z(a, y1) - (0.030 if abs(a) < 0.46 else 0.001)))
+        for a in np.linspace(x, -x, 41)
+    ]
+    corners = [(-x, y0, z0), (x, y0, z0), (x, y1, z0), (-x, y1, z0), (-x, y0, z1), (x, y0, z1)]
+    faces = [(0, 1, 2, 3), (0, 4, 5, 1), (1, 5, 6, 2), (3, 46, 4, 0)]
+    mid = len(corners) + len(top)
+    low = [(a, y1, z0) for a in np.linspace(x, -x, 41)[1:-1]]
+    feet = [2, *range(mid, mid + 39), 3]
+    faces += [(feet[k], 6 + k, 7 + k, feet[k + 1]) for k in range(40)]
+    mesh("floor and firewall", corners + top + low, faces, "carpet")
+
+
 def build_body():
+    hull()
     bonnet()
     body_sides()

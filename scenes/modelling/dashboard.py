@@ -5,6 +5,7 @@ import math
 import numpy as np
 from mathutils import Matrix, Vector
 
+from legends import printed
 from shapes import (
     box,
     cut,
@@ -205,6 +206,21 @@ def airbag_seam():
     outline = dense(rounded_rectangle(0.36, 0.15, 0.03) + np.array([0.42, 0.945]), 0.012)
     path = np.array([on_pad(*p) for p in np.vstack([outline, outline[:1]])])
     tube("airbag tear line", path, 0.0008, "gap", 6)
+    x, y = 0.545, 0.832
+    slope = (on_pad(x, y + 0.01)[2] - on_pad(x, y - 0.01)[2]) / 0.02
+    word = frame_matrix(on_pad(x, y), (1, 0, 0), (0, 1, slope))
+    printed("passenger airbag word", "AIRBAG", word, 0.0085, "thread dark", 0.12, 0.0006)
+    sun_sensor()
+
+
+def sun_sensor():
+    """A small dome before the windscreen's foot, on the car's middle."""
+    y = 1.215
+    slope = (pad_height(0, y + 0.02) - pad_height(0, y - 0.02)) / 0.04
+    at = frame_matrix((0, y, pad_height(0, y)), (1, 0, 0), (0, 1, slope))
+    dome = [(0.0125, -0.001), (0.0125, 0.0012), (0.0105, 0.0020), (0.0095, 0.0045)]
+    dome += [(0.0070, 0.0078), (0.0035, 0.0096), (0.0003, 0.0101)]
+    lathe("sun sensor", dome, at, "plastic dark", 28)
 
 
 def dense(outline, step):
@@ -362,6 +378,10 @@ def cluster():
     display_quad("cluster", CLUSTER_SIZE, CLUSTER_FRAME)
     lower = CLUSTER_FRAME @ Matrix.Translation((0, -0.066, -0.004))
     box("cluster base", (0.33, 0.03, 0.05), lower, "plastic dark", 0.006)
+    for k, y in (("upper", 0.0035), ("lower", -0.0035)):
+        ends = np.linspace(-0.156, 0.156, 3)
+        line = place([(x, y, 0.0250) for x in ends], lower)
+        tube(f"cluster base groove {k}", line, 0.0005, "gap", 6)
 
 
 # ---- centre display ----------------------------------------------------------------------

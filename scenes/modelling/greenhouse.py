@@ -78,7 +78,7 @@ def swept(name, path, section, scale, material):
     lift = np.cross(side, along)
     s = np.asarray(section, float)[None] * np.asarray(scale, float)[:, None, None]
     rings = path[:, None] + s[..., :1] * side[:, None] + s[..., 1:] * lift[:, None]
-    ends = [np.broadcast_to(r.mean(0), r.shape) for r in (rings[0], rings[-1])]
+    ends = [r.mean(0) + 0.02 * (r - r.mean(0)) for r in (rings[0], rings[-1])]
     rings = np.concatenate([ends[:1], rings, ends[1:]])
     return grid(name, rings, material, closed=True)
 
@@ -318,7 +318,7 @@ def door_mirror(side, sign):
     )
 
 
-# ---- roof, rear and floor ----------------------------------------------------------------
+# ---- roof and rear ----------------------------------------------------------------
 
 
 def roof_point(u, y, lift):
@@ -417,23 +417,6 @@ def rear():
     )
 
 
-def hull():
-    """The closed tub below the windows: floor, firewall, sides, boot wall."""
-    x, y0, y1, z0, z1 = 0.80, -1.92, 1.34, 0.22, 1.04
-    corners = [
-        (-x, y0, z0),
-        (x, y0, z0),
-        (x, y1, z0),
-        (-x, y1, z0),
-        (-x, y0, z1),
-        (x, y0, z1),
-        (x, y1, 1.0),
-        (-x, y1, 1.0),
-    ]
-    faces = [(0, 1, 2, 3), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)]
-    mesh("floor and firewall", corners, faces, "carpet")
-
-
 def build_greenhouse():
     windscreen()
     rear_view_mirror()
@@ -441,4 +424,3 @@ def build_greenhouse():
     side_windows()
     roof()
     rear()
-    hull()

@@ -7,6 +7,7 @@ import random
 
 from mathutils import Vector
 
+import cabin
 import climate
 import dashboard
 import finish
@@ -118,7 +119,7 @@ def ambient_line():
 
 def lit_legends():
     """What is printed on the controls, lit from behind."""
-    legends.lit("lit legends", climate.prints() + wheel.prints(), "legend lit")
+    legends.lit("lit legends", cabin.prints() + climate.prints() + wheel.prints(), "legend lit")
     legends.lit("lit key lamps", climate.lamps(), "legend amber")
 
 

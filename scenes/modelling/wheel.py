@@ -272,6 +272,15 @@ def badge():
         )
 
 
+def column_joint():
+    """Where the shroud's halves meet, down both its sides."""
+    for side, sign in (("left", -1), ("right", 1)):
+        path = [(0.0462, -0.006, -0.052), (0.0521, -0.010, -0.110), (0.0561, -0.016, -0.200)]
+        path.append((0.0581, -0.022, -0.328))
+        points = spline([(sign * x, y, z) for x, y, z in path], 24)
+        tube(f"column joint {side}", place(points, WHEEL), 0.0009, "gap", 6)
+
+
 def column():
     rings = []
     for z, width, height, drop in (
@@ -289,6 +298,7 @@ def column():
         "plastic grained",
         closed=True,
     )
+    column_joint()
 
 
 def build_wheel():
