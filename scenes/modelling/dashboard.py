@@ -209,7 +209,7 @@ def airbag_seam():
     x, y = 0.545, 0.832
     slope = (on_pad(x, y + 0.01)[2] - on_pad(x, y - 0.01)[2]) / 0.02
     word = frame_matrix(on_pad(x, y), (1, 0, 0), (0, 1, slope))
-    printed("passenger airbag word", "AIRBAG", word, 0.0085, "thread dark", 0.12, 0.0006)
+    printed("passenger airbag word", "AIRBAG", word, 0.0085, "thread dark", 0.12, 0.0003)
     sun_sensor()
 
 

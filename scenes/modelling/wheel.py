@@ -121,7 +121,8 @@ def spokes():
         (0.028, 0.018, 0.014, 0.012),
         "plastic dark",
     )
-    slot = WHEEL @ Matrix.Translation((0, -0.118, 0.0145))
+    # leant as the spoke's front, out of which its upper edge would not come otherwise
+    slot = WHEEL @ Matrix.Translation((0, -0.118, 0.0158)) @ Matrix.Rotation(0.15, 4, "X")
     plate(
         "steering wheel clasp",
         np.array([(-0.019, -0.040), (0.019, -0.040), (0.024, 0.036), (-0.024, 0.036)]),
@@ -249,7 +250,7 @@ def badge():
     rim = [(0.0222, -0.002), (0.0222, 0.0009), (0.0214, 0.0015), (0.0206, 0.0011)]
     middle = WHEEL @ Matrix.Translation((0, 0.000, 0.0346))
     lathe("badge disc", rim + [(0.0003, 0.0011)], middle, "satin dark", 56)
-    word = WHEEL @ Matrix.Translation((0, -0.0405, 0.0330)) @ Matrix.Rotation(0.12, 4, "X")
+    word = WHEEL @ Matrix.Translation((0, -0.0405, 0.0315)) @ Matrix.Rotation(0.12, 4, "X")
     printed("hub word", "AIRBAG", word, 0.0042, "thread dark", 0.12)
     at = WHEEL @ Matrix.Translation((0, 0.000, 0.0362))
     ring = np.column_stack(
