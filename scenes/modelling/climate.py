@@ -1,12 +1,26 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The climate controls below the centre display: keys with icons, knobs, hazard switch."""
+"""Keys and knobs on the dashboard: climate below the centre display, hazard, the lamps'."""
 import math
 
 import numpy as np
+from mathutils import Matrix
 
-from dashboard import stack_face
+from dashboard import DRIVER_X, KNEES, side_direction, stack_face, wrap
 from legends import printed
-from shapes import box, grid, joined, lathe, place, tube
+from shapes import (
+    box,
+    frame_matrix,
+    frame_ring,
+    grid,
+    joined,
+    lathe,
+    place,
+    plate,
+    round_section,
+    rounded_rectangle,
+    spline,
+    tube,
+)
 
 ICONS = ("seat", "AUTO", "fan", "face air", "screen", "rear screen", "inside air")
 ICONS += ("seat mirrored",)
@@ -118,6 +132,50 @@ def knob(name, matrix, radius, height):
     )
 
 
+# ---- the lamps' switch, left of the wheel -------------------------------------------------
+
+
+def lamp_switch_place(x=0.0, y=0.0, z=0.0):
+    """On the panel's face, which stands 3 mm before the lower dashboard."""
+    at_x = DRIVER_X - 0.318
+    curve = spline(KNEES, 300)
+    k = np.argmin(abs(curve[:, 1] - 0.868))
+    lean = curve[k - 8] - curve[k + 8]
+    origin = (at_x, curve[k, 0] + wrap(at_x) - 0.003, curve[k, 1])
+    up = (0, lean[0] / lean[1], 1)
+    return frame_matrix(origin, side_direction(at_x), up) @ Matrix.Translation((x, y, z))
+
+
+def lamp_prints():
+    return [
+        ("lamp switch word", "AUTO", lamp_switch_place(-0.013, 0.0196, 0), 0.0040),
+        ("lamp switch beam", "beam", lamp_switch_place(0.0225, 0.0092, 0.0032), 0.0088),
+        ("lamp switch dim", "+", lamp_switch_place(0.0225, -0.0092, 0.0032), 0.0060),
+    ]
+
+
+def lamp_switch():
+    outline = rounded_rectangle(0.078, 0.052, 0.010, 6)
+    plate("lamp switch panel", outline, 0.012, lamp_switch_place(), "piano black", 0.0012, 2)
+    frame_ring(
+        "lamp switch frame",
+        outline,
+        round_section(0.0030, 0.005, 10),
+        lamp_switch_place(0, 0, -0.0010),
+        "satin chrome",
+    )
+    knob("lamp switch knob", lamp_switch_place(-0.013, -0.004, 0), 0.0165, 0.014)
+    sizes = ((0.0225, 0.0092), (0.0225, -0.0092))
+    keys = [
+        box("key", (0.0195, 0.0172, 0.005), lamp_switch_place(*at, 0.0005), "button", 0.0014, 2)
+        for at in sizes
+    ]
+    joined("lamp switch keys", keys)
+    for row in lamp_prints():
+        printed(*row)
+
+
 def build_climate():
     climate_keys()
     hazard_key()
+    lamp_switch()

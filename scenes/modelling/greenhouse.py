@@ -17,6 +17,7 @@ from shapes import (
     rounded_rectangle,
     spline,
     tube,
+    tube_points,
 )
 from windscreen import screen
 
@@ -264,7 +265,9 @@ def pillar(side, sign):
     radius = np.concatenate(
         [np.interp(vs, (-0.06, 0.2, 1), (0.046, 0.036, 0.033)), np.full(24, 0.030)]
     )
-    tube(f"A-pillar {side}", path, radius, "pillar fabric", 20, False, 0.80, (0, 0.46, 0.89))
+    turn = (0, 0.46, 0.89)
+    tube(f"A-pillar {side}", path, radius, "pillar fabric", 20, False, 0.80, turn)
+    pillar_joint(side, sign, tube_points(path, radius, 20, False, 0.80, turn))
     outer = screen(1.03 * sign, np.array([-0.14, 0.10, 0.35, 0.60, 0.85]), -0.004)
     roof = [
         (sign * (rail(y)[0] + 0.010), y, rail(y)[1] + 0.012)
@@ -279,6 +282,28 @@ def pillar(side, sign):
         False,
         0.62,
         (0, 0.46, 0.89),
+    )
+
+
+def pillar_joint(side, sign, rings):
+    """Where the pillar's cover meets its back, on the side towards the people."""
+    near = np.linalg.norm(rings[13] - (0.37 * sign, 0, 1.30), axis=1).argmin()
+    line = rings[:26, (near + 2 * sign) % rings.shape[1]]
+    tube(f"A-pillar joint {side}", line, 0.0013, "gap", 6)
+    tweeter = frame_matrix((sign * 0.7640, 0.952, 1.0690), (0, -sign, 0), (0.25 * sign, 0, 1))
+    lathe(
+        f"tweeter ring {side}",
+        [(0.0190, -0.006), (0.0190, 0.0020), (0.0180, 0.0034), (0.0166, 0.0028)],
+        tweeter,
+        "satin dark",
+        40,
+    )
+    lathe(
+        f"tweeter {side}",
+        [(0.0165, 0.0010), (0.012, 0.0026), (0.006, 0.0034), (0.0003, 0.0036)],
+        tweeter,
+        "speaker cloth",
+        32,
     )
 
 

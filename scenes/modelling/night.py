@@ -119,7 +119,8 @@ def ambient_line():
 
 def lit_legends():
     """What is printed on the controls, lit from behind."""
-    legends.lit("lit legends", cabin.prints() + climate.prints() + wheel.prints(), "legend lit")
+    rows = cabin.prints() + climate.prints() + climate.lamp_prints() + wheel.prints()
+    legends.lit("lit legends", rows, "legend lit")
     legends.lit("lit key lamps", climate.lamps(), "legend amber")
 
 

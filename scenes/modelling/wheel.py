@@ -250,7 +250,7 @@ def badge():
     rim = [(0.0222, -0.002), (0.0222, 0.0009), (0.0214, 0.0015), (0.0206, 0.0011)]
     middle = WHEEL @ Matrix.Translation((0, 0.000, 0.0346))
     lathe("badge disc", rim + [(0.0003, 0.0011)], middle, "satin dark", 56)
-    word = WHEEL @ Matrix.Translation((0, -0.0405, 0.0315)) @ Matrix.Rotation(0.12, 4, "X")
+    word = WHEEL @ Matrix.Translation((0, -0.0405, 0.0322)) @ Matrix.Rotation(0.147, 4, "X")
     printed("hub word", "AIRBAG", word, 0.0042, "thread dark", 0.12)
     at = WHEEL @ Matrix.Translation((0, 0.000, 0.0362))
     ring = np.column_stack(
