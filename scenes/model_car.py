@@ -20,6 +20,7 @@ sys.path.insert(0, os.path.join(HERE, "modelling"))
 
 import body  # noqa: E402
 import cabin  # noqa: E402
+import climate  # noqa: E402
 import dashboard  # noqa: E402
 import finish  # noqa: E402
 import greenhouse  # noqa: E402
@@ -60,6 +61,7 @@ def empty_scene():
 def build_car(path):
     textures.write_textures(os.path.join(HERE, "textures"))
     dashboard.build_dashboard()
+    climate.build_climate()
     wheel.build_wheel()
     greenhouse.build_greenhouse()
     cabin.build_cabin()

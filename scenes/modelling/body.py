@@ -43,6 +43,8 @@ def bonnet():
     last = np.array(rows[-1])
     rows.append(last + np.array([0, 0.01, -0.08]))
     rows.append(last * np.array([1, 1, 0]) + np.array([0, -0.02, 0.30]))
+    lip = np.array(rows[0])  # the sheet turns down at its rear edge
+    rows[:0] = [lip + (0, 0.004, -0.018), lip + (0, -0.001, -0.004)]
     grid("bonnet", np.array(rows), "car paint")
     for side, sign in SIDES:
         line = [
@@ -50,16 +52,15 @@ def bonnet():
         ]
         tube(f"bonnet shut line {side}", line, 0.0022, "gap", 6)
     us = np.linspace(-0.985, 0.985, 33)
-    cowl = [
-        [(0.735 * u, glass_foot(0.735 * u) + d, 1.005 + 0.045 * u * u * k + h) for u in us]
-        for d, k, h in (
-            (-0.030, 1, 0.004),
-            (0.010, 1, -0.010),
-            (0.050, 0.6, -0.030),
-            (0.110, 0.2, -0.050),
-        )
-    ]
-    grid("cowl", np.array(cowl), "plastic grained")
+
+    def cowl(u, d, k, h):
+        """From the glass down to below the bonnet's rear edge, which stands over it."""
+        x, y = 0.735 * u, glass_foot(0.735 * u) + d
+        z = 1.005 + 0.045 * u * u * k + h
+        return (x, y, min(z, bonnet_z(x, y) - 0.016) if d > 0.03 else z)
+
+    rows = ((-0.030, 1, 0.004), (0.010, 1, -0.010), (0.050, 0.6, -0.030), (0.110, 0.2, -0.050))
+    grid("cowl", np.array([[cowl(u, *row) for u in us] for row in rows]), "plastic grained")
 
 
 def body_sides():
@@ -117,6 +118,24 @@ def body_sides():
         )
 
 
+def hull():
+    """The closed tub below the windows: floor, firewall, sides, boot wall. The firewall meets
+    the bonnet from below, and the cowl where the bonnet ends before it."""
+    x, y0, y1, z0, z1 = 0.80, -1.92, 1.34, 0.22, 1.04
+    top = [
+        (a, y1, min(1.0, bonnet_z(a, y1) - (0.030 if abs(a) < 0.46 else 0.001)))
+        for a in np.linspace(x, -x, 41)
+    ]
+    corners = [(-x, y0, z0), (x, y0, z0), (x, y1, z0), (-x, y1, z0), (-x, y0, z1), (x, y0, z1)]
+    faces = [(0, 1, 2, 3), (0, 4, 5, 1), (1, 5, 6, 2), (3, 46, 4, 0)]
+    mid = len(corners) + len(top)
+    low = [(a, y1, z0) for a in np.linspace(x, -x, 41)[1:-1]]
+    feet = [2, *range(mid, mid + 39), 3]
+    faces += [(feet[k], 6 + k, 7 + k, feet[k + 1]) for k in range(40)]
+    mesh("floor and firewall", corners + top + low, faces, "carpet")
+
+
 def build_body():
+    hull()
     bonnet()
     body_sides()

@@ -4,11 +4,13 @@
 import numpy as np
 from mathutils import Matrix
 
+from legends import printed
 from shapes import (
     box,
     frame_matrix,
     frame_ring,
     grid,
+    joined,
     lathe,
     place,
     plate,
@@ -113,15 +115,8 @@ def door_fittings(side, sign):
         0.001,
     )
     for i in range(4):
-        x, y = sign * 0.697 - 0.012 + 0.024 * (i % 2), 0.35 - 0.045 * (i // 2)
-        box(
-            f"window switch {side} {i}",
-            (0.016, 0.026, 0.008),
-            frame_matrix((x, y, 0.7300), (1, 0, 0), (0, 1, 0.25)),
-            "button",
-            0.002,
-            2,
-        )
+        at = window_switch(sign, i)
+        box(f"window switch {side} {i}", (0.0185, 0.028, 0.008), at, "button", 0.002, 2)
     speaker = frame_matrix((sign * 0.752, 0.55, 0.47), (0, -sign, 0), (0, 0, 1))
     lathe(
         f"door speaker {side}",
@@ -193,7 +188,7 @@ def console():
 
 
 def selector():
-    base = frame_matrix((-0.045, 0.44, 0.712), (1, 0, 0), (0, 1, 0.055))
+    base = SELECTOR
     plate(
         "gear selector base",
         rounded_rectangle(0.062, 0.125, 0.02, 6),
@@ -225,17 +220,78 @@ def selector():
         base @ Matrix.Translation((0, 0, 0.020)),
         "satin chrome",
     )
-    start = frame_matrix((-0.055, 0.545, 0.722), (1, 0, 0), (0, 1, 0.2))
     lathe(
         "start button",
         [(0.017, -0.004), (0.017, 0.003), (0.0155, 0.0045), (0.0145, 0.0035), (0.0005, 0.003)],
-        start,
+        START,
         "cross-brushed aluminium",
         40,
     )
+    lathe(
+        "start button cap",
+        [(0.0142, 0.0030), (0.0138, 0.0046), (0.0128, 0.0050), (0.0005, 0.0052)],
+        START,
+        "button",
+        40,
+    )
     for i in range(3):
-        where = frame_matrix((0.05, 0.50 - 0.035 * i, 0.7145), (1, 0, 0), (0, 1, 0.055))
-        box(f"console key {i}", (0.055, 0.026, 0.008), where, "button", 0.002, 2)
+        box(f"console key {i}", (0.055, 0.028, 0.008), console_key(i), "button", 0.002, 2)
+
+
+# ---- what is printed on the keys between and beside the people ---------------------------
+
+SELECTOR = frame_matrix((-0.045, 0.44, 0.712), (1, 0, 0), (0, 1, 0.055))
+START = frame_matrix((-0.055, 0.545, 0.722), (1, 0, 0), (0, 1, 0.2))
+CONSOLE_WORDS = ("MODE", "HOLD", "PARK")
+
+
+def console_key(number):
+    return frame_matrix((0.05, 0.50 - 0.035 * number, 0.7145), (1, 0, 0), (0, 1, 0.055))
+
+
+def window_switch(sign, number):
+    """The top of one of a door's four switches."""
+    x, y = sign * 0.697 - 0.012 + 0.024 * (number % 2), 0.35 - 0.045 * (number // 2)
+    return frame_matrix((x, y, 0.7300), (1, 0, 0), (0, 1, 0.25))
+
+
+def prints():
+    """Rows of legends.printed: name, what, plane, height."""
+    rows = [("start sign", "power", START @ Matrix.Translation((0, 0, 0.0050)), 0.0115)]
+    for k, letter in enumerate("PRND"):
+        at = SELECTOR @ Matrix.Translation((0.0245, 0.036 - 0.024 * k, 0.0002))
+        rows.append((f"gear {letter}", letter, at, 0.0070))
+    for i, word in enumerate(CONSOLE_WORDS):
+        at = console_key(i) @ Matrix.Translation((0, 0, 0.0042))
+        rows.append((f"console word {i}", word, at, 0.0058))
+    for side, sign in SIDES:
+        for i in range(4):
+            at = window_switch(sign, i) @ Matrix.Translation((0, 0.004, 0.0042))
+            rows.append((f"window sign {side} {i}", "window", at, 0.0085))
+    return rows
+
+
+def tray():
+    """A tray for a telephone on the console's slope: a ribbed mat in a raised frame."""
+    at = frame_matrix((0, 0.640, 0.7535), (1, 0, 0), (0, 1, 0.44))
+    outline = rounded_rectangle(0.176, 0.124, 0.018, 7)
+    section = [(-0.0050, -0.004), (0.0046, -0.004), (0.0030, 0.0040), (0.0, 0.0056)]
+    section += [(-0.0030, 0.0050), (-0.0044, 0.0024)]
+    frame_ring("console tray rim", outline, section[::-1], at, "plastic dark")
+    mat = at @ Matrix.Translation((0, 0, 0.0022))
+    plate("console tray mat", outline * 0.985, 0.006, mat, "wiper black", 0.0)
+    ribs = [
+        box(
+            "rib",
+            (0.148, 0.0034, 0.0030),
+            mat @ Matrix.Translation((0, -0.045 + 0.0112 * i, 0.0004)),
+            "wiper black",
+            0.0011,
+            2,
+        )
+        for i in range(9)
+    ]
+    joined("console tray ribs", ribs)
 
 
 def cup_holders():
@@ -340,4 +396,7 @@ def seats():
 def build_cabin():
     doors()
     console()
+    tray()
     seats()
+    for row in prints():
+        printed(*row)

@@ -5,6 +5,7 @@ import math
 import numpy as np
 from mathutils import Matrix, Vector
 
+from legends import printed
 from shapes import (
     box,
     cut,
@@ -202,9 +203,32 @@ def airbag_seam():
         k = np.argmin(abs(profile[:, 0] - (y - wrap(x))) + 10 * (profile[:, 1] < 1.035))
         return (x, y, profile[k, 1] + 0.00015)
 
-    outline = rounded_rectangle(0.36, 0.15, 0.03) + np.array([0.42, 0.945])
+    outline = dense(rounded_rectangle(0.36, 0.15, 0.03) + np.array([0.42, 0.945]), 0.012)
     path = np.array([on_pad(*p) for p in np.vstack([outline, outline[:1]])])
     tube("airbag tear line", path, 0.0008, "gap", 6)
+    x, y = 0.545, 0.832
+    slope = (on_pad(x, y + 0.01)[2] - on_pad(x, y - 0.01)[2]) / 0.02
+    word = frame_matrix(on_pad(x, y), (1, 0, 0), (0, 1, slope))
+    printed("passenger airbag word", "AIRBAG", word, 0.0085, "thread dark", 0.12, 0.0003)
+    sun_sensor()
+
+
+def sun_sensor():
+    """A small dome before the windscreen's foot, on the car's middle."""
+    y = 1.215
+    slope = (pad_height(0, y + 0.02) - pad_height(0, y - 0.02)) / 0.04
+    at = frame_matrix((0, y, pad_height(0, y)), (1, 0, 0), (0, 1, slope))
+    dome = [(0.0125, -0.001), (0.0125, 0.0012), (0.0105, 0.0020), (0.0095, 0.0045)]
+    dome += [(0.0070, 0.0078), (0.0035, 0.0096), (0.0003, 0.0101)]
+    lathe("sun sensor", dome, at, "plastic dark", 28)
+
+
+def dense(outline, step):
+    """A closed outline with a point each `step`, so that it can follow a curved surface."""
+    o = np.vstack([outline, outline[:1]])
+    arc = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(o, axis=0), axis=1))])
+    at = np.unique(np.concatenate([arc[:-1], np.arange(0, arc[-1] - 0.5 * step, step)]))
+    return np.column_stack([np.interp(at, arc, o[:, k]) for k in range(2)])
 
 
 def trim_band():
@@ -250,7 +274,7 @@ def glovebox(curve):
         k = np.argmin(abs(curve[:, 1] - z))
         return (x, curve[k, 0] + wrap(x) - 0.0002, curve[k, 1])
 
-    outline = rounded_rectangle(0.42, 0.165, 0.02) + np.array([0.45, 0.782])
+    outline = dense(rounded_rectangle(0.42, 0.165, 0.02) + np.array([0.45, 0.782]), 0.012)
     path = np.array([on_knees(*p) for p in np.vstack([outline, outline[:1]])])
     tube("glovebox gap", path, 0.0014, "gap", 6)
     where = frame_matrix(
@@ -354,6 +378,10 @@ def cluster():
     display_quad("cluster", CLUSTER_SIZE, CLUSTER_FRAME)
     lower = CLUSTER_FRAME @ Matrix.Translation((0, -0.066, -0.004))
     box("cluster base", (0.33, 0.03, 0.05), lower, "plastic dark", 0.006)
+    for k, y in (("upper", 0.0035), ("lower", -0.0035)):
+        ends = np.linspace(-0.156, 0.156, 3)
+        line = place([(x, y, 0.0250) for x in ends], lower)
+        tube(f"cluster base groove {k}", line, 0.0005, "gap", 6)
 
 
 # ---- centre display ----------------------------------------------------------------------
@@ -496,7 +524,6 @@ def centre_stack():
     )
     block = frame_matrix((CENTRE_X, 0.79, 0.85), (1, 0, 0), (0, 0.2, 1))
     box("centre stack body", (0.35, 0.125, 0.10), block, "plastic dark", 0.006)
-    climate_keys()
 
 
 def holed_plate(name, outline, holes, matrix):
@@ -514,115 +541,6 @@ def holed_plate(name, outline, holes, matrix):
         at = matrix @ Matrix.Translation(((x0 + x1) / 2, (y0 + y1) / 2, -0.004))
         bars.append(box("bar", (x1 - x0, y1 - y0, 0.008), at, "piano black", 0))
     return joined(name, bars)
-
-
-def climate_keys():
-    """A row of keys between two knurled temperature knobs, below the vents."""
-    keys = []
-    for i in range(8):
-        x = (i - 3.5) * 0.0262
-        keys.append(
-            box(
-                "key",
-                (0.0245, 0.017, 0.006),
-                stack_face((x, -0.0335, 0.0045)),
-                "button",
-                0.0016,
-                3,
-            )
-        )
-        label = stack_face((x, -0.0310, 0.00765))
-        symbol(f"climate symbol {i}", label, i)
-    joined("climate keys", keys)
-    hazard_key()
-    for side, x in (("left", -0.142), ("right", 0.142)):
-        at = stack_face((x, -0.0335, 0.003))
-        knob(f"temperature knob {side}", at, 0.0195, 0.019)
-
-
-def hazard_key():
-    """The red triangle between the vents."""
-    box(
-        "hazard key",
-        (0.0125, 0.030, 0.006),
-        stack_face((0, 0.0338, 0.0035)),
-        "button",
-        0.0016,
-        3,
-    )
-    corners = np.array(
-        [(-0.0042, 0.0300, 0.0070), (0.0042, 0.0300, 0.0070), (0, 0.0376, 0.0070)]
-    )
-    edges = [
-        corners[k] + (corners[(k + 1) % 3] - corners[k]) * t for k in range(3) for t in (0, 0.5)
-    ]
-    tube(
-        "hazard triangle",
-        place(np.array(edges), stack_face((0, 0, 0))),
-        0.0006,
-        "symbol red",
-        6,
-        True,
-    )
-
-
-def knob(name, matrix, radius, height):
-    sides = 72
-    a = np.linspace(0, 2 * math.pi, sides, endpoint=False)
-    ridge = np.where(np.arange(sides) % 2 == 0, 1.0, 0.972)
-    rings = []
-    for r, h, knurl in (
-        (1.0, 0.0, 1),
-        (1.0, 0.75, 1),
-        (0.985, 0.90, 1),
-        (0.93, 0.98, 0),
-        (0.86, 1.0, 0),
-    ):
-        k = radius * r * (ridge if knurl else np.ones(sides))
-        rings.append(
-            np.column_stack([k * np.cos(a), k * np.sin(a), np.full(sides, h * height)])
-        )
-    grid(name, place(np.array(rings), matrix), "cross-brushed aluminium", closed=True)
-    lathe(
-        f"{name} cap",
-        [
-            (radius * 0.86, height * 0.999),
-            (radius * 0.80, height * 0.955),
-            (radius * 0.4, height * 0.95),
-            (0.0004, height * 0.95),
-        ],
-        matrix,
-        "piano black",
-        48,
-    )
-
-
-def symbol(name, matrix, kind):
-    """Small printed signs: bars, a ring, an arrow; enough to read as climate symbols."""
-    strokes = {
-        0: [(-2, 0, 4, 0.6), (0, 1.6, 3, 0.6), (0, -1.6, 3, 0.6)],
-        1: [(0, 0, 0.7, 4), (0, 0, 4, 0.7)],
-        2: [(-1.2, 0, 0.7, 3.6), (1.2, 0, 0.7, 3.6)],
-        3: [(0, 1.2, 4.2, 0.7), (0, -1.2, 4.2, 0.7)],
-        4: [(0, 0.6, 0.7, 3.4), (0, -1.8, 3, 0.7)],
-        5: [(-1.6, 0, 0.7, 3), (0, 0, 0.7, 3), (1.6, 0, 0.7, 3)],
-        6: [(0, 0, 4.4, 0.7), (1.4, 1.0, 0.7, 2)],
-        7: [(0, -1.4, 4.4, 0.7), (0, 0.8, 2.6, 0.7)],
-    }[kind]
-    parts = []
-    for x, y, w, h in strokes:
-        x, y, w, h = (0.001 * 1.35 * v for v in (x, y, w, h))
-        corners = place(
-            [
-                (x - w / 2, y - h / 2, 0),
-                (x + w / 2, y - h / 2, 0),
-                (x + w / 2, y + h / 2, 0),
-                (x - w / 2, y + h / 2, 0),
-            ],
-            matrix,
-        )
-        parts.append(mesh("stroke", corners, [(0, 1, 2, 3)], "symbol white"))
-    return joined(name, parts)
 
 
 def build_dashboard():

@@ -10,12 +10,14 @@ from shapes import (
     frame_matrix,
     grid,
     joined,
+    lathe,
     mesh,
     place,
     plate,
     rounded_rectangle,
     spline,
     tube,
+    tube_points,
 )
 from windscreen import screen
 
@@ -55,25 +57,56 @@ def windscreen():
         ("driver", (-0.80, 0.030), (-0.06, 0.075)),
         ("passenger", (0.02, 0.030), (0.74, 0.070)),
     ):
-        path = [
-            screen(
-                a[0] + (b[0] - a[0]) * t,
-                a[1] + (b[1] - a[1]) * t + 0.014 * math.sin(math.pi * t),
-                -0.012,
-            )
-            for t in np.linspace(0, 1, 14)
-        ]
-        tube(f"wiper {name}", path, 0.0055, "rubber", 8)
-        tube(
-            f"wiper arm {name}",
-            spline(
-                [path[0] + (0, 0.05, -0.01), path[4] + (0, 0, 0.012), path[8] + (0, 0, 0.006)],
-                10,
-            ),
-            0.006,
-            "plastic dark",
-            8,
-        )
+        wiper(name, a, b)
+
+
+# Sections of a wiper (across, away from the glass), m: the flexible blade with its spoiler and
+# the rubber's lip below it, and the arm.
+BLADE = [(-0.0010, 0.0), (0.0010, 0.0), (0.0022, 0.0045), (0.0060, 0.0052), (0.0062, 0.0066)]
+BLADE += [(0.0036, 0.0084), (-0.0008, 0.0128), (-0.0030, 0.0132), (-0.0060, 0.0072)]
+BLADE += [(-0.0058, 0.0052), (-0.0022, 0.0045)]
+ARM = [(-0.0060, -0.0022), (0.0060, -0.0022), (0.0064, 0.0), (0.0040, 0.0030)]
+ARM += [(-0.0040, 0.0030), (-0.0064, 0.0)]
+
+
+def swept(name, path, section, scale, material):
+    """A section carried along a path on the windscreen, closed at both ends."""
+    path = np.asarray(path, float)
+    along = np.gradient(path, axis=0)
+    along /= np.linalg.norm(along, axis=1)[:, None]
+    side = np.cross(along, (0, 0.46, 0.89))
+    side /= np.linalg.norm(side, axis=1)[:, None]
+    lift = np.cross(side, along)
+    s = np.asarray(section, float)[None] * np.asarray(scale, float)[:, None, None]
+    rings = path[:, None] + s[..., :1] * side[:, None] + s[..., 1:] * lift[:, None]
+    ends = [r.mean(0) + 0.02 * (r - r.mean(0)) for r in (rings[0], rings[-1])]
+    rings = np.concatenate([ends[:1], rings, ends[1:]])
+    return grid(name, rings, material, closed=True)
+
+
+def wiper(name, a, b):
+    """A blade that rests at the screen's foot on a gentle arch, its arm and its pivot's cap."""
+
+    def rest(t, out):
+        v = a[1] + (b[1] - a[1]) * t + 0.014 * math.sin(math.pi * t)
+        return screen(a[0] + (b[0] - a[0]) * t, v, -out)
+
+    ts = np.concatenate([[0.0, 0.012], np.linspace(0.04, 0.96, 22), [0.988, 1.0]])
+    thick = np.concatenate([[0.45, 0.8], np.ones(22), [0.8, 0.45]])
+    swept(f"wiper {name}", [rest(t, 0.0012) for t in ts], BLADE, thick, "wiper black")
+    joint = frame_matrix(rest(0.52, 0.011), rest(0.56, 0) - rest(0.48, 0), (0, 0.89, -0.46))
+    box(f"wiper joint {name}", (0.046, 0.013, 0.010), joint, "wiper black", 0.003, 2)
+    start = rest(0.0, 0.012) + (0, 0.05, -0.010)
+    knee = rest(0.10, 0.020) + (0, 0.02, 0)
+    arm = spline([start, knee, rest(0.32, 0.021), rest(0.53, 0.016)], 16)
+    swept(f"wiper arm {name}", arm, ARM, np.linspace(1.5, 0.9, 16), "wiper black")
+    lathe(
+        f"wiper pivot {name}",
+        [(0.017, -0.05), (0.016, 0.004), (0.0135, 0.010), (0.009, 0.0125), (0.0004, 0.013)],
+        frame_matrix(start, (1, 0, 0), (0, 0.89, -0.46)),
+        "plastic dark",
+        24,
+    )
 
 
 def frit_dots():
@@ -232,7 +265,9 @@ def pillar(side, sign):
     radius = np.concatenate(
         [np.interp(vs, (-0.06, 0.2, 1), (0.046, 0.036, 0.033)), np.full(24, 0.030)]
     )
-    tube(f"A-pillar {side}", path, radius, "pillar fabric", 20, False, 0.80, (0, 0.46, 0.89))
+    turn = (0, 0.46, 0.89)
+    tube(f"A-pillar {side}", path, radius, "pillar fabric", 20, False, 0.80, turn)
+    pillar_joint(side, sign, tube_points(path, radius, 20, False, 0.80, turn))
     outer = screen(1.03 * sign, np.array([-0.14, 0.10, 0.35, 0.60, 0.85]), -0.004)
     roof = [
         (sign * (rail(y)[0] + 0.010), y, rail(y)[1] + 0.012)
@@ -247,6 +282,28 @@ def pillar(side, sign):
         False,
         0.62,
         (0, 0.46, 0.89),
+    )
+
+
+def pillar_joint(side, sign, rings):
+    """Where the pillar's cover meets its back, on the side towards the people."""
+    near = np.linalg.norm(rings[13] - (0.37 * sign, 0, 1.30), axis=1).argmin()
+    line = rings[:26, (near + 2 * sign) % rings.shape[1]]
+    tube(f"A-pillar joint {side}", line, 0.0013, "gap", 6)
+    tweeter = frame_matrix((sign * 0.7640, 0.952, 1.0690), (0, -sign, 0), (0.25 * sign, 0, 1))
+    lathe(
+        f"tweeter ring {side}",
+        [(0.0190, -0.006), (0.0190, 0.0020), (0.0180, 0.0034), (0.0166, 0.0028)],
+        tweeter,
+        "satin dark",
+        40,
+    )
+    lathe(
+        f"tweeter {side}",
+        [(0.0165, 0.0010), (0.012, 0.0026), (0.006, 0.0034), (0.0003, 0.0036)],
+        tweeter,
+        "speaker cloth",
+        32,
     )
 
 
@@ -286,7 +343,7 @@ def door_mirror(side, sign):
     )
 
 
-# ---- roof, rear and floor ----------------------------------------------------------------
+# ---- roof and rear ----------------------------------------------------------------
 
 
 def roof_point(u, y, lift):
@@ -385,23 +442,6 @@ def rear():
     )
 
 
-def hull():
-    """The closed tub below the windows: floor, firewall, sides, boot wall."""
-    x, y0, y1, z0, z1 = 0.80, -1.92, 1.34, 0.22, 1.04
-    corners = [
-        (-x, y0, z0),
-        (x, y0, z0),
-        (x, y1, z0),
-        (-x, y1, z0),
-        (-x, y0, z1),
-        (x, y0, z1),
-        (x, y1, 1.0),
-        (-x, y1, 1.0),
-    ]
-    faces = [(0, 1, 2, 3), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)]
-    mesh("floor and firewall", corners, faces, "carpet")
-
-
 def build_greenhouse():
     windscreen()
     rear_view_mirror()
@@ -409,4 +449,3 @@ def build_greenhouse():
     side_windows()
     roof()
     rear()
-    hull()

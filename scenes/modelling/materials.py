@@ -163,4 +163,10 @@ MATERIALS = {
     "tail lamp lit": grey(0.1, 0.5, emission=((1.0, 0.02, 0.01), 150.0)),
     "ambient line": grey(0.1, 0.5, emission=((0.25, 0.62, 1.0), 14.0)),
     "traffic green": grey(0.1, 0.5, emission=((0.05, 1.0, 0.45), 2500.0)),
+    # controls: anodised paddles and rings, wipers, tell-tale lines, legends lit at night
+    "satin dark": surface((0.055, 0.055, 0.058), 0.38, 1.0),
+    "wiper black": grey(0.012, 0.9, specular=0.4),
+    "lamp off": surface((0.22, 0.15, 0.06), 0.5),
+    "legend lit": grey(0.1, 0.5, emission=((1.0, 0.95, 0.88), 2.0)),
+    "legend amber": grey(0.1, 0.5, emission=((1.0, 0.58, 0.12), 4.0)),
 }

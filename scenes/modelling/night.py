@@ -7,8 +7,12 @@ import random
 
 from mathutils import Vector
 
+import cabin
+import climate
 import dashboard
 import finish
+import legends
+import wheel
 from outside import LAMPS
 from shapes import box, frame_matrix, joined, mesh, tube
 
@@ -21,6 +25,7 @@ def build_night(path):
     signals()
     windows()
     ambient_line()
+    lit_legends()
     finish.finish_meshes()
     finish.export(path)
     finish.patch(path, SKY)
@@ -110,6 +115,13 @@ def house_fronts():
 def ambient_line():
     path = dashboard.along((0.7530, 0.9140), (-0.73, 0.73), 60)
     tube("ambient line", path, 0.0017, "ambient line", 6)
+
+
+def lit_legends():
+    """What is printed on the controls, lit from behind."""
+    rows = cabin.prints() + climate.prints() + climate.lamp_prints() + wheel.prints()
+    legends.lit("lit legends", rows, "legend lit")
+    legends.lit("lit key lamps", climate.lamps(), "legend amber")
 
 
 def add_lights(path):

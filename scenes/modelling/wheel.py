@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The steering wheel, its column, stalks and paddles."""
+"""The steering wheel and its column."""
 import math
 
 import numpy as np
 from mathutils import Matrix, Vector
 
+import controls
+from controls import arm_rings
+from legends import printed
 from shapes import (
     box,
     frame_matrix,
@@ -84,17 +87,6 @@ def rim():
     )
 
 
-def spoke_section(width, thickness, count=20):
-    a = np.linspace(0, 2 * math.pi, count, endpoint=False)
-    x, y = np.cos(a), np.sin(a)
-    return np.column_stack(
-        [
-            0.5 * width * np.sign(x) * abs(x) ** 0.55,
-            0.5 * thickness * np.sign(y) * abs(y) ** 0.7,
-        ]
-    )
-
-
 def spoke(name, path, widths, thicknesses, material):
     """A flat arm along path (local), its section across the wheel's plane."""
     path = spline(path, 16)
@@ -102,16 +94,8 @@ def spoke(name, path, widths, thicknesses, material):
         spline(np.array(widths)[:, None], 16)[:, 0],
         spline(np.array(thicknesses)[:, None], 16)[:, 0],
     )
-    rings = []
-    for i, point in enumerate(path):
-        tangent = path[min(i + 1, 15)] - path[max(i - 1, 0)]
-        tangent /= np.linalg.norm(tangent)
-        across = np.cross((0, 0, 1), tangent)
-        across /= np.linalg.norm(across)
-        lift = np.cross(tangent, across)
-        s = spoke_section(widths[i], thicknesses[i])
-        rings.append(point + s[:, :1] * across + s[:, 1:] * lift)
-    return grid(name, place(np.array(rings), WHEEL), material, closed=True)
+    rings = arm_rings(path, widths, thicknesses)
+    return grid(name, place(rings, WHEEL), material, closed=True)
 
 
 def spokes():
@@ -130,7 +114,6 @@ def spokes():
         )
         switch_pod(side, sign)
         spoke_inlay(side, sign)
-        paddle(side, sign)
     spoke(
         "steering wheel spoke lower",
         [(0, -0.045, 0.008), (0, -0.10, 0.006), (0, -0.150, 0.000), (0, -0.172, 0)],
@@ -138,7 +121,8 @@ def spokes():
         (0.028, 0.018, 0.014, 0.012),
         "plastic dark",
     )
-    slot = WHEEL @ Matrix.Translation((0, -0.118, 0.0145))
+    # leant as the spoke's front, out of which its upper edge would not come otherwise
+    slot = WHEEL @ Matrix.Translation((0, -0.118, 0.0158)) @ Matrix.Rotation(0.15, 4, "X")
     plate(
         "steering wheel clasp",
         np.array([(-0.019, -0.040), (0.019, -0.040), (0.024, 0.036), (-0.024, 0.036)]),
@@ -159,13 +143,38 @@ def spoke_inlay(side, sign):
     tube(f"spoke inlay {side}", place(points, WHEEL), 0.0026, "satin chrome", 10, up=turn)
 
 
-def switch_pod(side, sign):
-    """Gloss black keys with a satin frame on a spoke, and a knurled roller."""
-    at = (
+def pod_place(sign):
+    """The plane of the keys on a spoke."""
+    return (
         WHEEL
         @ Matrix.Translation((sign * 0.1115, 0.0015, 0.0205))
         @ Matrix.Rotation(sign * math.radians(7), 4, "Y")
     )
+
+
+KEYS = ((-0.0165, 0.010), (0.0165, 0.010), (-0.0165, -0.010), (0.0165, -0.010))
+SIGNS = {"left": ("cruise", "+", "distance", "-"), "right": ("+", "phone", "-", "voice")}
+
+
+def switch_prints():
+    """Rows of legends.printed: the keys' icons."""
+    rows = []
+    for side, sign in (("left", -1), ("right", 1)):
+        for (x, y), what in zip(KEYS, SIGNS[side]):
+            at = pod_place(sign) @ Matrix.Translation((x, y, 0.00235))
+            height = 0.0060 if what in "+-" else 0.0088
+            rows.append((f"switch mark {side} {what}", what, at, height))
+    return rows
+
+
+def prints():
+    """All that is printed on the wheel and behind it."""
+    return switch_prints() + controls.prints(WHEEL)
+
+
+def switch_pod(side, sign):
+    """Gloss black keys with a satin frame on a spoke, and a knurled roller."""
+    at = pod_place(sign)
     outline = rounded_rectangle(0.058, 0.046, 0.012, 6)
     plate(f"switch pod {side}", outline, 0.012, at, "piano black", 0.0018, 3)
     frame_ring(
@@ -176,35 +185,17 @@ def switch_pod(side, sign):
         "bright chrome",
     )
     keys = []
-    for x, y, w, h in (
-        (-0.0165, 0.010, 0.017, 0.016),
-        (0.0165, 0.010, 0.017, 0.016),
-        (-0.0165, -0.010, 0.017, 0.016),
-        (0.0165, -0.010, 0.017, 0.016),
-    ):
+    for x, y in KEYS:
         keys.append(
             box(
                 "key",
-                (w, h, 0.003),
+                (0.0175, 0.0170, 0.003),
                 at @ Matrix.Translation((x, y, 0.0008)),
                 "button",
                 0.0012,
                 2,
             )
         )
-        for k in (-1, 0, 1) if x * sign > 0 else (0,):
-            mark = at @ Matrix.Translation((x + 0.0032 * k, y, 0.00236))
-            box(
-                f"switch mark {side}",
-                (
-                    0.0010 if x * sign > 0 else 0.0055,
-                    0.0042 if x * sign > 0 else 0.0011,
-                    0.0001,
-                ),
-                mark,
-                "symbol white",
-                0,
-            )
     joined(f"switch keys {side}", keys)
     roller = at @ Matrix.Translation((0, 0, 0.0005)) @ Matrix.Rotation(math.pi / 2, 4, "Y")
     lathe(
@@ -220,23 +211,6 @@ def switch_pod(side, sign):
         roller,
         "cross-brushed aluminium",
         28,
-    )
-
-
-def paddle(side, sign):
-    at = (
-        WHEEL
-        @ Matrix.Translation((sign * 0.120, 0.030, -0.024))
-        @ Matrix.Rotation(sign * math.radians(14), 4, "Z")
-    )
-    plate(
-        f"shift paddle {side}",
-        rounded_rectangle(0.030, 0.070, 0.010, 6),
-        0.004,
-        at,
-        "cross-brushed aluminium",
-        0.0015,
-        3,
     )
 
 
@@ -272,8 +246,13 @@ def hub():
 
 
 def badge():
-    """A sun with its two mock suns on the halo."""
-    at = WHEEL @ Matrix.Translation((0, 0.000, 0.0352))
+    """A sun with its two mock suns on the halo, on a dark disc."""
+    rim = [(0.0222, -0.002), (0.0222, 0.0009), (0.0214, 0.0015), (0.0206, 0.0011)]
+    middle = WHEEL @ Matrix.Translation((0, 0.000, 0.0346))
+    lathe("badge disc", rim + [(0.0003, 0.0011)], middle, "satin dark", 56)
+    word = WHEEL @ Matrix.Translation((0, -0.0405, 0.0322)) @ Matrix.Rotation(0.147, 4, "X")
+    printed("hub word", "AIRBAG", word, 0.0042, "thread dark", 0.12)
+    at = WHEEL @ Matrix.Translation((0, 0.000, 0.0362))
     ring = np.column_stack(
         [
             0.0165 * np.cos(np.linspace(0, 2 * math.pi, 40, endpoint=False)),
@@ -294,6 +273,15 @@ def badge():
         )
 
 
+def column_joint():
+    """Where the shroud's halves meet, down both its sides."""
+    for side, sign in (("left", -1), ("right", 1)):
+        path = [(0.0462, -0.006, -0.052), (0.0521, -0.010, -0.110), (0.0561, -0.016, -0.200)]
+        path.append((0.0581, -0.022, -0.328))
+        points = spline([(sign * x, y, z) for x, y, z in path], 24)
+        tube(f"column joint {side}", place(points, WHEEL), 0.0009, "gap", 6)
+
+
 def column():
     rings = []
     for z, width, height, drop in (
@@ -311,29 +299,7 @@ def column():
         "plastic grained",
         closed=True,
     )
-    for side, sign in (("left", -1), ("right", 1)):
-        stalk(side, sign)
-
-
-def stalk(side, sign):
-    path = spline(
-        [
-            (sign * 0.040, 0.012, -0.070),
-            (sign * 0.080, 0.022, -0.064),
-            (sign * 0.125, 0.032, -0.055),
-            (sign * 0.166, 0.040, -0.048),
-        ],
-        14,
-    )
-    radii = np.interp(
-        np.linspace(0, 1, 14), (0, 0.25, 0.6, 1), (0.0070, 0.0062, 0.0078, 0.0092)
-    )
-    turn = tuple(WHEEL.to_3x3() @ Vector((0, 0, 1)))
-    tube(
-        f"column stalk {side}", place(path, WHEEL), radii, "plastic dark", 16, False, 0.8, turn
-    )
-    ring = place(path[9:11], WHEEL)
-    tube(f"column stalk ring {side}", ring, 0.0090, "satin chrome", 20, False, 0.8, turn)
+    column_joint()
 
 
 def build_wheel():
@@ -341,3 +307,6 @@ def build_wheel():
     spokes()
     hub()
     column()
+    controls.build_controls(WHEEL)
+    for row in switch_prints():
+        printed(*row)
