@@ -176,7 +176,8 @@ static void fill_broad(void *context, int row, int worker)
         b->half[(size_t)row * HALF + (size_t)i] = broad_height(b, i, row);
 }
 
-/* At a place of the finest level, from values at those of level 1, whose middles lie between. */
+/* At a place of the finest level, from values at those of level 1, whose middles lie between.
+ */
 static float half_at(const FieldBuild *b, int x, int y)
 {
     int   i = (x + (x & 1)) / 2 - 1, j = (y + (y & 1)) / 2 - 1; /* the place before */
