@@ -129,6 +129,8 @@ MATERIALS = {
     "tail lamp": surface((0.30, 0.012, 0.010), 0.12, clearcoat=(1.0, 0.03)),
     "paint other": surface((0.42, 0.43, 0.44), 0.35, 0.4, clearcoat=(1.0, 0.03)),
     "paint red": surface((0.24, 0.022, 0.018), 0.4, 0.0, clearcoat=(1.0, 0.03)),
+    "paint dark": surface((0.012, 0.016, 0.022), 0.35, 0.3, clearcoat=(1.0, 0.03)),
+    "paint white": surface((0.66, 0.66, 0.64), 0.4, 0.0, clearcoat=(1.0, 0.03)),
     "dark glass": grey(0.010, 0.03, ior=1.52),
     # outside
     "asphalt": surface(
@@ -140,8 +142,9 @@ MATERIALS = {
     "grass": surface((1, 1, 1), 1.0, texture="grass_color"),
     "foliage": surface((1, 1, 1), 0.9, texture="leaf_color"),
     "foliage light": surface((1.0, 0.82, 0.40), 0.9, texture="leaf_color"),
-    "leaf": surface((0.046, 0.088, 0.022), 0.7),
-    "leaf light": surface((0.060, 0.095, 0.018), 0.7),
+    "leaf": surface((0.070, 0.125, 0.030), 0.6),
+    "leaf light": surface((0.110, 0.160, 0.034), 0.6),
+    "leaf dark": surface((0.040, 0.082, 0.024), 0.5),
     "bark": surface((0.075, 0.056, 0.040), 0.95),
     "facade plaster": surface((1, 1, 1), 0.85, texture="facade_plaster"),
     "facade brick": surface((1, 1, 1), 0.85, texture="facade_brick"),

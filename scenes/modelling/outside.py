@@ -5,8 +5,6 @@ The car stands in its own lane (x -1.75 .. 1.75); the street runs along y."""
 import math
 import random
 
-import bmesh
-import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 from mathutils import noise as perlin
@@ -24,6 +22,8 @@ from shapes import (
     spline,
     tube,
 )
+from traffic import traffic
+from trees import trees
 
 LEFT_KERB, RIGHT_KERB = -5.60, 2.15
 NEAR, FAR = -120.0, 760.0
@@ -124,104 +124,6 @@ def houses():
         )
 
 
-def crown(name, centre, radius, seed, material, subdivisions):
-    """A leafy crown: a ball pushed in and out by noise."""
-    ball = bmesh.new()
-    bmesh.ops.create_icosphere(ball, subdivisions=subdivisions, radius=1.0)
-    data = bpy.data.meshes.new(name)
-    for v in ball.verts:
-        n = v.co.normalized()
-        bump = perlin.fractal(n * 1.7 + Vector((seed, 0, 0)), 1.0, 2.0, 4)
-        fine = perlin.fractal(n * 6.0 + Vector((0, seed, 0)), 1.0, 2.0, 2)
-        stretched = Vector((n.x, n.y, n.z * 1.12))
-        v.co = Vector(centre) + stretched * radius * (1 + 0.30 * bump + 0.17 * fine)
-    ball.to_mesh(data)
-    ball.free()
-    data.materials.append(named_material(material))
-    data.polygons.foreach_set("use_smooth", [True] * len(data.polygons))
-    item = bpy.data.objects.new(name, data)
-    bpy.context.scene.collection.objects.link(item)
-    return item
-
-
-def leaves(name, crowns, count, size, material):
-    """Sprays of leaves scattered over the crowns: small triangles turned at random."""
-    rng = np.random.default_rng(sum(map(ord, name)))
-    data = crowns.data
-    centres = np.array([p.center for p in data.polygons])
-    normals = np.array([p.normal for p in data.polygons])
-    areas = np.array([p.area for p in data.polygons])
-    chosen = rng.choice(len(centres), count, p=areas / areas.sum())
-    middle = centres[chosen] + normals[chosen] * rng.uniform(-0.05, 0.14, (count, 1))
-    middle += rng.normal(0, 1, (count, 3)) * (
-        0.3 * size + 0.3 * np.sqrt(areas[chosen])[:, None]
-    )
-    facing = normals[chosen] + rng.normal(0, 0.55, (count, 3)) + np.array([0, 0, 0.35])
-    facing /= np.linalg.norm(facing, axis=1)[:, None]
-    side = np.cross(facing, rng.normal(0, 1, (count, 3)))
-    side /= np.linalg.norm(side, axis=1)[:, None]
-    lift = np.cross(facing, side)
-    scale = size * rng.uniform(0.6, 1.3, (count, 1))
-    corners = [middle - scale * side, middle + scale * (0.5 * side - 0.45 * lift)]
-    corners.append(middle + scale * (0.5 * side + 0.45 * lift))
-    vertices = np.stack(corners, axis=1).reshape(-1, 3)
-    return mesh(name, vertices, np.arange(3 * count).reshape(-1, 3), material)
-
-
-# Trees are copies of a few: (kind, subdivisions of the crowns, leaves, their size in metres).
-TREES = {
-    "near": ("foliage", 3, 5200, 0.165),
-    "middle": ("foliage light", 3, 1700, 0.28),
-    "far": ("foliage", 2, 420, 0.55),
-}
-TREE_HEIGHT = 6.6  # m, of the originals
-
-
-def original_tree(label):
-    """Trunk, crowns and leaves of one kind of tree, standing at the origin."""
-    kind, detail, count, size = TREES[label]
-    radius, height = 0.26 * TREE_HEIGHT, TREE_HEIGHT
-    path = spline([(0, 0, 0), (0.05, 0, 0.3 * height), (0, 0.1, 0.62 * height)], 5)
-    trunk = tube(f"trunk {label}", path, np.linspace(0.17, 0.09, 5), "bark", 8, up=(0, 1, 0))
-    balls = [crown("crown", (0, 0, 0.66 * height), radius, len(label) + 1.3, kind, detail)]
-    for k, angle in enumerate((0.7, 2.9, 5.0)):
-        offset = Vector((math.cos(angle), math.sin(angle), 0)) * radius * 0.55
-        centre = Vector((0, 0, height * (0.54 + 0.11 * k))) + offset
-        balls.append(crown("crown", centre, radius * 0.62, 4.1 * k + len(label), kind, detail))
-    crowns = joined(f"tree {label}", balls)
-    spray = leaves(f"leaves {label}", crowns, count, size, kind.replace("foliage", "leaf"))
-    return trunk, crowns, spray
-
-
-def planted(originals, i, x, y, rng):
-    """A copy of a tree at (x, y), turned and sized at random."""
-    scale, turn = rng.uniform(0.82, 1.22), rng.uniform(0, 2 * math.pi)
-    for part in originals:
-        copy = bpy.data.objects.new(f"{part.name} {i}", part.data)
-        copy.matrix_world = (
-            Matrix.Translation((x, y, 0))
-            @ Matrix.Rotation(turn, 4, "Z")
-            @ Matrix.Scale(scale, 4)
-        )
-        bpy.context.scene.collection.objects.link(copy)
-
-
-def trees():
-    rng = random.Random(11)
-    originals = {label: original_tree(label) for label in TREES}
-    spots = [(4.4, y) for y in np.arange(-37, 175, 18)]
-    spots += [(-7.9, y) for y in np.arange(11, 175, 18)]
-    spots += [(-20, -26), (-31, -12), (-27, -44), (-38, 6), (-24, 14), (-42, -30)]
-    for i, (x, y) in enumerate(spots):
-        ahead = y > 0 and abs(x) < 10
-        label = "near" if ahead and y < 40 else "middle" if ahead and y < 80 else "far"
-        where = x + rng.uniform(-0.2, 0.2), y + rng.uniform(-1.5, 1.5)
-        planted(originals[label], i, *where, rng)
-    for parts in originals.values():
-        for part in parts:
-            bpy.data.objects.remove(part)
-
-
 def street_lamps():
     for i, (x, y, z) in enumerate(LAMPS):
         side = 1 if x > 0 else -1
@@ -248,82 +150,19 @@ def street_lamps():
         )
 
 
-def vehicle(name, x, y, heading, paint):
-    """A plain saloon seen from some way off; heading 1 drives away, -1 comes towards us."""
-
-    def at(points):
-        return [(x + heading * px, y + heading * py, pz) for px, py, pz in points]
-
-    body, cabin = [], []
-    for py, w, low, high in (
-        (-2.20, 0.72, 0.42, 0.86),
-        (-2.15, 0.84, 0.30, 0.98),
-        (-1.7, 0.90, 0.24, 1.02),
-        (-0.6, 0.91, 0.24, 1.00),
-        (0.7, 0.91, 0.24, 0.98),
-        (1.6, 0.88, 0.24, 0.84),
-        (2.10, 0.80, 0.28, 0.70),
-        (2.20, 0.68, 0.38, 0.58),
-    ):
-        o = rounded_rectangle(2 * w, high - low, 0.16, 5)
-        body.append(at([(a, py, b + (high + low) / 2) for a, b in o]))
-    for py, w, low, high in (
-        (-1.75, 0.62, 0.94, 1.02),
-        (-1.05, 0.70, 0.94, 1.36),
-        (-0.4, 0.72, 0.94, 1.44),
-        (0.2, 0.70, 0.94, 1.42),
-        (1.15, 0.66, 0.92, 0.98),
-    ):
-        o = rounded_rectangle(2 * w, high - low, min(0.14, 0.45 * (high - low)), 5)
-        cabin.append(at([(a, py, b + (high + low) / 2) for a, b in o]))
-    for part, rings, material in (("body", body, paint), ("windows", cabin, "dark glass")):
-        rings = [np.array(r) for r in rings]
-        rings = (
-            [rings[0].mean(0) + (rings[0] - rings[0].mean(0)) * 0.02]
-            + rings
-            + [rings[-1].mean(0) + (rings[-1] - rings[-1].mean(0)) * 0.02]
-        )
-        smooth = np.stack(
-            [spline(np.array(rings)[:, k], 24) for k in range(len(rings[0]))], axis=1
-        )
-        grid(f"{name} {part}", smooth, material, closed=True)
-    roof = frame_matrix((x, y - 0.25 * heading, 1.425), (1, 0, 0), (0, 1, 0))
-    plate(
-        f"{name} roof",
-        rounded_rectangle(1.16, 1.2, 0.2, 6),
-        0.05,
-        roof @ Matrix.Translation((0, 0, 0.035)),
-        paint,
-        0.02,
-        3,
-    )
-    for k in (-1, 1):
-        rear = frame_matrix(
-            (x + 0.62 * k, y - 2.185 * heading, 0.80), (heading, 0, 0), (0, 0, 1)
-        )
-        box(f"{name} tail lamp {k}", (0.36, 0.12, 0.10), rear, "tail lamp", 0.03, 3)
-        front = frame_matrix(
-            (x + 0.62 * k, y + 2.10 * heading, 0.64), (heading, 0, 0), (0, 0, 1)
-        )
-        box(f"{name} head lamp {k}", (0.34, 0.11, 0.16), front, "bright chrome", 0.03, 3)
-        for py in (-1.35, 1.35):
-            wheel = frame_matrix((x + 0.78 * k, y + py, 0.33), (0, 1, 0), (0, 0, 1))
-            lathe(
-                f"{name} tyre",
-                [
-                    (0.02, -0.12),
-                    (0.30, -0.12),
-                    (0.33, -0.09),
-                    (0.33, 0.09),
-                    (0.30, 0.12),
-                    (0.02, 0.12),
-                ],
-                wheel,
-                "rubber",
-                24,
-            )
-    plate_at = frame_matrix((x, y - 2.225 * heading, 0.62), (heading, 0, 0), (0, 0, 1))
-    box(f"{name} number plate", (0.52, 0.11, 0.01), plate_at, "road marking", 0.002)
+# (name, kind, paint, x, y, heading in degrees: 0 drives away from us)
+CARS = [
+    ("car ahead", "saloon", "paint other", 0.05, 21.0, 0),
+    ("oncoming car", "hatchback", "paint red", -3.55, 47.0, 180),
+    ("parked car", "saloon", "paint other", 4.0, -16.0, 0),
+    ("car in the bay 0", "estate", "paint dark", -10.5, 35.5, 180),
+    ("car in the bay 1", "hatchback", "paint red", -10.5, 42.0, 180),
+    ("car on the drive 0", "estate", "paint dark", 8.1, 39.5, 90),
+    ("car on the drive 1", "estate", "paint white", 8.0, 62.0, 90),
+    ("car far ahead 0", "estate", "paint white", 0.0, 74.0, 0),
+    ("car far ahead 1", "hatchback", "paint red", -0.1, 118.0, 0),
+    ("car far away", "saloon", "paint other", -3.4, 112.0, 180),
+]
 
 
 def hills():
@@ -428,8 +267,6 @@ def build_outside():
     houses()
     trees()
     street_lamps()
-    vehicle("car ahead", 0.05, 21.0, 1, "paint other")
-    vehicle("oncoming car", -3.55, 47.0, -1, "paint red")
-    vehicle("parked car", 4.0, -16.0, 1, "paint other")
+    traffic(CARS)
     hills()
     furniture()
