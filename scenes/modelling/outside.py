@@ -6,8 +6,7 @@ import math
 import random
 
 import numpy as np
-from mathutils import Matrix, Vector
-from mathutils import noise as perlin
+from mathutils import Matrix
 
 from shapes import (
     box,
@@ -22,6 +21,8 @@ from shapes import (
     spline,
     tube,
 )
+from facades import FLOOR, Fronts, near_house
+from ground import build_ground, hills, kerbs
 from traffic import traffic
 from trees import trees
 
@@ -49,9 +50,7 @@ def road():
     flat("road", LEFT_KERB, RIGHT_KERB, NEAR, FAR, 0.0, "asphalt")
     for name, x0, x1 in (("right", RIGHT_KERB + 0.14, 5.4), ("left", -9.0, LEFT_KERB - 0.14)):
         flat(f"pavement {name}", x0, x1, NEAR, FAR, 0.115, "paving")
-    for name, x in (("right", RIGHT_KERB + 0.07), ("left", LEFT_KERB - 0.07)):
-        at = frame_matrix((x, 0.5 * (NEAR + FAR), 0.02), (1, 0, 0), (0, 1, 0))
-        box(f"kerb {name}", (0.14, FAR - NEAR, 0.20), at, "kerb", 0.02, 2)
+    kerbs(RIGHT_KERB, LEFT_KERB, NEAR, FAR)
     dashes = [
         flat("dash", -1.815, -1.685, y, y + 3.0, 0.004, "road marking")
         for y in np.arange(-30, 420, 9.0)
@@ -68,35 +67,48 @@ def road():
     joined("zebra crossing", stripes)
 
 
-def house(i, x, y, width, depth, floors, facade, flat_roof):
-    height = 3.0 * floors + 0.6
-    at = frame_matrix((x, y, height / 2), (1, 0, 0), (0, 1, 0))
-    body = box(f"house {i}", (width, depth, height), at, facade, 0.0)
+def far_house(i, spot, size, facade, flat_roof):
+    """A textured box. spot: its middle; the windows' grid begins where the lit panes' does."""
+    (x, y), (width, depth, height) = spot, size
+    w, d = width / 2, depth / 2
+    plan = [(x - w, y - d), (x + w, y - d), (x + w, y + d), (x - w, y + d)]
+    corners = [(*p, z) for z in (0.0, height) for p in plan]
+    faces = [(0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7), (4, 5, 6, 7)]
+    uvs = []
+    for k, face in enumerate(faces):
+        for c in face:
+            px, py, pz = corners[c]
+            along = px - x + w if k in (0, 2) else py - y + d
+            uvs.append((along, pz - 0.46) if k < 4 else (0.0, 0.0))
+    mesh(f"house {i}", corners, faces, facade, uvs)
     if flat_roof:
-        top = frame_matrix((x, y, height + 0.15), (1, 0, 0), (0, 1, 0))
+        top = level(x, y) @ Matrix.Translation((0, 0, height + 0.15))
         box(f"house roof {i}", (width + 0.5, depth + 0.5, 0.5), top, "roof grey", 0.04)
-        return body
-    w, d, z, rise, o = width / 2 + 0.4, depth / 2 + 0.4, height, 0.42 * width, 0.12
-    corners = [
-        (x - w, y - d, z),
-        (x + w, y - d, z),
-        (x + w, y + d, z),
-        (x - w, y + d, z),
-        (x, y - d + o, z + rise),
-        (x, y + d - o, z + rise),
-    ]
-    mesh(
-        f"house roof {i}",
-        corners,
-        [(0, 4, 5, 3), (1, 2, 5, 4), (0, 1, 4), (2, 3, 5), (0, 3, 2, 1)],
-        "roof tile",
-    )
-    chimney = frame_matrix((x + 0.2 * width, y, z + rise * 0.7), (1, 0, 0), (0, 1, 0))
-    box(f"chimney {i}", (0.7, 0.9, 2.6), chimney, "facade brick", 0.03)
-    return body
+        return
+    w, d, z, rise, o = w + 0.4, d + 0.4, height, 0.42 * width, 0.12
+    ridge = [(x, y - d + o, z + rise), (x, y + d - o, z + rise)]
+    eaves = [(x - w, y - d, z), (x + w, y - d, z), (x + w, y + d, z), (x - w, y + d, z)]
+    faces = [(0, 4, 5, 3), (1, 2, 5, 4), (0, 1, 4), (2, 3, 5), (0, 3, 2, 1)]
+    mesh(f"house roof {i}", eaves + ridge, faces, "roof tile far")
+    chimney = level(x + 0.2 * width, y) @ Matrix.Translation((0, 0, z + rise * 0.7))
+    box(f"chimney {i}", (0.7, 0.9, 2.6), chimney, "roof grey", 0.03)
 
 
-HOUSES = []
+def house(i, x, y, width, depth, floors, facade, flat_roof):
+    """Near the car a house of parts, of which the body is made here; else a textured box."""
+    height = FLOOR * floors + 0.6
+    side = 1 if x > 0 else -1
+    if y > NEAR_HOUSES or x < -40:
+        hues = (facade, facade, facade + " ochre", facade + " grey")
+        hue = hues[i % 4] if facade == "facade plaster" else facade
+        return far_house(i, (x, y), (width, depth, height), hue, flat_roof)
+    at = level(x, y) @ Matrix.Translation((0, 0, height / 2))
+    box(f"house {i}", (width, depth, height), at, "wall trim", 0.0)
+    DETAILED.append((i, (x, y, side), (width, depth, floors, facade.split()[1])))
+
+
+HOUSES, DETAILED = [], []
+NEAR_HOUSES = 92.0  # m ahead: houses whose middle is nearer are of parts
 
 
 def houses():
@@ -122,6 +134,27 @@ def houses():
         house(
             i + k, -56.0 - 2 * (k % 2), -86.0 + 22 * k, 13, 19, floors, facades[k % 2], k == 3
         )
+
+
+def lit_panes(fronts):
+    """By night: (front, bay, storey, whether its light is cool), of fronts as in HOUSES."""
+    rng = random.Random(2)
+    for number, (_, _, depth, floors, _) in enumerate(fronts):
+        for floor in range(floors):
+            for bay in range(int(depth // 3)):
+                if rng.random() < 0.26:
+                    yield number, bay, floor, rng.random() < 0.25
+
+
+def near_houses():
+    """The fronts of the houses near the car, with doors where no pane is lit by night: where
+    the doors are."""
+    fronts, lit, doors = Fronts(), list(lit_panes(HOUSES)), []
+    for i, spot, shape in DETAILED:
+        panes = {(bay, f) for n, bay, f, _ in lit if n == i}
+        doors += near_house(fronts, i, spot, shape, panes)
+    fronts.close()
+    return doors
 
 
 def street_lamps():
@@ -165,33 +198,6 @@ CARS = [
 ]
 
 
-def hills():
-    rng = random.Random(3)
-    for name, distance, height, material, seed in (
-        ("hills near", 620.0, 46.0, "hills", 1.0),
-        ("hills far", 1500.0, 150.0, "hills far", 9.0),
-    ):
-        rows = [[], [], [], []]
-        for a in np.linspace(-math.pi, math.pi, 220):
-            x, y = distance * math.sin(a), distance * math.cos(a)
-            spot = Vector((3.2 * math.sin(a) + seed, seed, 3.2 * math.cos(a)))
-            n = 0.5 + 0.5 * perlin.fractal(spot, 1.0, 2.0, 6)
-            h = height * (0.25 + n)
-            for row, (k, back) in enumerate(
-                ((0.0, -0.16), (0.45, -0.06), (0.86, 0.0), (1.0, 0.05))
-            ):
-                rows[row].append(
-                    (
-                        x * (1 + back),
-                        y * (1 + back),
-                        h * k
-                        - 1.0
-                        + 0.06 * height * k * rng.uniform(-0.4, 0.4) * (abs(a) < 3.1),
-                    )
-                )
-        grid(name, np.array(rows), material)
-
-
 def furniture():
     """A guard rail on the left, a direction sign, a traffic light at the crossing."""
     ys = np.linspace(60, 180, 60)
@@ -214,7 +220,7 @@ def furniture():
             (0.08, 0.10, 0.80),
             frame_matrix((-9.36, y, 0.40), (1, 0, 0), (0, 1, 0)),
             "galvanised steel",
-            0.01,
+            0.0,
         )
         for y in np.arange(60, 181, 4.0)
     ]
@@ -265,6 +271,7 @@ def furniture():
 def build_outside():
     road()
     houses()
+    build_ground(near_houses())
     trees()
     street_lamps()
     traffic(CARS)

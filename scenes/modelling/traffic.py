@@ -248,7 +248,8 @@ def rear_details(name, kind, paint):
     """Tail lamps that wrap around the corners, plate, reflectors, seams, exhausts."""
     tip = curve(kind["rear"], 0.80)
     lamps = [
-        on_shell("lamp", kind, arc(a, b, 8, 3), np.linspace(0.715, 0.885, 5), 0.035, "tail lamp")
+        on_shell("lamp", kind, arc(a, b, 8, 3), np.linspace(0.715, 0.885, 5), 0.035,
+                 "tail lamp")
         for a, b in ((186, 238), (302, 354))
     ]
     top = [cabin_point(kind, a, 0.965, 0.012) for a in np.linspace(4.60, 4.82, 5)]

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from shapes import joined, mesh, named_material, spline, tube
+from shapes import grid, joined, mesh, named_material, spline, tube_points
 
 TREE_HEIGHT = 7.4  # m, of the originals
 
@@ -28,7 +28,7 @@ def unit(vectors):
 
 
 class Branches:
-    """Grows a trunk and its branches; keeps what they end in."""
+    """Grows a trunk and its branches; keeps what they end in. A twig hides a branch's end."""
 
     def __init__(self, seed, height):
         self.rng = np.random.default_rng(seed)
@@ -41,7 +41,7 @@ class Branches:
         bend = np.array([*rng.normal(0, 0.16, 2), 0.10 + 0.10 * rng.random()])
         middle = foot + 0.5 * length * unit(direction + 0.4 * bend)
         tip = foot + length * unit(direction + bend)
-        sides = (9, 7, 5, 4)[depth]
+        sides = (9, 7, 5, 3)[depth]
         self.tubes.append((spline([foot, middle, tip], (7, 6, 4, 3)[depth]), radius, sides))
         if depth == 3:
             self.ends.append((tip, unit(tip - middle)))
@@ -73,7 +73,8 @@ class Branches:
                 if sides == 9:
                     rs[0] *= 1.5  # the root's flare
                 up = (0.93, 0.21, 0.30)
-                parts.append(tube("branch", path, rs, "bark", sides, up=up))
+                rings = tube_points(path, rs, sides, up=up)
+                parts.append(grid("branch", rings, "bark", closed=True, flip=True))
         return joined(name, parts)
 
 
@@ -96,7 +97,8 @@ def leaf_mesh(name, places, facing, size, kinds, rng):
     item = mesh(name, vertices, faces, kinds[0])
     for kind in kinds[1:]:
         item.data.materials.append(named_material(kind))
-    chosen = rng.choice(len(kinds), n, p=(0.45, 0.30, 0.25)[: len(kinds)])
+    shares = np.array((0.45, 0.30, 0.25)[: len(kinds)])
+    chosen = rng.choice(len(kinds), n, p=shares / shares.sum())
     item.data.polygons.foreach_set("material_index", chosen)
     return item
 
@@ -189,6 +191,16 @@ def planted(tree, twigs, i, at):
         bpy.context.scene.collection.objects.link(copy)
 
 
+def woods():
+    """Trees in rows and groups beyond the houses, far enough to leave the low sun free."""
+    rng = random.Random(23)
+    spots = [(x, -112.0 + rng.uniform(-4, 4)) for x in np.arange(-46, -10, 7.0)]
+    spots += [(-78 + rng.uniform(-5, 5), y) for y in np.arange(-90, 130, 11.0)]
+    spots += [(rng.uniform(-120, -84), rng.uniform(-40, 150)) for _ in range(14)]
+    spots += [(rng.uniform(-16, 16), rng.uniform(560, 590)) for _ in range(16)]
+    return spots
+
+
 def trees():
     rng = random.Random(11)
     kinds = {label: originals(label) for label in TREES}
@@ -197,8 +209,9 @@ def trees():
     spots = [(4.4, y) for y in np.arange(-37, 175, 18)]
     spots += [(-7.9, y) for y in np.arange(11, 175, 18)]
     spots += [(-20, -26), (-31, -12), (-27, -44), (-38, 6), (-24, 14), (-42, -30)]
+    spots += woods()
     for i, (x, y) in enumerate(spots):
-        ahead = y > 0 and abs(x) < 10
+        ahead = y > -10 and abs(x) < 10
         label = "near" if ahead and y < 40 else "middle" if ahead and y < 80 else "far"
         where = x + rng.uniform(-0.2, 0.2), y + rng.uniform(-1.5, 1.5), 0
         at = (
