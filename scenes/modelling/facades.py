@@ -23,7 +23,7 @@ DOOR, SHOP = (1.44, 2.62), (2.52, 2.50)
 WALLS = {
     "plaster": ("wall cream", "wall grey", "wall ochre", "wall green"),
     "brick": ("wall brick", "wall brick dark"),
-    "office": ("wall white", "wall grey"),
+    "office": ("wall grey", "wall white"),
 }
 
 
@@ -327,6 +327,8 @@ def near_house(fronts, i, spot, shape, lit):
     across = int((width - 1) // 3)
     bays = [width / 2 + 3.0 * (k - (across - 1) / 2) for k in range(across)]
     for sign, at in ends:
+        if sign > 0 and y > 0:  # nobody looks back at these
+            continue
         some = dict(base, length=width, shops=False, seed=300 + 2 * i + sign)
         furnished(fronts, f"house {i} end {sign}", at, bays, some)
         mouldings(f"house {i} end {sign}", at, some, [])

@@ -122,16 +122,20 @@ def kerbs(right, left, near, far):
     quads("gutters", gutters, 0.0026, "gutter")
 
 
+PATCH = 2.2  # m, a patch of tufts along its sides
+
+
 def tuft_patch(name, seed):
-    """Blades of grass on 1.2 x 1.2 m: narrow triangles that lean at random."""
+    """Blades of grass: narrow triangles that lean at random."""
     rng = np.random.default_rng(seed)
-    n = 330
-    foot = np.column_stack([rng.uniform(-0.62, 0.62, (n, 2)), np.full(n, -0.03)])
+    n = 900
+    half = PATCH / 2 - 0.03
+    foot = np.column_stack([rng.uniform(-half, half, (n, 2)), np.full(n, -0.03)])
     clump = 0.5 + 0.5 * np.sin(7 * foot[:, 0] + seed) * np.cos(6 * foot[:, 1] - seed)
     tall = (0.05 + 0.09 * clump * rng.random(n))[:, None]
     turn = rng.uniform(0, 2 * math.pi, n)
-    wide = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(n)]) * 0.012
-    lean = np.column_stack([rng.normal(0, 0.35, (n, 2)), np.ones(n)]) * tall
+    wide = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(n)]) * 0.013
+    lean = np.column_stack([rng.normal(0, 0.30, (n, 2)), np.ones(n)]) * tall
     tip = foot + (0, 0, 0.03) + lean
     vertices = np.stack([foot - wide, foot + wide, tip], axis=1).reshape(-1, 3)
     item = mesh(name, vertices, np.arange(3 * n).reshape(-1, 3), "grass blade")
@@ -141,22 +145,21 @@ def tuft_patch(name, seed):
 
 
 def lawns(clear):
-    """Tufts on the verges near the car, but for the rectangles `clear` (x0, x1, y0, y1)."""
+    """Tufts on the verges near the car, but for the rectangles `clear` (x0, x1, y0, y1).
+    Patches lie side by side: where boxes overlap, rays have to look into both."""
     rng = random.Random(43)
-    patches = [tuft_patch(f"grass tufts {k}", 51 + k) for k in range(2)]
-    i = 0
-    for x0, x1, y0, y1 in ((5.6, 10.0, 2.0, 40.0), (-13.4, -9.2, 5.0, 46.0)):
-        for x in np.arange(x0 + 0.6, x1, 1.2):
-            for y in np.arange(y0, y1, 1.2):
-                px, py = x + rng.uniform(-0.2, 0.2), y + rng.uniform(-0.2, 0.2)
-                taken = any(a - 0.6 < px < b + 0.6 and c - 0.6 < py < d + 0.6
+    patch, i = tuft_patch("grass tufts", 51), 0
+    for x0, x1, y0, y1 in ((6.3, 10.7, 1.0, 33.0), (-14.2, -9.8, 6.0, 31.0)):
+        for x in np.arange(x0 + PATCH / 2, x1, PATCH):
+            for y in np.arange(y0 + PATCH / 2, y1, PATCH):
+                far = 0.5 * PATCH - 0.2
+                taken = any(a - far < x < b + far and c - far < y < d + far
                             for a, b, c, d in clear)
-                if taken or rng.random() < 0.12:
-                    continue
-                at = at_place(px, py, 0.0, rng.choice((0, 1.57, 3.14, 4.71)))
-                put(rng.choice(patches), f"grass tufts {i}", at)
-                i += 1
-    dropped(patches)
+                if not taken:
+                    at = at_place(x, y, 0.0, rng.choice((0, 1, 2, 3)) * math.pi / 2)
+                    put(patch, f"grass tufts {i}", at)
+                    i += 1
+    dropped([patch])
 
 
 HEDGE = 1.5  # m, a piece's length along its x

@@ -154,7 +154,7 @@ def grown(seed):
 
 # Kind: (seeds of its trees, thinnest branch, ends kept, leaves an end, their size, reach), m.
 TREES = {
-    "near": ((4, 9, 15), 0.010, 125, 230, 0.125, 0.66),
+    "near": ((4, 9, 15), 0.012, 80, 300, 0.125, 0.78),
     "middle": ((4, 21), 0.022, 150, 16, 0.31, 0.66),
     "far": ((9, 21), 0.05, 120, 6, 0.54, 0.75),
 }
