@@ -108,6 +108,9 @@ def kerbs(right, left, near, far):
     for name, x in (("right", right + 0.07), ("left", left - 0.07)):
         at = frame_matrix((x, 0.5 * (near + far), 0.02), (1, 0, 0), (0, 1, 0))
         box(f"kerb {name}", (0.14, far - near, 0.20), at, "kerb", 0.02, 2)
+    for name, x in (("right", 5.43), ("left", -9.03)):  # the pavements' outer edges
+        box(f"edging {name}", (0.06, far - near, 0.20), at_place(x, 0.5 * (near + far), 0.02),
+            "kerb", 0)
     strips = []
     for foot, side in ((right, 1), (left, -1)):
         section = [(foot - 0.002 * side, 0.0), (foot - 0.002 * side, 0.115),
@@ -302,13 +305,18 @@ def paths(doors):
     """Slabs from the pavement to each door (x of the front, y); their rectangles."""
     out = []
     for x, y in doors:
-        a, b = (5.4, x - 0.8) if x > 0 else (x + 0.8, -9.0)
+        a, b = (5.46, x - 0.6) if x > 0 else (x + 0.6, -9.06)
         out.append((a, b, y - 0.75, y + 0.75))
-    quads("paths", out, 0.012, "paving")
+    slabs = [
+        box("path", (d - c, f - e, 0.16), at_place(0.5 * (c + d), 0.5 * (e + f), 0.03),
+            "paving", 0)
+        for c, d, e, f in out
+    ]
+    joined("paths", slabs)
     return out
 
 
-BAYS = [(-12.2, -9.0, 31.5, 46.0), (5.4, 10.4, 37.6, 41.4), (5.4, 10.4, 60.2, 63.8)]
+BAYS = [(-12.2, -9.06, 31.5, 46.0), (5.46, 10.4, 37.6, 41.4), (5.46, 10.4, 60.2, 63.8)]
 
 
 def build_ground(doors):
