@@ -3,7 +3,6 @@
 
 Only what shines is in night.gltf; what it shines on is in car_dashboard.gltf."""
 import math
-import random
 
 from mathutils import Vector
 
@@ -72,17 +71,14 @@ def windows():
     """Some panes of the street's houses are lit; a window grid of 3 m as in the facades."""
     import outside
 
-    rng = random.Random(2)
     outside.HOUSES.clear()
     positions = house_fronts()
     panes = {"lit window": [], "lit window cool": []}
-    for x, y, depth, floors, side in positions:
-        for floor in range(floors):
-            for bay in range(int(depth // 3)):
-                if rng.random() < 0.26:
-                    panes["lit window cool" if rng.random() < 0.25 else "lit window"].append(
-                        (x, y + 3 * bay + 1.5, 3 * floor + 1.9, side)
-                    )
+    for number, bay, floor, cool in outside.lit_panes(positions):
+        x, y, _, _, side = positions[number]
+        panes["lit window cool" if cool else "lit window"].append(
+            (x, y + 3 * bay + 1.5, 3 * floor + 1.9, side)
+        )
     for kind, spots in panes.items():
         vertices, faces = [], []
         for x, y, z, side in spots:

@@ -180,7 +180,7 @@ def asphalt_color():
 
 
 def asphalt_normal():
-    return normal_map(noise((160, 160), 20, 70, 34), 0.35)
+    return normal_map(noise((256, 256), 45, 120, 34), 0.22)
 
 
 def grass_color():
@@ -223,6 +223,68 @@ def facade(wall, seed, glazing=(0.52, 0.60)):
     return srgb(color)
 
 
+def wall_plaster():
+    """Render: faint clouds, streaks that rain leaves, a fine grain; a tile is 4 m."""
+    shape = (256, 256)
+    streaks = noise(shape[::-1], 10, 50, 91, 14).T
+    field = 1 + 0.045 * noise(shape, 1, 6, 92) + 0.035 * streaks
+    field = 0.90 * field + 0.03 * noise(shape, 40, 120, 93)
+    return tinted((1.0, 1.0, 1.0), np.clip(field, 0, 1))
+
+
+def wall_brick():
+    """Stretcher bond: bricks of 250 x 77 mm with mortar; a tile is 2 m."""
+    size, courses, across = 384, 26, 8
+    y, x = np.mgrid[0:size, 0:size] / size
+    course = np.floor(y * courses).astype(int)
+    along = (x * across + 0.5 * (course % 2)) % across
+    brick = np.floor(along).astype(int)
+    tone = np.random.default_rng(95).normal(0, 1, (courses, across, 2))[course, brick]
+    color = np.array([0.270, 0.098, 0.062]) * (1 + 0.13 * tone[..., :1])
+    color = color * (1 + np.array([0.0, 0.06, 0.10]) * tone[..., 1:])
+    v, u = (y * courses) % 1, along % 1
+    mortar = (np.minimum(v, 1 - v) < 0.075) | (np.minimum(u, 1 - u) < 0.024)
+    color[mortar] = (0.24, 0.20, 0.17)
+    return srgb(color * (1 + 0.05 * noise((size, size), 20, 160, 96)[..., None]))
+
+
+def roof_tiles():
+    """Courses of clay tiles that lap, in bond; the courses run along x; a tile is 2.4 m."""
+    size, courses, across = 256, 8, 12
+    y, x = np.mgrid[0:size, 0:size] / size
+    course = np.floor(y * courses).astype(int)
+    along = (x * across + 0.5 * (course % 2)) % across
+    tone = np.random.default_rng(97).normal(0, 1, (courses, across))
+    tone = tone[course, np.floor(along).astype(int)]
+    v, u = (y * courses) % 1, along % 1
+    shade = (0.55 + 0.45 * np.clip((1 - v) / 0.16, 0, 1)) * (0.75 + 0.25 * np.sin(np.pi * u))
+    field = shade * (1 + 0.16 * tone) * (1 + 0.06 * noise((size, size), 2, 40, 98))
+    return tinted((0.185, 0.068, 0.044), field)
+
+
+def paving_color():
+    """Concrete slabs of 400 mm with joints, each of its own tone; a tile is 2 m."""
+    size, across = 320, 5
+    y, x = np.mgrid[0:size, 0:size] / size * across
+    tone = np.random.default_rng(101).normal(0, 1, (across, across))
+    v, u = y % 1, x % 1
+    edge = np.minimum(np.minimum(u, 1 - u), np.minimum(v, 1 - v))
+    field = (1 + 0.06 * tone[y.astype(int), x.astype(int)]) * np.where(edge < 0.016, 0.45, 1)
+    shape = (size, size)
+    field = field * (1 + 0.05 * noise(shape, 60, 150, 102) + 0.06 * noise(shape, 1, 8, 103))
+    return tinted((0.265, 0.258, 0.242), np.clip(field, 0.2, 2))
+
+
+def hills_color():
+    """Woods and meadows in the haze of half a kilometre; a tile is 160 m."""
+    shape = (256, 256)
+    wood = np.clip(2.2 * noise(shape, 1, 5, 105) + 0.9, 0, 1)[..., None]
+    trees = np.clip(1 + 0.30 * noise(shape, 18, 60, 106), 0.3, 2)[..., None]
+    meadow = np.clip(1 + 0.06 * noise(shape, 4, 40, 107), 0, 2)[..., None]
+    color = wood * np.array([0.062, 0.094, 0.070]) * trees
+    return srgb(color + (1 - wood) * np.array([0.135, 0.180, 0.100]) * meadow)
+
+
 def perforated_normal():
     """Perforated leather of seats: round holes 4 mm apart over a fine grain."""
     y, x = np.mgrid[0:256, 0:256]
@@ -246,6 +308,11 @@ TEXTURES = {
     "grass_color": grass_color,
     "leaf_color": leaf_color,
     "perforated_normal": perforated_normal,
+    "paving_color": paving_color,
+    "hills_color": hills_color,
+    "wall_plaster": wall_plaster,
+    "wall_brick": wall_brick,
+    "roof_tiles": roof_tiles,
     "facade_plaster": lambda: facade((0.55, 0.50, 0.42), 71),
     "facade_brick": lambda: facade((0.26, 0.115, 0.075), 75, (0.46, 0.62)),
     "facade_office": lambda: facade((0.36, 0.37, 0.38), 79, (0.86, 0.58)),
