@@ -194,10 +194,10 @@ def planted(tree, twigs, i, at):
 def woods():
     """Trees in rows and groups beyond the houses, far enough to leave the low sun free."""
     rng = random.Random(23)
-    spots = [(x, -112.0 + rng.uniform(-4, 4)) for x in np.arange(-46, -10, 7.0)]
-    spots += [(-78 + rng.uniform(-5, 5), y) for y in np.arange(-90, 130, 11.0)]
-    spots += [(rng.uniform(-120, -84), rng.uniform(-40, 150)) for _ in range(14)]
-    spots += [(rng.uniform(-16, 16), rng.uniform(560, 590)) for _ in range(16)]
+    spots = [(x, -112.0 + rng.uniform(-4, 4)) for x in np.arange(-46, -10, 14.0)]
+    spots += [(-78 + rng.uniform(-5, 5), y) for y in np.arange(-90, 130, 22.0)]
+    spots += [(rng.uniform(-120, -84), rng.uniform(-40, 150)) for _ in range(7)]
+    spots += [(rng.uniform(-16, 16), rng.uniform(560, 590)) for _ in range(8)]
     return spots
 
 
