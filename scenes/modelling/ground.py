@@ -172,7 +172,7 @@ def hedge_piece():
     """A clipped hedge: a dark core and leaves over its top and sides."""
     rng = np.random.default_rng(61)
     core = box("core", (HEDGE, 0.44, 0.76), at_place(0, 0, 0.38), "hedge core", 0)
-    n = 860
+    n = 480
     spot = rng.uniform(-1, 1, (n, 3)) * (HEDGE / 2, 0.27, 0.45) + (0, 0, 0.45)
     face = rng.choice(5, n, p=(0.28, 0.28, 0.28, 0.08, 0.08))
     spot[face == 0, 2] = 0.86 + rng.normal(0, 0.02, (face == 0).sum())
@@ -182,7 +182,7 @@ def hedge_piece():
         spot[face == k, 0] = side * 0.78 + rng.normal(0, 0.02, (face == k).sum())
     normal = np.array([(0, 0, 1), (0, -1, 0), (0, 1, 0), (-1, 0, 0), (1, 0, 0)])[face]
     facing = unit(normal + rng.normal(0, 0.45, (n, 3)))
-    leaves = leaf_mesh("leaves", spot, facing, 0.085, ("leaf", "leaf dark"), rng)
+    leaves = leaf_mesh("leaves", spot, facing, 0.112, ("leaf", "leaf dark"), rng)
     return joined("hedge", [core, leaves])
 
 

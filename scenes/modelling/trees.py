@@ -154,9 +154,9 @@ def grown(seed):
 
 # Kind: (seeds of its trees, thinnest branch, ends kept, leaves an end, their size, reach), m.
 TREES = {
-    "near": ((4, 9, 15), 0.012, 80, 300, 0.125, 0.78),
+    "near": ((4, 9, 15), 0.014, 80, 190, 0.15, 0.78),
     "middle": ((4, 21), 0.022, 150, 16, 0.31, 0.66),
-    "far": ((9, 21), 0.05, 130, 8, 0.56, 0.75),
+    "far": ((9, 21), 0.08, 130, 5, 0.70, 0.75),
 }
 
 
@@ -194,10 +194,10 @@ def planted(tree, twigs, i, at):
 def woods():
     """Trees in rows and groups beyond the houses, far enough to leave the low sun free."""
     rng = random.Random(23)
-    spots = [(x, -112.0 + rng.uniform(-4, 4)) for x in np.arange(-46, -10, 7.0)]
-    spots += [(-78 + rng.uniform(-5, 5), y) for y in np.arange(-90, 130, 11.0)]
-    spots += [(rng.uniform(-120, -84), rng.uniform(-40, 150)) for _ in range(14)]
-    spots += [(rng.uniform(-16, 16), rng.uniform(560, 590)) for _ in range(16)]
+    spots = [(x, -112.0 + rng.uniform(-4, 4)) for x in np.arange(-46, -10, 14.0)]
+    spots += [(-78 + rng.uniform(-5, 5), y) for y in np.arange(-90, 130, 22.0)]
+    spots += [(rng.uniform(-120, -84), rng.uniform(-40, 150)) for _ in range(7)]
+    spots += [(rng.uniform(-16, 16), rng.uniform(560, 590)) for _ in range(8)]
     return spots
 
 
