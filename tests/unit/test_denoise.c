@@ -393,7 +393,7 @@ static const float *green(const FrameImage *frame)
 static void make_noisy(FrameImage *frame, Arena *arena)
 {
     uint32_t state = 7;
-    for (const char *c = "R\0G\0B"; *c; c += 2) {
+    for (const char *c = "R\0G\0B\0"; *c; c += 2) {
         float *light = plane(frame, c, arena);
         for (size_t i = 0; i < frame_pixel_count(frame); i++) {
             double sum = 0;
@@ -505,10 +505,10 @@ ARENA_TEST(a_lamp_that_is_seen_keeps_its_light)
     FrameImage    dark = whole_wall(&arena);
     set(&dark, "", "RGB", 1, &arena);
     FrameImage plain = denoised(&dark, &report, &arena);
-    for (const char *c = "R\0G\0B"; *c; c += 2) plane(&dark, c, &arena)[LAMP] += 3000;
+    for (const char *c = "R\0G\0B\0"; *c; c += 2) plane(&dark, c, &arena)[LAMP] += 3000;
     assert_true(green(&(FrameImage[]){denoised(&dark, &report, &arena)}[0])[LAMP] < 2500);
     set(&dark, "emitted", "RGB", 0, &arena);
-    for (const char *c = "R\0G\0B"; *c; c += 2)
+    for (const char *c = "R\0G\0B\0"; *c; c += 2)
         plane(&dark, arena_format(&arena, "emitted.%s", c), &arena)[LAMP] = 3000;
     FrameImage lit = denoised(&dark, &report, &arena);
     assert_close(green(&lit)[LAMP], 3001, 1e-3);
@@ -526,7 +526,7 @@ ARENA_TEST(a_reflections_edge_is_softened_by_this_much)
     float *coverage = plane(&frame, "display.coverage", &arena);
     for (size_t i = 0; i < COUNT; i++) {
         coverage[i] = 1;
-        for (const char *c = "R\0G\0B"; *c; c += 2)
+        for (const char *c = "R\0G\0B\0"; *c; c += 2)
             plane(&frame, c, &arena)[i] = 20 + (i % WIDTH < WIDTH / 2 ? 10.0f : 40.0f);
     }
     FrameImage   out = denoised(&frame, &report, &arena);
