@@ -13,8 +13,8 @@
  * normal equations: M. R. Hestenes, E. Stiefel, J. Res. Nat. Bur. Stand. 49, 409-436, 1952).
  *
  * A block may still lack BALANCE_BAND of its light, or have that much too much: it is not seen,
- * and noise is more. A block whose g would exceed BALANCE_MOST holds light of one rare path
- * rather than of a place: it stays as it is.
+ * and noise is more. A block whose g would exceed BALANCE_MOST is taken for one with light of
+ * a rare path rather than of a place: it stays as it is.
  *
  * Units    any, the same for all.
  * Threads  as many as requested; the same bits for any number.

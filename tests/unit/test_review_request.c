@@ -86,6 +86,18 @@ ARENA_TEST(conditions_arrive)
     assert_int_equal(night->polarity[2], POLARITY_AUTO);
 }
 
+/* A deck of clouds is there, its synthetic billows are not. */
+ARENA_TEST(a_clouds_relief_is_nothing_to_judge_by)
+{
+    ReviewRequest r = {0};
+    char         *text = review_changed(review_good, "'heading_deg':30}",
+                                        "'heading_deg':30,'ground':'cloud','cloud_top_m':200,"
+                                        "'cloud_relief_m':500}", &arena);
+    assert_done(review_read(text, &arena, &r, &err));
+    assert_int_equal(r.conditions[0].environment.daylight.floor, FLOOR_CLOUD);
+    assert_true(r.conditions[0].environment.daylight.cloud_relief_m == 0);
+}
+
 ARENA_TEST(routes_and_sweeps_arrive)
 {
     ReviewRequest r = good(&arena);
@@ -110,7 +122,7 @@ ARENA_TEST(routes_and_sweeps_arrive)
 ARENA_TEST(what_is_not_said_has_defaults)
 {
     ReviewRequest r;
-    const char   *text = review_changed(
+    char         *text = review_changed(
         "{'scene':['a.gltf'],'eyes':{'e':{'camera':0}},'profile':'p',"
         "'symbols':{'s':{'display':'d','uv':[0,0,1,1]}},'conditions':[{'name':'n'}]}",
         NULL, NULL, &arena);
@@ -162,7 +174,7 @@ TEST(an_eye_box_is_a_grid_with_both_ends)
 ARENA_TEST(an_ellipse_of_eyes_has_its_axes)
 {
     ReviewRequest r;
-    const char   *text = review_changed(review_good, "'half_size_m':[0.1,0.2,0],'grid':[2,3,1]",
+    char         *text = review_changed(review_good, "'half_size_m':[0.1,0.2,0],'grid':[2,3,1]",
                                         "'ellipse_m':[0.4,0.2,0.1],'tilt_deg':30", &arena);
     assert_done(review_read(text, &arena, &r, &err));
     const ReviewEye *eye = &r.eyes[3];

@@ -177,6 +177,8 @@ static const FaultCase FAULTS[] = {
      SKY_PLACE "/moon", "is \"new\", true or false is required"},
     {SKY("'type':'sky','when':'2026-06-21T08:30Z','where':[48,11],'cloud_relief_m':2000"),
      SKY_PLACE "/cloud_relief_m", "is 2000, a number from 0 to 1000"},
+    {SKY("'type':'sky','when':'2026-06-21T08:30Z','where':[48,11],'cloud_relief_m':300"),
+     SKY_PLACE "/cloud_relief_m", "has no meaning unless \"ground\" is \"cloud\""},
     {SKY("'type':'sky','when':'2026-06-21T08:30Z','where':[48,11],'cloud_relief':300"),
      SKY_PLACE "/cloud_relief", "unknown key; the nearest known one is 'cloud_relief_m'"},
     {SKY("'type':'sky','when':'yesterday','where':[95,0]"), SKY_PLACE "/when",

@@ -128,11 +128,20 @@ static SceneOptions scene_options(const SetupOptions *options, Arena *arena)
     return scene;
 }
 
+/* A synthetic billow is nothing to judge by. */
+static bool load_even(const SceneOptions *options, Arena *arena, Problems *problems,
+                      Scene **out, Error *err)
+{
+    if (!scene_load(options, arena, problems, out, err)) return false;
+    (*out)->environment.daylight.cloud_relief_m = 0;
+    return true;
+}
+
 bool setup_scene(const SetupOptions *options, Arena *arena, Problems *problems, Scene **out,
                  Error *err)
 {
     SceneOptions scene = scene_options(options, arena);
-    return scene_load(&scene, arena, problems, out, err);
+    return load_even(&scene, arena, problems, out, err);
 }
 
 bool setup_open(const SetupOptions *options, Arena *arena, Problems *problems, Setup *out,
@@ -145,7 +154,7 @@ bool setup_open(const SetupOptions *options, Arena *arena, Problems *problems, S
                    .sensor_lux = (double)NAN, .guides = options->means.guides,
                    .inherited = options->means.inherited};
     if (!kernel_choose(options->means.isa, &out->tools.kernel, err)) return false;
-    if (!scene_load(&scene, arena, problems, &out->scene, err)) return false;
+    if (!load_even(&scene, arena, problems, &out->scene, err)) return false;
     if (!bvh_create(out->scene, options->means.threads, options->means.isa, &out->bvh, err)) {
         scene_close(out->scene);
         return false;

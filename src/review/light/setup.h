@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* setup.h -- the scene as a condition has it: its files, contents, light and levels, ready for
- * paths.
+ * paths. A cloud deck's relief (sky/cloud_relief.h) is left out: it is synthetic.
  *
  * Memory   scene and lights come from the arena; Embree's memory and the panels are gone after
  *          setup_close.

@@ -300,6 +300,7 @@ static bool read_environment(const JsonView *view, const RecordRow *row, void *i
     if (!is_read) return false;
     condition->has_environment = true;
     condition->environment = found.environment;
+    condition->environment.daylight.cloud_relief_m = 0; /* review/light/setup.h */
     if (record_has(&inside, "heading_deg")) {
         condition->has_heading = true;
         condition->heading_deg = json_number_value(json_object_get(inside.object,

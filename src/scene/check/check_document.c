@@ -279,6 +279,10 @@ static void check_members(const DocumentCheck *check, const GltfValue *environme
                         "\"%s\" and is skipped",
                         type->name);
     }
+    const GltfValue *relief = tree_member(environment, "cloud_relief_m");
+    if (relief && strcmp(tree_text(environment, "ground", ""), "cloud") != 0)
+        check_warns(check, relief, "has no meaning unless \"ground\" is \"cloud\" and is "
+                    "skipped");
 }
 
 /* ISO 8601 with minutes, and optional seconds, and the offset from UTC. */
