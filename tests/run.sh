@@ -53,6 +53,7 @@ start 'variants of a review' variants python3 tests/image/variants.py $program
 start 'a matte finish tried out' finish python3 tests/image/finish.py $program
 start 'the README as written, its review met' guides guides_and_meeting
 start 'the command line' cli python3 tests/hostile/cli.py $program
+start 'what was removed says what to do' removed python3 tests/hostile/removed.py $program
 start 'what is not known is no pass' unjudged python3 tests/hostile/unjudged.py $program
 start 'one judged quantity a row' judged python3 tests/hostile/judged.py $program
 start 'reviews that ask wrongly' review-request python3 tests/hostile/review_request.py $program

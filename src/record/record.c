@@ -10,6 +10,7 @@
 #include "base/mathd.h"
 #include "base/units.h"
 #include "text/nearest_word.h"
+#include "text/removed.h"
 #include "text/uri.h"
 
 #define KEYS_MAX 256 /* of an object, and words of a choice */
@@ -439,7 +440,8 @@ bool record_read_value(const JsonView *view, const RecordRow *row, void *item, E
 }
 
 /* Refuses a key that no row has, with the nearest one. */
-static bool check_keys(const JsonView *view, const RecordRow *rows, Error *err)
+static bool check_keys(const JsonView *view, const char *format, const RecordRow *rows,
+                       Error *err)
 {
     const char *known[KEYS_MAX], *key;
     json_t     *value;
@@ -448,6 +450,8 @@ static bool check_keys(const JsonView *view, const RecordRow *rows, Error *err)
         known[count++] = row->key;
     json_object_foreach(view->object, key, value) {
         if (place_of(key, known, count) >= 0) continue;
+        const char *instead = format ? removed_instead(format, key) : NULL;
+        if (instead) return record_fails(view, key, err, "this key was removed: %s", instead);
         const char *meant = nearest_word_meant(key, known, count); /* "age" is "age_years" */
         return record_fails(view, key, err, "unknown key; the nearest known one is '%s'",
                             meant ? meant : nearest_word(key, known, count));
@@ -474,7 +478,7 @@ bool record_read(const JsonView *outer, const RecordFormat *format, void *item, 
 {
     JsonView own = *outer, *view = &own;
     if (!own.whole) own.whole = item;
-    if (!format->takes_more && !check_keys(view, format->rows, err)) return false;
+    if (!format->takes_more && !check_keys(view, format->name, format->rows, err)) return false;
     for (const RecordRow *row = format->rows; row->key; row++) {
         const json_t *value = json_object_get(view->object, row->key);
         if (row->flags & RECORD_WRITTEN) continue;

@@ -8,6 +8,7 @@
 #include "base/count.h"
 #include "base/file.h"
 #include "cli/format_table.h"
+#include "text/removed.h"
 
 /* A file of each format, in the order of the table. */
 static const char *const EXAMPLES[] = {PROJECT_DIR "/assets/profiles/iso-15008.json",
@@ -189,8 +190,34 @@ static void try_inside(Faults *f, const RecordRow *row)
             try_object(f, form->of, row->key, inside);
 }
 
+enum { REMOVED_MAX = 256 };
+static int removed_tried[REMOVED_MAX]; /* of each row of removed_words */
+
+/* Keys of before: refused with what to do instead. */
+static void try_removed(Faults *f, const RecordFormat *format)
+{
+    for (int i = 0; removed_words[i].word; i++) {
+        const RemovedWord *row = &removed_words[i];
+        char               place[512];
+        if (!format->name || strcmp(row->where, format->name) != 0) continue;
+        snprintf(place, sizeof place, "%s/%s", f->path, row->word);
+        json_object_set_new(f->object, row->word, json_null());
+        expect(f, place, row->instead);
+        json_object_del(f->object, row->word);
+        assert_true(i < REMOVED_MAX);
+        removed_tried[i]++;
+    }
+}
+
+static bool is_key(const RemovedWord *row)
+{
+    return row->word[0] != '-' && row->where[0] != '-' && strcmp(row->where, "parhelion") != 0 &&
+           strcmp(row->where, "panel") != 0;
+}
+
 static void try_rows(Faults *f, const RecordFormat *format)
 {
+    if (!format->takes_more) try_removed(f, format);
     for (const RecordRow *row = format->rows; row->key; row++) {
         try_names(f, row);
         try_single(f, row);
@@ -212,6 +239,10 @@ TEST(every_fault_of_every_key_is_found_where_it_is)
         print_message("%s: %d faults\n", format_table[i].name, faults.tried);
         json_decref(document);
     }
+    for (int i = 0; removed_words[i].word; i++)
+        if (is_key(&removed_words[i]) && !removed_tried[i])
+            fail_msg("removed key %s of %s: no example has that object", removed_words[i].word,
+                     removed_words[i].where);
 }
 
 TEST_PROGRAM(make_folder, clear_folder)

@@ -19,6 +19,7 @@
 #include "cli/options/outputs.h"
 #include "render/render.h"
 #include "text/nearest_word.h"
+#include "text/removed.h"
 
 #define NUMBERS_MAX 8
 #define SIZE_MAX_PIXELS 65536
@@ -254,6 +255,9 @@ static bool unknown_option(const Parser *in, const char *name, size_t length)
         names[count] = option_at(in, count)->name;
     char        word[64];
     snprintf(word, sizeof word, "%.*s", (int)length, name);
+    const char *instead = removed_instead(in->command->name, word);
+    if (instead)
+        return error_set(in->err, ERROR_USAGE, "%s was removed — %s", word, instead);
     const char *nearest = nearest_word_meant(word, names, count);
     return error_set(in->err, ERROR_USAGE,
                      "unknown option %.*s — %s%s%s`parhelion %s --help` lists what there is",

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "text/nearest_word.h"
+#include "text/removed.h"
 
 const Command *command_find(const Command *const *list, int count, const char *within,
                             const char *name, Error *err)
@@ -13,6 +14,11 @@ const Command *command_find(const Command *const *list, int count, const char *w
     for (int i = 0; i < count; i++) {
         names[i] = list[i]->name;
         if (!strcmp(name, names[i])) return list[i];
+    }
+    const char *instead = removed_instead(within ? within : "parhelion", name);
+    if (instead) {
+        error_set(err, ERROR_USAGE, "the command %s was removed — %s", name, instead);
+        return NULL;
     }
     nearest_word_advice(name, names, count, advice, (int)sizeof advice);
     if (within && !*name)
