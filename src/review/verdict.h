@@ -240,20 +240,6 @@ typedef struct CasePlace {
     double  contrast_low, contrast_high;
 } CasePlace;
 
-/* The halo that a display's zones lay on the black about the symbol (run/case_halo.h); all
- * towards this eye, cd m^-2. */
-typedef struct CaseHalo {
-    double mean_drive;      /* of the display's zones: its backlight's power over full */
-    double full_cd_m2;      /* black with all zones full */
-    double black_cd_m2;     /* the most that black leaks about the symbol */
-    /* Where the halo stands highest above what is just seen: */
-    double halo_cd_m2;      /* leaked there beyond what the zones' least drive would leak */
-    double scattered_cd_m2; /* the eye's own stray light of what the display shows about it */
-    double threshold_cd_m2; /* the least difference that is seen there */
-    double level;           /* halo over threshold */
-    bool   is_visible;      /* level is 1 or more */
-} CaseHalo;
-
 #define CASE_BATCHES 32
 
 #define DECIDE_TIMES 64 /* --decide's budget: so many times the paths of the precision */
@@ -267,8 +253,6 @@ typedef struct ReviewCase {
     double  sun_azimuth_deg, sun_elevation_deg; /* of a sweep's worst: of the vehicle */
     CaseLuminances luminance_cd_m2;
     CaseWhole whole;
-    bool     has_halo;           /* its display has zones, and halo is known */
-    CaseHalo halo;
     MeanInterval reflected_range; /* of sampling alone; of a sweep's steps of the response
                                     too. The contrasts are made of these luminances
                                     (judge_contrasts) */

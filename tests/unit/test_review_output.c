@@ -318,7 +318,7 @@ static bool is_optional(const char *key, const json_t *object)
                                         "decide_times", "open_by", "glasses_transmittance",
                                         "middle_eye_contrast_ratio", "glasses",
                                         "glasses_display_loss", "visibility_levels",
-                                        "age_years", "must_not_be_read", "halo"};
+                                        "age_years", "must_not_be_read"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)
         if (!strcmp(key, ADDED[i])) return true;
     if (!strcmp(key, "kind") && json_object_get(object, "what")) return true; /* a remedy's */

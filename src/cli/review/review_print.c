@@ -42,7 +42,6 @@ static void print_levels(const ReviewCase *c, Arena *scratch)
 {
     const char *levels = words_levels(c, scratch);
     if (*levels) print("; %s", levels);
-    if (*words_halo(c, scratch)) print("; %s", words_halo(c, scratch));
 }
 
 static void print_case(const ReviewCase *c, Arena scratch)

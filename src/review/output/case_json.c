@@ -93,12 +93,6 @@ TABLE(visibility_json, CaseVisibility,
     OWN(FIGURE, CaseVisibility, size_arcmin), OWN(FIGURE, CaseVisibility, glance_s),
     OWN(TEXT, CaseVisibility, doubts));
 
-TABLE(halo_json, CaseHalo,
-    OWN(FIGURE, CaseHalo, mean_drive), OWN(FIGURE, CaseHalo, full_cd_m2),
-    OWN(FIGURE, CaseHalo, black_cd_m2), OWN(FIGURE, CaseHalo, halo_cd_m2),
-    OWN(FIGURE, CaseHalo, scattered_cd_m2), OWN(FIGURE, CaseHalo, threshold_cd_m2),
-    OWN(FIGURE, CaseHalo, level), AS("visible", FLAG, CaseHalo, is_visible));
-
 PUBLIC_TABLE(glare_json, CaseGlare,
     OWN(FIGURE, CaseGlare, threshold_cd_m2), OWN(FIGURE, CaseGlare, background_cd_m2),
     AS("sources", COUNT, CaseGlare, source_count),
@@ -226,8 +220,6 @@ PUBLIC_TABLE(case_json, ReviewCase,
     OWN(FIGURE, ReviewCase, jnd), OWN(FIGURE, ReviewCase, visibility),
     LIST("visibility_levels", RECORD_BRIEF, ReviewCase, visibilities, visibility_count,
          visibility_json),
-    {"halo", RECORD_OBJECT, RECORD_NULL | RECORD_BRIEF, .of = &halo_json,
-     RECORD_MANY(ReviewCase, halo, has_halo)},
     GLARE_MEMBERS(ReviewCase),
     OWN(FIGURE, ReviewCase, eye_failed_share), OWN(FIGURE, ReviewCase, visible_share),
     LIST("hidden_by", 0, ReviewCase, hiders, hider_count, hider_json),

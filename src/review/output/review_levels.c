@@ -21,20 +21,6 @@ const char *words_levels(const ReviewCase *c, Arena *arena)
     return text.data ? text.data : "";
 }
 
-const char *words_halo(const ReviewCase *c, Arena *arena)
-{
-    const CaseHalo *h = &c->halo;
-    if (!c->has_halo || !(h->black_cd_m2 > 0)) return "";
-    if (isnan(h->level)) return "";
-    return arena_format(arena, "halo of the zones %s: %s cd/m² that black leaks, %s times "
-                        "what is just seen above the eye's own scatter of %s cd/m²; mean "
-                        "drive %s %%",
-                        h->is_visible ? "visible" : "not visible",
-                        words_figure(h->halo_cd_m2, arena), words_figure(h->level, arena),
-                        words_figure(h->scattered_cd_m2, arena),
-                        words_figure(100 * h->mean_drive, arena));
-}
-
 const char *words_judged_and_levels(const ReviewCase *c, Arena *arena)
 {
     const char *judged = words_judged(c, arena), *levels = words_levels(c, arena);

@@ -11,10 +11,6 @@
 /* "visibility level 6.2 at 40 years, 2.9 at 70"; "": the case has none. */
 const char *words_levels(const ReviewCase *c, Arena *arena);
 
-/* "halo of the zones visible: 0.02 cd/m² that black leaks, 3.1 times what is just seen above
- * ..."; "": the display has no zones, or an ideal black. */
-const char *words_halo(const ReviewCase *c, Arena *arena);
-
 /* Behind the figure that made the case's verdict, where it has any. */
 const char *words_judged_and_levels(const ReviewCase *c, Arena *arena);
 

@@ -199,7 +199,6 @@ static void set_levels(json_t *to, const ReviewCase *c, Arena *arena)
 {
     json_t *list = values_list(to, "levels");
     page_set(to, "target", NULL);
-    page_set(to, "halo", *words_halo(c, arena) ? words_halo(c, arena) : NULL);
     for (int i = 0; i < c->visibility_count; i++) {
         const CaseVisibility *v = &c->visibilities[i];
         const char           *whose = v->is_observer ? ", the observer" : "";

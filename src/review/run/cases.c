@@ -14,7 +14,6 @@
 #include "review/light/response_suns.h"
 #include "review/pace/work.h"
 #include "review/review_decide.h"
-#include "review/run/case_halo.h"
 #include "review/run/case_visibility.h"
 #include "review/run/private_images.h"
 #include "review/run/symbols.h"
@@ -382,9 +381,6 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     Reading    reading = read_part(look, &part, c, &args, arena);
     *direct = args.direct;
     keep_reading(&reading, look, c, arena);
-    if (!look->is_bare && !look->is_coarse)
-        case_halo(&(HaloLook){symbol, look->eye, setup->request->observer, seen.transmittance},
-                  c, *arena);
     c->precision_asked = is_verdict_clear(&args, reading.interval, *arena)
                              ? setup->request->precision_clear
                              : setup->request->precision_contrast;
