@@ -24,16 +24,3 @@ const RoadAge *gaze_worst_age(const GazeFinding *gaze)
     }
     return worst;
 }
-
-/* Of both the age that decides; without a limit the last, whose increment is the greatest. */
-bool road_is_worse(const GazeFinding *a, const GazeFinding *b)
-{
-    const RoadAge *x = gaze_worst_age(a), *y = gaze_worst_age(b);
-    int more = verdict_rank(a->road->verdict) - verdict_rank(b->road->verdict);
-    if (!x || !y) {
-        int last = a->road->age_count - 1;
-        return last >= 0 &&
-               a->road->ages[last].increment_pct > b->road->ages[last].increment_pct;
-    }
-    return more > 0 || (more == 0 && x->limit.margin < y->limit.margin);
-}

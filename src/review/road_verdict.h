@@ -75,24 +75,6 @@ typedef enum RoadLeftOut {
 } RoadLeftOut;
 extern const char *const road_left_outs[ROAD_LEFT_OUTS + 1]; /* NULL, "the sun ...", ... */
 
-/* One age in one step of a sweep or route: as it is in the moment when the sun stands there. */
-typedef struct RoadStep {
-    const char  *when;       /* date, time, heading; NULL: after dark, or no times */
-    double       sun_azimuth_deg, sun_elevation_deg; /* of the vehicle, apparent; NaN: after
-                                dark, without sun and sky */
-    double       sky_lx;     /* of twilight's sky, on level ground */
-    double       road_cd_m2; /* the road's luminance then */
-    double       minutes;    /* of the sweep that it stands for; NaN: no times, after dark */
-    double       age_years;
-    double       veil;
-    MeanInterval veil_range;
-    double       increment_pct;
-    MeanInterval increment_range;
-    double       displays_share; /* of the veil */
-    double       margin;     /* NaN: no limit */
-    Verdict      verdict;    /* that counts where the road's has_limit */
-} RoadStep;
-
 struct GazeRoad {
     double       luminance_cd_m2; /* of the road, as the request states it */
     double       s_p;             /* NaN: not stated */
@@ -107,20 +89,7 @@ struct GazeRoad {
     Unjudged     unjudged;
     RoadDimming *dimming;         /* by display, age, road; without a limit none */
     int          dimming_count;
-    const char  *when;       /* of a sweep: the worst step, of which all above is; NULL: after
-                                dark, or a moment */
-    RoadStep    *steps;      /* of a sweep: after dark, then twilight from the highest sun on,
-                                each by age */
-    int          step_count;
-    long         twilight_count; /* steps that the sweep has in twilight in which the sky lights
-                                no road more than its lamps; evaluated are at most as many as
-                                the request says, evenly by the sun's height */
 };
-
-/* Is one of two findings of a road worse: by verdict, then margin; without a limit by the
- * increment of its last age? Both evaluated, of the same ages. */
-bool road_is_worse(const GazeFinding *a, const GazeFinding *b);
-
 
 /* Does it have a verdict that counts? */
 bool gaze_counts(const GazeFinding *gaze);

@@ -174,56 +174,6 @@ def check_left_out(report, reviews):
     report.claim("road" in done.stderr and "required" in done.stderr, "a road at symbols")
 
 
-EVENING = ["15:30", "16:50", "17:12", "17:24"] # by day, civil twilight, then darker: no moon
-
-
-def check_twilight(report, reviews):
-    """A route's step is what a moment of the same instant and road has; a bright sky's is no
-    step; the finding is the worst of all."""
-    with open(os.path.join(reviews.folder, "evening.csv"), "w", encoding="utf-8") as file:
-        file.write("time,lat,lon,heading\n" + "".join(
-            f"2026-10-10T{at}:00Z,48.1,11.6,270\n" for at in EVENING))
-    route = request({"*": 0.02}, 1)
-    route["conditions"] = [{"name": "evening", "level": "set", "route": "evening.csv"}]
-    route["gaze"][0]["road"].update(conditions=["evening"], twilight_steps=9)
-    done, out, gaze = reviews.gaze("evening", route)
-    road = gaze["road"]
-    steps = [s for s in road["steps"] if s["age_years"] == AGES[-1]]
-    print([(s["when"], s["sun_elevation_deg"], s["threshold_increment_pct"]) for s in steps])
-    report.claim(len(steps) == 3 and road["twilight_count"] == 2, "after dark and two steps")
-    report.claim(steps[0]["when"] is None and steps[0]["road_cd_m2"] == ROAD, "after dark")
-    for one in steps:
-        low, high = one["threshold_increment_interval"]
-        report.claim(low <= one["threshold_increment_pct"] <= high, "a step in its interval")
-        report.claim(math.isclose(one["threshold_increment_pct"], 65 * one["veil_cd_m2"] /
-                                  one["road_cd_m2"] ** 0.8, rel_tol=1e-4), "of its veil")
-        report.claim(math.isclose(one["road_cd_m2"], ROAD + 0.07 * one["sky_lx"],
-                                  rel_tol=1e-4) and 0.07 * one["sky_lx"] <= ROAD,
-                     "the sky lights the road less than its lamps")
-        report.claim(one["verdict"] == ("pass" if high <= LIMIT else
-                                        "fail" if low > LIMIT else "too close"), "verdict")
-    worst = max(steps, key=lambda s: s["threshold_increment_pct"])
-    report.claim(road["when"] == worst["when"] and not road["after_dark"] and
-                 road["ages"][-1]["threshold_increment_pct"] ==
-                 worst["threshold_increment_pct"], "the worst step is the finding")
-    report.claim(f"at {worst['when']}: threshold increment" in done.stdout, "and is named")
-    with open(os.path.join(out, "road_steps.csv"), encoding="utf-8", newline="") as file:
-        rows = [r for r in csv.DictReader(file) if r["age_years"] == str(AGES[-1])]
-    report.claim([float(r["threshold_increment_pct"]) for r in rows] ==
-                 [s["threshold_increment_pct"] for s in steps], "one row a step and age")
-    moment = request({"*": 0.02}, 5)
-    moment["gaze"][0]["road"]["luminance_cd_m2"] = steps[1]["road_cd_m2"]
-    moment["conditions"] = [{"name": "instant", "level": "set", "heading_deg": 270,
-                             "environment": {"type": "sky", "where": [48.1, 11.6],
-                                             "when": f"2026-10-10T{EVENING[2]}:00Z"}}]
-    _, _, gaze = reviews.gaze("instant", moment)
-    age = gaze["road"]["ages"][-1]
-    low, high = steps[1]["threshold_increment_interval"]
-    own_low, own_high = age["threshold_increment_interval"]
-    print(f"step {low:.5g} to {high:.5g} %, moment {own_low:.5g} to {own_high:.5g} %")
-    report.claim(low <= own_high and own_low <= high, "a step is what the moment has")
-
-
 def check_variants(report, reviews):
     """Half as bright displays make half of their increment; the rest stays."""
     document = request({"*": 0.05}, 1)
@@ -260,7 +210,6 @@ def main():
         check_table(report, out, gaze["road"])
         check_level(report, reviews, gaze["road"])
         check_left_out(report, reviews)
-        check_twilight(report, reviews)
         check_variants(report, reviews)
     report.finish()
 

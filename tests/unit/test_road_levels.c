@@ -6,7 +6,6 @@
 #include "base/count.h"
 #include "panel/query/panel_stated.h"
 #include "review/run/road.h"
-#include "review/run/road_steps.h"
 #include "vision/road_glare.h"
 #include "world_fixture.h"
 
@@ -231,29 +230,6 @@ TEST(a_display_without_a_limit_has_no_table)
     assert_true(isnan(gaze.road->ages[0].displays[0].level_most));
     assert_false(gaze_counts(&gaze));
     assert_close(gaze.road->ages[1].increment_pct, 50, 1e-12);
-}
-
-/* ---- steps of a sweep -------------------------------------------------------------------- */
-
-/* All where they are few; else evenly, the first and the last among them. */
-TEST(steps_are_chosen_evenly_with_both_ends)
-{
-    for (int count = 0; count < 40; count++)
-        for (int most = 1; most < 12; most++) {
-            int chosen[12], used = road_steps_choose(count, most, chosen);
-            int apart_least = 99, apart_most = 0;
-            assert_int_equal(used, count < most ? count : most);
-            for (int k = 1; k < used; k++) {
-                int apart = chosen[k] - chosen[k - 1];
-                if (apart < apart_least) apart_least = apart;
-                if (apart > apart_most) apart_most = apart;
-            }
-            if (used == 1) assert_int_equal(chosen[0], count / 2);
-            if (used < 2) continue;
-            assert_int_equal(chosen[0], 0);
-            assert_int_equal(chosen[used - 1], count - 1);
-            assert_true(apart_least >= 1 && apart_most - apart_least <= 1);
-        }
 }
 
 TEST_PROGRAM(NULL, NULL)

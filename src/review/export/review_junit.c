@@ -168,15 +168,6 @@ bool review_csv_write_dimming(const Review *review, const char *path, Error *err
     return page_write_values("dimming.csv", document, NULL, path, err);
 }
 
-/* Roads of moments have no steps. */
-bool review_csv_write_road_steps(const Review *review, const char *path, Error *err)
-{
-    json_t *document = review_json(review);
-    page_set(document, "steps", NULL);
-    road_add_columns(document, review);
-    return page_write_values("road_steps.csv", document, NULL, path, err);
-}
-
 bool review_csv_write_pane_images(const Review *review, const char *path, Error *err)
 {
     return page_write_values("pane_images.csv", review_json(review), NULL, path, err);

@@ -25,9 +25,6 @@ bool review_csv_write_false_suns(const Review *review, const char *path, Error *
 /* Eyes that look elsewhere than at symbols. */
 bool review_csv_write_gazes(const Review *review, const char *path, Error *err);
 
-/* Roads of sweeps and routes: one row a gaze, step and age. */
-bool review_csv_write_road_steps(const Review *review, const char *path, Error *err);
-
 /* How bright displays may be: one row a gaze at a road, display, age and road. */
 bool review_csv_write_dimming(const Review *review, const char *path, Error *err);
 

@@ -27,7 +27,7 @@
 
 const char *const review_files_fixed[REVIEW_FILES_FIXED] = {
     "review.json",    "index.html",      "cases.csv", "gazes.csv", "dimming.csv",
-    "road_steps.csv", "false_suns.csv", "pane_images.csv", "junit.xml", "diff.json", "run.json",
+    "false_suns.csv", "pane_images.csv", "junit.xml", "diff.json", "run.json",
     "live.js",        REVIEW_PAGE_BESIDE, LIST};
 
 /* Behind a frame's name. */

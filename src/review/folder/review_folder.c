@@ -420,9 +420,6 @@ bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Are
            (!review_has_dimming(review) ||
             review_csv_write_dimming(
                 review, arena_format(arena, "%s/dimming.csv", folder->name), err)) &&
-           (!review_has_road_steps(review) ||
-            review_csv_write_road_steps(
-                review, arena_format(arena, "%s/road_steps.csv", folder->name), err)) &&
            (!review->pane_image_count ||
             review_csv_write_pane_images(
                 review, arena_format(arena, "%s/pane_images.csv", folder->name), err)) &&

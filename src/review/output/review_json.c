@@ -66,23 +66,6 @@ TABLE(road_dimming_json, RoadDimming,
     OWN(TEXT, RoadDimming, symbol),
     AS_WORD("window", MUST | RECORD_NULL, RoadDimming, window, road_windows + 1));
 
-TABLE(road_step_json, RoadStep,
-    {"when", RECORD_TEXT, MUST | RECORD_NULL, RECORD_AT(RoadStep, when)},
-    OWN(FIGURE, RoadStep, sun_azimuth_deg), OWN(FIGURE, RoadStep, sun_elevation_deg),
-    OWN(FIGURE, RoadStep, sky_lx), OWN(FIGURE, RoadStep, road_cd_m2),
-    OWN(FIGURE, RoadStep, minutes), OWN(FIGURE, RoadStep, age_years),
-    AS("veil_cd_m2", FIGURE, RoadStep, veil), AS("veil_interval", RANGE, RoadStep, veil_range),
-    AS("threshold_increment_pct", FIGURE, RoadStep, increment_pct),
-    AS("threshold_increment_interval", RANGE, RoadStep, increment_range),
-    OWN(FIGURE, RoadStep, displays_share), OWN(FIGURE, RoadStep, margin),
-    OWN(VERDICT, RoadStep, verdict));
-
-static json_t *write_twilight(const void *item)
-{
-    const GazeRoad *road = item;
-    return road->step_count ? json_integer(road->twilight_count) : json_null();
-}
-
 TABLE(road_json, GazeRoad,
     OWN(FIGURE, GazeRoad, luminance_cd_m2), OWN(FIGURE, GazeRoad, s_p),
     OWN(FIGURE, GazeRoad, mesopic_cd_m2),
@@ -93,11 +76,7 @@ TABLE(road_json, GazeRoad,
     AS("counts", FLAG, GazeRoad, has_limit), OWN(VERDICT, GazeRoad, verdict),
     AS("reason", REASON, GazeRoad, unjudged),
     LIST("ages", MUST, GazeRoad, ages, age_count, road_age_json),
-    LIST("dimming", MUST, GazeRoad, dimming, dimming_count, road_dimming_json),
-    {"when", RECORD_TEXT, RECORD_NULL | RECORD_BRIEF, RECORD_AT(GazeRoad, when)},
-    LIST("steps", RECORD_BRIEF, GazeRoad, steps, step_count, road_step_json),
-    {"twilight_count", RECORD_INTEGER, RECORD_LONG | RECORD_NULL | RECORD_BRIEF,
-     RECORD_AT(GazeRoad, twilight_count), RECORD_RANGE(0, 1e18), .write = write_twilight});
+    LIST("dimming", MUST, GazeRoad, dimming, dimming_count, road_dimming_json));
 
 TABLE(gaze_json, GazeFinding,
     OWN(TEXT, GazeFinding, condition), OWN(TEXT, GazeFinding, eye),

@@ -27,13 +27,6 @@ static bool has_roads(const Review *review)
     return false;
 }
 
-bool review_has_road_steps(const Review *review)
-{
-    for (int i = 0; i < review->gaze_count; i++)
-        if (review->gazes[i].road && review->gazes[i].road->step_count) return true;
-    return false;
-}
-
 bool review_has_dimming(const Review *review)
 {
     for (int i = 0; i < review->gaze_count; i++)
@@ -115,8 +108,7 @@ const char *road_words(const GazeFinding *gaze, Arena *arena)
         arena, "%s%sthreshold increment %s%s, at %.4g years on a road of %.4g cd/m2 (with the "
         "veil by CIE 135 %.3g %%)%s%s",
         unjudged_because(road, arena),
-        road->is_after_dark ? "after dark, without sun and sky: "
-        : road->when        ? arena_format(arena, "at %s: ", road->when) : "",
+        road->is_after_dark ? "after dark, without sun and sky: " : "",
         words_measured(&as, arena),
         required, age->age_years, road->luminance_cd_m2, age->increment_by_spread_pct,
         displays_words(age, arena),
@@ -477,36 +469,6 @@ static void add_dimming(json_t *to, const GazeRoad *road, Arena *arena)
     }
 }
 
-static void add_steps(json_t *to, const GazeRoad *road, Arena *arena)
-{
-    json_t *list = new_list(to, "steps");
-    int     evaluated = road->age_count ? road->step_count / road->age_count - 1 : 0;
-    page_set_flag(to, "has_steps", road->step_count > 0);
-    page_set_count(to, "step_count", evaluated);
-    page_set_count(to, "twilight_count", (int)road->twilight_count);
-    for (int i = 0; i < road->step_count; i++) {
-        const RoadStep *step = &road->steps[i];
-        json_t         *row = page_add(list);
-        bool            is_dark = isnan(step->sun_elevation_deg);
-        const char     *sun = is_dark ? "–" : arena_format(arena, "%.1f°",
-                                                           -step->sun_elevation_deg);
-        page_set(row, "when", is_dark ? "after dark" : step->when ? step->when : "–");
-        page_set(row, "sun", sun);
-        page_set(row, "sky", words_figure(step->sky_lx, arena));
-        page_set(row, "road", arena_format(arena, "%.3g", step->road_cd_m2));
-        page_set(row, "age", arena_format(arena, "%.4g", step->age_years));
-        page_set(row, "increment", words_within(step->increment_pct, step->increment_range.low,
-                                                step->increment_range.high, arena));
-        page_set(row, "range", around(step->increment_range.low, step->increment_range.high,
-                                      " %", arena));
-        page_set(row, "share", words_share(fmin(step->displays_share, 1), arena));
-        page_set(row, "class", road->has_limit ? words_class(step->verdict) : "");
-        page_set(row, "mark", road->has_limit ? words_mark(step->verdict) : "");
-        page_set(row, "minutes", isnan(step->minutes) ? "–"
-                                                      : words_minutes(step->minutes, arena));
-    }
-}
-
 static void add_road(json_t *list, const GazeFinding *gaze, Arena *arena)
 {
     const GazeRoad *road = gaze->road;
@@ -529,7 +491,6 @@ static void add_road(json_t *list, const GazeFinding *gaze, Arena *arena)
         page_set(to, "limit", words_number(road->ages[0].limit.value, arena));
     for (int i = 0; i < road->age_count; i++)
         set_age(page_add(ages), &road->ages[i], road->has_limit, arena);
-    add_steps(to, road, arena);
     add_dimming(to, road, arena);
     for (int i = 0; i < count; i++) json_array_append_new(empty, json_string(windows[i]));
 }

@@ -91,11 +91,6 @@ WorkPlan work_of_moment(const ReviewRequest *request, int symbols, bool is_bare)
     return plan;
 }
 
-WorkPlan work_of_looks(int count)
-{
-    return (WorkPlan){{[WORK_LOOK] = WEIGHT[WORK_LOOK] * count}};
-}
-
 /* About: of a year half are up. */
 static double suns_of(const ReviewCondition *c)
 {

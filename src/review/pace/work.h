@@ -81,9 +81,6 @@ WorkPlan work_of_moment(const ReviewRequest *request, int symbols, bool is_bare)
 WorkPlan work_of_condition(const ReviewRequest *request, const ReviewCondition *condition,
                            bool is_bare);
 
-/* So many gazes that are not at symbols. */
-WorkPlan work_of_looks(int count);
-
 /* One picture, its layers on the page, and the same view with a variant's change. */
 double work_of_frame(const ReviewRequest *request, WorkKind kind);
 

@@ -123,18 +123,10 @@ typedef struct ReviewRoad {
     const char *const *conditions; /* names of those in which it is evaluated */
     int           condition_count; /* 0: all moments without the sun. Sweeps and routes that
                                       are named: without sun and sky */
-    int           twilight_steps;  /* of these sweeps, the most steps in twilight that are
-                                      evaluated besides; 0: none */
-    double        sky_cd_m2_per_lx; /* that twilight's sky adds to the road, by its lux on
-                                      level ground: steps count where that is no more than
-                                      luminance_cd_m2 */
 } ReviewRoad;
 
 #define ROAD_AGES_MOST 6
 #define ROAD_DIMMING_MOST 12
-#define ROAD_TWILIGHT_MOST 1000
-#define ROAD_SKY_CD_M2_PER_LX 0.07 /* Q0 of road class R3, as it is commonly quoted: not read in
-                                      the standard */
 
 /* Is the gaze's road evaluated in that condition, as far as the request says? */
 bool review_road_is_in(const ReviewRoad *road, const char *condition);

@@ -112,17 +112,11 @@ static const RecordRow ROAD[] = {
      .doc = "Names of those in which it is evaluated: moments, where no sun stands above the "
             "horizon; sweeps and routes, as after dark, without sun and sky. Default: all "
             "such moments."},
-    WHOLE("twilight_steps", 0, twilight_steps, 1, ROAD_TWILIGHT_MOST,
-          "Of the sweeps and routes among them: evaluated besides in so many of their steps at "
-          "most with the sun up to 12 degrees below the horizon. Default: in none."),
-    NUMBER("sky_cd_m2_per_lx", 0, sky_cd_m2_per_lx, 0, 0.32,
-           "That the sky adds to the road's luminance in these, by the lux on level ground. "
-           "Default: 0.07, of asphalt as commonly quoted; 0: the sky does not light it."),
     {0}};
 
 static void start_road(void *item)
 {
-    *(ReviewRoad *)item = (ReviewRoad){.s_p = NAN, .sky_cd_m2_per_lx = ROAD_SKY_CD_M2_PER_LX};
+    *(ReviewRoad *)item = (ReviewRoad){.s_p = NAN};
 }
 
 static bool check_rising(const JsonView *view, const char *key, const double *list, int count,

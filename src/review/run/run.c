@@ -15,7 +15,6 @@
 #include "review/run/gazes.h"
 #include "review/run/pane_findings.h"
 #include "review/run/rests.h"
-#include "review/run/road_steps.h"
 #include "review/run/sweep.h"
 #include "review/run/sweep_probes.h"
 #include "review/run/sweep_weather.h"
@@ -180,7 +179,6 @@ static bool run_after_dark(const ReviewRun *run, const ReviewCondition *conditio
         ok = setup_light(&setup, &dark, &scratch, err) &&
              setup_gazes(&looks, arena, found, err);
         for (int i = 0; ok && i < count; i++) found[i].road->is_after_dark = true;
-        ok = ok && road_steps_find(&(RoadStepsArgs){run, &setup}, found, count, arena, err);
         setup_close(&setup);
     }
     if (ok) review->gaze_count += count;
