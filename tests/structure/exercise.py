@@ -9,7 +9,7 @@ import sys
 import tempfile
 
 from models import listed_files
-from report import ROOT, Report, project_files
+from report import ROOT, Report, places, project_files
 
 FILES = os.path.join(ROOT, "tests", "structure", "exercise")
 
@@ -118,9 +118,11 @@ def edit(report, folder, exercise):
         path = os.path.join(folder, name)
         with open(path, encoding="utf-8") as file:
             text = file.read()
-        report.claim(text.count(there) == 1, f"{name}: {text.count(there)} times {there!r}")
+        found = places(there, text)
+        report.claim(len(found) == 1, f"{name}: {len(found)} times {there!r}")
         with open(path, "w", encoding="utf-8") as file:
-            file.write(text.replace(there, before + there))
+            at = found[0].start() if found else 0
+            file.write(text[:at] + before + text[at:])
 
 
 def run(report, folder, *words):

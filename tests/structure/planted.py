@@ -3,9 +3,10 @@
 that planted.txt names beside each must fail. Rooms are folders of src/, and shaders; without
 one all rows are tried.
 
-A row that no longer fits the source is a failure, as is a fault that does not build; a test
-that crashes or does not end has found its fault. The copy lies in .build/planted and stays, so
-that the next run builds only what has changed.
+How a row and the source are broken into lines does not matter. A row that no longer fits the
+source is a failure, as is a fault that does not build; a test that crashes or does not end has
+found its fault. The copy lies in .build/planted and stays, so that the next run builds only
+what has changed.
 """
 import os
 import resource
@@ -17,7 +18,7 @@ import time
 from collections import namedtuple
 
 from layers import allowed_includes, folder_of
-from report import ROOT, Report, project_files, prune, read, sources
+from report import ROOT, Report, places, project_files, prune, read, sources
 
 TABLE = "tests/structure/planted.txt"
 COPY = os.path.join(ROOT, ".build", "planted")
@@ -134,12 +135,13 @@ def run_unplanted(report, tests):
 def try_row(report, row, limit_s):
     name = f"{row.file}, {row.what}"
     text = get(row.file)
-    count = text.count(row.there)
-    if count != 1:
-        now = [file for file in sources(".c", ".h") if row.there in get(file)]
-        report.claim(False, f"{name}: {count} times {row.there!r}; now in {now or 'no file'}")
+    found = places(row.there, text)
+    if len(found) != 1:
+        now = [file for file in sources(".c", ".h") if places(row.there, get(file))]
+        report.claim(False, f"{name}: {len(found)} times {row.there!r}; now in "
+                            f"{now or 'no file'}")
         return "does not fit"
-    put(row.file, text.replace(row.there, row.planted))
+    put(row.file, text[:found[0].start()] + row.planted + text[found[0].end():])
     try:
         said = build(f"test_{row.test}")
         if not report.claim(not said, f"{name}: is not built: {said}"):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """report.py -- counts claims and prints the broken ones, for every check written in Python."""
 import os
+import re
 import subprocess
 import sys
 
@@ -36,6 +37,12 @@ class Report:
         skipped = f", {self.skipped} skipped" if self.skipped else ""
         print(f"{self.passed} passed, {self.failed} failed{skipped}")
         sys.exit(self.failed > 0)
+
+
+def places(there, text):
+    """Where the text has these words and signs one after another, whatever blanks and ends of
+    lines stand between them: a list of matches."""
+    return list(re.finditer(r"\s*".join(map(re.escape, re.findall(r"\w+|\S", there))), text))
 
 
 def project_files():

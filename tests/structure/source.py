@@ -3,14 +3,12 @@
 import json
 import os
 import re
-import statistics
 import subprocess
 import sys
 
 from report import ROOT, Report, project_files, read, sources
 
-LONGEST_FUNCTION, MEDIAN_FUNCTION, NINE_IN_TEN = 60, 12, 40
-LONGEST_FILE, LONGEST_LINE, MOST_PARAMETERS = 600, 96, 6
+LONGEST_FUNCTION, LONGEST_FILE, LONGEST_LINE, MOST_PARAMETERS = 100, 800, 100, 6
 HAND_WRITTEN = (".c", ".h", ".cpp", ".py", ".sh", ".txt", ".md")
 SCRIPTS = (".sh", "CMakeLists.txt", "CMakePresets.json", ".ci/run", "third_party/packages")
 # Written in two halves, so that this file passes its own check.
@@ -46,13 +44,8 @@ def parameter_count(signature):
 
 def check_functions(report):
     found = list(functions(sources(".c", ".h", ".cpp")))
-    lengths = sorted(length for _, _, _, length, _ in found)
-    median = statistics.median(lengths)
-    ninth = lengths[int(len(lengths) * 0.9)]
-    print(f"{len(lengths)} functions: median {median:g} lines, 90 % within {ninth}, "
-          f"longest {lengths[-1]}")
-    report.claim(median <= MEDIAN_FUNCTION, f"median function has {median:g} lines")
-    report.claim(ninth <= NINE_IN_TEN, f"90 % of functions within {ninth} lines")
+    lengths = [length for _, _, _, length, _ in found]
+    print(f"{len(lengths)} functions, the longest of {max(lengths)} lines")
     report.claim_none(f"functions above {LONGEST_FUNCTION} lines", [
         f"{path}:{line}: {name} has {length} lines" for name, path, line, length, _ in found
         if length > LONGEST_FUNCTION and name not in exceptions("function")])
@@ -68,8 +61,9 @@ def check_lines(report):
             continue
         lines = read(name).splitlines()
         if not name.endswith((".md", ".txt")):
-            wide += [f"{name}:{i}: {len(line)} columns" for i, line in enumerate(lines, 1)
-                     if len(line) > LONGEST_LINE and name not in exceptions("columns")]
+            if not name.endswith((".c", ".h", ".cpp")):  # format.py has those
+                wide += [f"{name}:{i}: {len(line)} columns" for i, line in enumerate(lines, 1)
+                         if len(line) > LONGEST_LINE and name not in exceptions("columns")]
             unfinished += [f"{name}:{i}: {line.strip()}" for i, line in enumerate(lines, 1)
                            if UNFINISHED.search(line)]
         dead += [f"{name}:{i}: #if 0" for i, line in enumerate(lines, 1)
