@@ -4,7 +4,7 @@ do what they say.
 
 Every ```sh block of assets/guides/*.md and of README.md (but for building and installing, which
 other tests do) runs as written, each page in a folder of its own where scenes/
-and assets/ lie. A command ends with status 0, or with the one that the page states behind it:
+and assets/ lie, and its scripts: ```python blocks that begin with their file's name, `# NAME.py`. A command ends with status 0, or with the one that the page states behind it:
 `# status 1`. What it is to write is there afterwards, but for one that is refused (2 to 4), and
 so is every file that a page names. Layers of noise that it asks for hold numbers. The figures
 of a page are those that its commands print now (figures.py: how they are tied, and what --renew
@@ -52,6 +52,11 @@ def commands(text):
             if command and not command.startswith(SET_UP):
                 found.append((re.sub(r"\s+", " ", command), int(match[1]) if match else 0))
     return found
+
+
+def scripts(text):
+    """(name, text) of each ```python block that begins with its file's name: `# NAME.py`."""
+    return re.findall(r"^```python\n(?=# ([\w-]+\.py)\b)(.*?)^```", text, re.M | re.S)
 
 
 def outputs(command):
@@ -143,6 +148,9 @@ def run_page(program, name, text, keep=None, few=False):
             write_few_variants(folder)
         path = os.path.join(folder, "bin") + os.pathsep + os.environ["PATH"]
         environment = {**os.environ, **WHO, "PATH": path, "ROOT": ROOT}
+        for script, body in scripts(text):
+            with open(os.path.join(folder, script), "w", encoding="utf-8") as file:
+                file.write(body)
         for command, status in commands(text):
             done = shell(command, folder, environment)
             printed[command] = done.stdout + done.stderr
@@ -224,6 +232,8 @@ def check_can_fail(report, program):
                  "a command that fails passes for one that works")
     report.claim(commands("```sh\na \\\n  b   # status 1\n```\n") == [("a b", 1)],
                  "lines are not joined, or statuses not read")
+    report.claim(scripts("```python\n# a.py\nb\n```\n```python\nc\n```\n") ==
+                 [("a.py", "# a.py\nb\n")], "scripts are not found")
 
 
 def main():
