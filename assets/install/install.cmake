@@ -9,12 +9,13 @@ install(TARGETS parhelion RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT 
 install(TARGETS parhelion_pictures
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/parhelion COMPONENT parhelion)
 
-# ---- pages, by the program ----
+# ---- pages, of what `parhelion help --json` says ----
+find_package(Python3 COMPONENTS Interpreter REQUIRED)
 set(pages ${CMAKE_BINARY_DIR}/installed)
 add_custom_command(OUTPUT ${pages}/completions/parhelion
-  COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:parhelion> -DOUTPUT=${pages}
-    -P ${CMAKE_SOURCE_DIR}/assets/install/pages.cmake
-  DEPENDS parhelion assets/install/pages.cmake)
+  COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/assets/install/pages.py
+    $<TARGET_FILE:parhelion> ${pages}
+  DEPENDS parhelion assets/install/pages.py assets/install/completion.bash)
 add_custom_target(pages ALL DEPENDS ${pages}/completions/parhelion)
 # What `cmake --install` wants built, without the tests.
 add_custom_target(product DEPENDS parhelion parhelion_pictures pages)

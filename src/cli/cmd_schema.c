@@ -9,9 +9,9 @@
 #include "record/record_schema.h"
 #include "text/nearest_word.h"
 
-static void each_format(void (*row)(const char *name, const char *text))
+static void each_format(HelpRow *row, void *user)
 {
-    for (int i = 0; i < schema_count; i++) row(format_table[i].name, format_table[i].title);
+    for (int i = 0; i < schema_count; i++) row(user, format_table[i].name, format_table[i].title);
 }
 
 static const NamedFormat *find(const char *name, Arena *arena, Error *err)

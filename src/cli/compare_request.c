@@ -211,7 +211,7 @@ static bool check_pair_words(const Lines *words, Error *err)
                                          "--allow-extra", "--json", "--quiet", "--progress",
                                          "--threads", "--"};
     for (int i = 1; i < words->count; i++) {
-        bool is_other = cli_help_form(words->list[i]) || cli_is_version(words->list[i]);
+        bool is_other = cli_is_help(words->list[i]) || cli_is_version(words->list[i]);
         for (int k = 0; k < COUNT_OF(others); k++)
             is_other = is_other || cli_is_option(words->list[i], others[k]);
         if (is_other)

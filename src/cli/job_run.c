@@ -45,7 +45,7 @@ static bool is_elsewhere(const SharedJob *job, const char *word)
     static const char *const names[JOB_KINDS][3] = {[JOB_FRAME] = {"--replay"},
                                                     [JOB_REVIEW] = {"--init", "--dry-run",
                                                                     "--watch"}};
-    bool found = cli_help_form(word) != HELP_NONE || cli_is_version(word);
+    bool found = cli_is_help(word) || cli_is_version(word);
     for (int i = 0; i < 3 && names[job->kind][i]; i++)
         found = found || cli_is_option(word, names[job->kind][i]);
     return found;

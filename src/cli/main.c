@@ -116,7 +116,7 @@ int main(int argc, char **argv)
         return error_exit_status(ERROR_USAGE);
     }
     if (cli_is_version(argv[1])) version_print();
-    else if (cli_help_form(argv[1]) == HELP_TEXT) cmd_help_print(stdout);
+    else if (cli_is_help(argv[1])) cmd_help_print(stdout);
     else outcome = run_command(argc, argv, &err);
     bool wants_json = has_word(argc, argv, "--json");
     if (outcome == OUTCOME_FAILED && err.text[0]) return report(&err, wants_json);

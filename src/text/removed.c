@@ -10,6 +10,10 @@ const RemovedWord removed_words[] = {
     {"road", "twilight_steps", "write a condition an hour, and name them in 'conditions' of "
                                "the road"},
     {"road", "sky_cd_m2_per_lx", "add the sky's part to 'luminance_cd_m2' of the road"},
+    {"help", "--man", "the build makes the pages: man parhelion-COMMAND; help --json has all that "
+                      "they say"},
+    {"help", "--completion", "an installation has it for bash; help --json lists options and "
+                             "their values"},
     {NULL, NULL, NULL},
 };
 

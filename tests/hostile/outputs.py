@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """outputs.py PARHELION -- an output never replaces an input: of every command each option that
-takes a file (as the program itself lists them for shells) gets a file that the command reads,
+takes a file (as its value in `help --json` has it, and shells complete it) gets a file that the command reads,
 typed or named inside another file; one that writes gets each of them in turn. No byte changes,
 and an option that writes is refused with status 4.
 
@@ -9,7 +9,6 @@ Which options write is found by trying: a new name that is a file afterwards was
 import glob
 import json
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -18,7 +17,9 @@ import tempfile
 from judged_scene import ROOT, request, write_scene
 
 sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
+sys.path.insert(0, os.path.join(ROOT, "assets", "install"))
 from fault_files import RECIPE, table_text  # noqa: E402
+from pages import every_command, means_file  # noqa: E402
 from report import Report  # noqa: E402
 
 WORDS = "write over"
@@ -170,10 +171,11 @@ def make_files(program):
 
 def rows_of(program):
     """{command: its options that take a file}."""
-    text = program("help", "--completion", "bash").stdout
-    rows = re.findall(r"^    '([^']*)'\)$(.*?);;$", text, re.MULTILINE | re.DOTALL)
-    return {name: re.search(r"files='([^']*)'", body)[1].split() for name, body in rows
-            if "arguments=" in body}
+    told = json.loads(program("help", "--json").stdout)["commands"]
+    return {" ".join(words): [option["name"] for option in row["options"]
+                              if option["value"] and means_file(option["value"]) and
+                              "=" not in option["value"]]
+            for words, row in every_command(told) if "options" in row}
 
 
 def contents(folder):

@@ -30,9 +30,8 @@ ALLOWED = {("src/base/arena.c", "mmap"): "MAP_ANONYMOUS",
            ("third_party/openimageio/image_file.c", "dlopen"): "path, RTLD_NOW",
            ("src/panel/set/set_writer.c", "fwrite"): "text->data"}
 STREAM = "a stream"
-# Behind print.h; the others print the program's own tables alone, in other languages' letters.
-PRINTERS = ("src/print/print.c", "src/cli/options/man_page.c", "src/cli/options/completion.c",
-            "shaders/tables/make_tables.c")
+# Behind print.h; the other prints the program's own tables alone, in another language's letters.
+PRINTERS = ("src/print/print.c", "shaders/tables/make_tables.c")
 NETWORK = "the network"
 SENDER = "src/live/viewer_socket.c"  # the only one that may: it sends frames to who watches
 HEADERS = re.compile(r'#\s*include\s*[<"](sys/socket|netdb|netinet/|arpa/|spawn|curl)')

@@ -3,7 +3,6 @@
 #include "fixture.h"
 
 #include "cli/options/cli.h"
-#include "cli/options/guide_index.h"
 #include "base/count.h"
 #include "base/parallel.h"
 #include "cli/options/answer.h"
@@ -249,24 +248,6 @@ MEMORY_TEST(warnings_are_listed_once_each)
         "bad \\xFF bytes");
     json_decref(warnings);
     json_decref(errors);
-}
-
-/* The field's words, and the page whose section is the first that `help WORD` lists. */
-TEST(a_word_finds_the_page_about_it)
-{
-    static const char *const words[][2] = {
-        {"ugr", "reading-a-frame"}, {"veil", "glare-review"}, {"FalseColor", "reading-a-frame"},
-        {"illuminance", "reading-a-frame"}, {"ies", "scenes"}, {"epw", "glare-review"},
-        {"fisheye", "rendering"}, {"materials", "own-cockpit"}, {"slurm", "long-renders"}};
-    GuideHit hits[5];
-    for (int i = 0; i < COUNT_OF(words); i++) {
-        int count = guide_index_find(words[i][0], hits, COUNT_OF(hits));
-        if (!count || strcmp(hits[0].guide->name, words[i][1]) != 0)
-            fail_msg("%s: %s", words[i][0], count ? hits[0].guide->name : "no page");
-        for (int k = 1; k < count; k++) assert_true(hits[k - 1].score >= hits[k].score);
-    }
-    assert_int_equal(guide_index_find("xyzzyq", hits, COUNT_OF(hits)), 0);
-    assert_int_equal(guide_index_find("", hits, COUNT_OF(hits)), 0);
 }
 
 TEST_PROGRAM(make_arena, drop_arena)

@@ -13,9 +13,8 @@
 #include "base/parallel.h"
 #include "print/print.h"
 #include "bvh/bvh.h"
-#include "cli/options/completion.h"
 #include "cli/options/guides.h"
-#include "cli/options/man_page.h"
+#include "cli/options/help_json.h"
 #include "cli/options/outputs.h"
 #include "render/render.h"
 #include "text/nearest_word.h"
@@ -335,12 +334,13 @@ void cli_print_guide(const char *command)
     if (guide) print("\nguide: parhelion help %s\n", guide->name);
 }
 
-static void print_row(const char *name, const char *text)
+static void print_row(void *user, const char *name, const char *text)
 {
+    (void)user;
     print("  %-12s %s\n", name, text);
 }
 
-static void print_text(const Parser *in)
+static void print_help(const Parser *in)
 {
     const CliCommand *command = in->command;
     print("parhelion %s: %s\n\nusage: parhelion %s %s\n\n", command->name, command->summary,
@@ -351,17 +351,9 @@ static void print_text(const Parser *in)
     print("\nexample:\n  %s\n", command->example);
     if (command->each_row) {
         print("\n%s:\n", command->rows_title);
-        command->each_row(print_row);
+        command->each_row(print_row, NULL);
     }
     cli_print_guide(command->name);
-}
-
-static void print_help(const Parser *in, HelpForm form)
-{
-    if (form == HELP_MAN) man_page_print_command(in->command, in->common, in->common_count);
-    else if (form == HELP_COMPLETION)
-        completion_print_command(in->command, in->common, in->common_count);
-    else print_text(in);
 }
 
 static bool read_line(Parser *in, CliTexts *arguments)
@@ -381,11 +373,9 @@ static bool read_line(Parser *in, CliTexts *arguments)
     return true;
 }
 
-HelpForm cli_help_form(const char *word)
+bool cli_is_help(const char *word)
 {
-    if (!strcmp(word, "--help=man")) return HELP_MAN;
-    if (!strcmp(word, "--help=completion")) return HELP_COMPLETION;
-    return strcmp(word, "--help") && strcmp(word, "-h") ? HELP_NONE : HELP_TEXT;
+    return !strcmp(word, "--help") || !strcmp(word, "-h");
 }
 
 bool cli_is_version(const char *word)
@@ -394,21 +384,24 @@ bool cli_is_version(const char *word)
 }
 
 /* Help or the version is requested somewhere before `--`, and not as the value of an option:
- * then nothing else counts. Help goes first. */
-static bool asks_for_help(const Parser *in)
+ * then nothing else counts but --json. Help goes first. *prints: false: it cannot be printed. */
+static bool asks_for_help(const Parser *in, bool *prints)
 {
-    HelpForm form = HELP_NONE;
-    bool     wants_version = false;
+    bool wants_help = false, wants_version = false, wants_json = false;
+    *prints = true;
     for (int i = 1; i < in->argc && strcmp(in->argv[i], "--"); i++) {
         const char   *word = in->argv[i];
         const Option *option = word[0] == '-' ? find_option(in, word, strlen(word)) : NULL;
-        if (!form) form = cli_help_form(word);
+        wants_help = wants_help || cli_is_help(word);
+        wants_json = wants_json || !strcmp(word, "--json");
         wants_version = wants_version || cli_is_version(word);
         if (option && option->kind != OPTION_FLAG) i++;
     }
-    if (form) print_help(in, form);
+    if (wants_help && wants_json)
+        *prints = help_json_command(in->command, in->common, in->common_count, in->err);
+    else if (wants_help) print_help(in);
     else if (wants_version) version_print();
-    return form || wants_version;
+    return wants_help || wants_version;
 }
 
 /* Outputs are noted; every other text may name a file that is read. */
@@ -459,11 +452,13 @@ bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, C
                  .argc = argc, .next = 1, .argv = argv, .arena = arena, .err = err};
     assert(command->option_count + COUNT_OF(common) <= NAMES_MAX);
     CliTexts arguments = {0};
-    cli.help_shown = asks_for_help(&in);
+    bool prints;
+    cli.help_shown = asks_for_help(&in, &prints);
+    if (!prints) return false;
     if (!cli.help_shown) {
         if (!read_line(&in, &arguments)) return false;
         cli.help_shown = is_help_alone(&in);
-        if (cli.help_shown) print_help(&in, HELP_TEXT);
+        if (cli.help_shown) print_help(&in);
         else if (!count_arguments(&in, arguments.count) ||
                  !check_outputs(&in, &arguments, &cli))
             return false;

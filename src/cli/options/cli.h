@@ -46,11 +46,8 @@ typedef struct Cli {
 bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, Cli *out,
                Error *err);
 
-/* The help that a word requests: --help and -h the text, --help=man the source of a manual
- * page, --help=completion what shells complete by (completion.h). */
-typedef enum HelpForm { HELP_NONE, HELP_TEXT, HELP_MAN, HELP_COMPLETION } HelpForm;
-
-HelpForm cli_help_form(const char *word);
+/* --help or -h; with --json beside it the help is a document (help_json.h). */
+bool cli_is_help(const char *word);
 
 /* --version or -V. */
 bool cli_is_version(const char *word);

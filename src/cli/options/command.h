@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* command.h -- sub-commands: each a constant in its own file, listed in a table; and a
- * command's options as a table: what is parsed, shown by --help, printed as a manual page and
- * completed by shells.
+ * command's options as a table: what is parsed and shown by --help, of which manual pages and
+ * what shells complete are made.
  *
  * Adding one touches its file, the header of its folder that declares it, and the table that
  * lists it (cli/commands.c, cli/panel/cmd_panel.c).
@@ -82,6 +82,8 @@ typedef struct Option {
 /* What ends the help of an option that may be given many times; "" for all others. */
 const char *option_repeats(const Option *option);
 
+typedef void HelpRow(void *user, const char *name, const char *text);
+
 typedef struct CliCommand {
     const char   *name;    /* "render", "panel fit" */
     const char   *summary; /* one line, lower case, no full stop */
@@ -91,5 +93,5 @@ typedef struct CliCommand {
     int           option_count;
     int           min_arguments, max_arguments; /* max -1: any number */
     const char   *rows_title; /* of what the help lists besides: "formats"; NULL: nothing */
-    void        (*each_row)(void (*row)(const char *name, const char *text));
+    void        (*each_row)(HelpRow *row, void *user);
 } CliCommand;

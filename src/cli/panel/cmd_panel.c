@@ -5,8 +5,8 @@
 #include "base/count.h"
 #include "print/print.h"
 #include "cli/options/cli.h"
-#include "cli/options/completion.h"
-#include "cli/options/man_page.h"
+#include "cli/options/guides.h"
+#include "cli/options/help_json.h"
 #include "cli/panel/panel_commands.h"
 
 static const Command *const commands[] = {
@@ -34,20 +34,21 @@ static void print_text(void)
     cli_print_guide("panel");
 }
 
-static void print_help(HelpForm form)
+static bool print_json(Arena *arena, Error *err)
 {
-    if (form == HELP_MAN) man_page_print_group(&command_panel);
-    else if (form == HELP_COMPLETION)
-        completion_print_group(command_panel.name, commands, COMMAND_COUNT);
-    else print_text();
+    json_t *head = json_pack("{s:s, s:s, s:s}", "name", command_panel.name, "summary",
+                             command_panel.summary, "guide", guide_of_command("panel")->name);
+    return help_json_group(head, commands, COMMAND_COUNT, arena, err);
 }
 
 static Outcome run_panel(int argc, char **argv, Arena *arena, Error *err)
 {
     const char *word = argc > 1 ? argv[1] : "";
     if (cli_is_version(word)) return version_print(), OUTCOME_DONE;
-    HelpForm form = strcmp(word, "help") ? cli_help_form(word) : HELP_TEXT;
-    if (form) return print_help(form), OUTCOME_DONE;
+    if (cli_is_help(word) || !strcmp(word, "help")) {
+        bool wants_json = argc > 2 && !strcmp(argv[2], "--json");
+        return wants_json ? outcome_of(print_json(arena, err)) : (print_text(), OUTCOME_DONE);
+    }
     const Command *command = command_find(commands, COMMAND_COUNT, "panel", word, err);
     return command ? command->run(argc - 1, argv + 1, arena, err) : OUTCOME_FAILED;
 }

@@ -334,9 +334,9 @@ static bool make_request(const Words *words, Arena *arena, ImportRequest *reques
 
 /* ---- the command ------------------------------------------------------------------------- */
 
-static void each_format(void (*row)(const char *name, const char *text))
+static void each_format(HelpRow *row, void *user)
 {
-    for (int i = 0; importers[i]; i++) row(importers[i]->name, importers[i]->summary);
+    for (int i = 0; importers[i]; i++) row(user, importers[i]->name, importers[i]->summary);
 }
 
 static bool run(const Cli *cli, const Words *words, Arena *arena, Error *err)
