@@ -20,7 +20,7 @@ panels="$base src/record src/hemisphere src/image src/panel src/page src/library
 light="$panels src/import src/sky src/scene src/bvh src/light src/mirror src/keep src/guide
     src/camera src/sunlit src/path src/film src/kernel src/render shaders"
 options="$light src/denoise src/vision src/cli/ src/cli/options"
-render="$options assets src/live src/job src/cli/render"
+render="$options assets src/job src/cli/render"
 tables="$render src/plot src/cli/panel"
 review="$render src/review src/plot src/cli/review src/equip src/cli/explain"
 compare="$render src/measure src/compare"

@@ -18,7 +18,7 @@ guides_and_meeting()
 }
 
 start 'headers compile alone' headers sh tests/structure/headers.sh
-start 'no shell, one socket, no mapped file' calls python3 tests/structure/calls.py
+start 'no shell, no socket, no mapped file' calls python3 tests/structure/calls.py
 start 'folders include what they may' layers python3 tests/structure/layers.py
 start 'the module is the file' modules python3 tests/structure/modules.py
 start 'sizes and contents of the sources' source python3 tests/structure/source.py

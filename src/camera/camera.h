@@ -52,12 +52,3 @@ SceneCamera camera_look_at(Vec3 eye, Vec3 target, float yfov);
  * without triangles from the origin along -Z. Displays that face apart are seen from the front
  * of the largest; occlusion is not tested. The camera's name records which. */
 SceneCamera camera_frame_scene(const Scene *scene);
-
-/* Pixels of the whole frame, from its upper left corner. */
-typedef struct FilmBox {
-    float x0, y0, x1, y1;
-} FilmBox;
-
-/* The smallest box around all of the part that faces the camera, within the frame; false where
- * nothing does. Occlusion is not tested. */
-bool camera_box_of_part(const Camera *camera, const Scene *scene, int part_id, FilmBox *out);

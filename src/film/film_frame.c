@@ -62,12 +62,6 @@ static void add_layer(ChannelFill *to, const char *layer, const char *letters,
                     false);
 }
 
-static void add_number(ChannelFill *to, const char *name, bool is_whole, PixelReader *read)
-{
-    begin_layer(to, (ChannelSource){.kind = KIND_READ, .read = read});
-    add_channel(to, 0, name, is_whole);
-}
-
 /* Mean over `count` samples; NaN over none. */
 static void mean_of(const Fixed *sums, int size, uint32_t count, float *out)
 {
@@ -321,12 +315,6 @@ static void read_degree(const Film *film, const PixelSums *sums, float v[3])
     v[0] = xyz[1] > 0 ? sqrtf(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) / xyz[1] : NAN;
 }
 
-static void read_error(const Film *film, const PixelSums *sums, float v[3])
-{
-    (void)film;
-    v[0] = (float)pixel_sigma_y(sums);
-}
-
 static void read_luminance(const Film *film, const PixelSums *sums, float v[3])
 {
     float xyz[3];
@@ -442,68 +430,41 @@ static int channels_most(const Film *film)
     return CHANNELS_MAX + 3 * film->lights.count;
 }
 
-typedef struct FrameWish {
-    ExrWindow data;
-    int       attribute_room;
-    bool      has_layers, has_error;
-} FrameWish;
-
-static void add_wished_layers(ChannelFill *to)
-{
-    const Film *film = to->film;
-    add_layers(to);
-    add_numbers(to);
-    for (int i = 0; i < film->lights.count; i++) add_light(to, i);
-}
-
-static FrameImage make_frame(const Film *film, const FrameWish *wish, Arena *arena)
+static FrameImage make_frame(const Film *film, ExrWindow data, int attribute_room, Arena *arena)
 {
     int         most = channels_most(film);
-    FrameImage  frame = frame_create(film->width, film->height, wish->data, most,
-                                     wish->attribute_room, arena);
+    FrameImage  frame = frame_create(film->width, film->height, data, most, attribute_room,
+                                     arena);
     ChannelFill to = {film, &frame, arena, ARENA_NEW(arena, LayerPlanes, most), 0};
     add_layer(&to, "", "RGB", (ChannelSource){.kind = KIND_READ, .read = read_rgb});
-    if (wish->has_layers) add_wished_layers(&to);
-    if (wish->has_error) add_number(&to, "error.Y", false, read_error);
+    add_layers(&to);
+    add_numbers(&to);
+    for (int i = 0; i < film->lights.count; i++) add_light(&to, i);
     fill(&to);
     return frame;
 }
 
-static ExrWindow window_of(const Film *film)
-{
-    return (ExrWindow){film->crop.x0, film->crop.y0, film->crop.x1, film->crop.y1};
-}
-
 FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena)
 {
-    const FrameWish wish = {window_of(film), attribute_room, true, false};
-    return make_frame(film, &wish, arena);
+    const FilmRect crop = film->crop;
+    return make_frame(film, (ExrWindow){crop.x0, crop.y0, crop.x1, crop.y1}, attribute_room,
+                      arena);
 }
 
-FrameImage film_to_view(const Film *film, bool has_layers, Arena *arena)
-{
-    const FrameWish wish = {window_of(film), 0, has_layers, true};
-    return make_frame(film, &wish, arena);
-}
-
-FrameImage film_view_outline(const Film *film, Arena *arena)
-{
-    const FrameWish wish = {{0, 0, 0, 0}, 0, true, true};
-    return make_frame(film, &wish, arena);
-}
-
-size_t film_frame_bytes_most(const Film *film, Arena scratch)
+/* An upper bound. */
+static size_t frame_bytes_most(const Film *film, Arena scratch)
 {
     FilmRect crop = film->crop;
     size_t   pixels = (size_t)(crop.x1 - crop.x0) * (size_t)(crop.y1 - crop.y0);
-    size_t   channels = (size_t)film_view_outline(film, &scratch).channel_count;
+    size_t   channels =
+        (size_t)make_frame(film, (ExrWindow){0, 0, 0, 0}, 0, &scratch).channel_count;
     return pixels * channels * sizeof(float) + ((size_t)1 << 20);
 }
 
 bool film_has_room(const Film *film, const Arena *arena, Error *err)
 {
     FilmRect crop = film->crop;
-    size_t   wanted = film_frame_bytes_most(film, *arena), left = arena_left(arena);
+    size_t   wanted = frame_bytes_most(film, *arena), left = arena_left(arena);
     return wanted <= left ||
            error_set(err, ERROR_MEMORY,
                      "the frame of %dx%d pixels needs %zu MB of memory beside its film, %zu MB "

@@ -50,19 +50,9 @@ FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena);
 /* The fewest samples from index `first` on of which `halves` is known. */
 uint32_t film_halves_samples(uint32_t first);
 
-/* An upper bound of the bytes that a film's frame takes. */
-size_t film_frame_bytes_most(const Film *film, Arena scratch);
-
 /* False: the arena has no room for it, and hours of rendering would end without a frame. */
 bool film_has_room(const Film *film, const Arena *arena, Error *err);
 
 /* What it takes at least, with so many groups of lights: numbers of one channel are left
  * out. */
 size_t film_frame_bytes(FilmRect crop, unsigned layers, int light_count);
-
-/* The frame for a viewer: R, G, B, the layers if has_layers, and error.Y, the standard error
- * of each pixel's luminance, as film_pixel's sigma_y, cd m^-2; NaN below two samples. */
-FrameImage film_to_view(const Film *film, bool has_layers, Arena *arena);
-
-/* The channels of film_to_view with layers, in their order, without pixels. */
-FrameImage film_view_outline(const Film *film, Arena *arena);

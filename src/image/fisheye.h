@@ -36,15 +36,3 @@ static inline Vec3 fisheye_direction(Fisheye kind, float right, float up)
     }
     return vec3_normalize(vec3(right * per_radius, up * per_radius, -cosine));
 }
-
-/* The other way round; what lies behind is put on the rim. d: any length but 0. */
-static inline Vec2 fisheye_place(Fisheye kind, Vec3 d)
-{
-    float beside = sqrtf(d.x * d.x + d.y * d.y), length = vec3_length(d);
-    float sine = beside / length, radius = 1;
-    if (!(beside > 0)) return (Vec2){d.z < 0 ? 0.0f : 1.0f, 0};
-    if (d.z < 0)
-        radius = kind == FISHEYE_EQUISOLID ? sine / sqrtf(1 - d.z / length)
-                                           : atan2_f(beside, -d.z) * 0.636619772f;
-    return (Vec2){radius * d.x / beside, radius * d.y / beside};
-}

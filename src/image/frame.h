@@ -44,8 +44,6 @@
  *   display.extrapolated.{emitted,reflected}   shares of these luminances by directions that
  *                                         were not measured, NaN off
  *   display.coverage                      share of the pixel's samples that saw a display
- *   error.Y                               standard error of the luminance, cd/m2: of a frame
- *                                         that is watched (src/live); files have none
  * Attributes that give the numbers of id.* their names (strings):
  *   "parhelion:part.N"     name of part N
  *   "parhelion:display.N"  name of display N (its material)

@@ -55,9 +55,7 @@ static void render_one_tile(void *context, int item, int worker)
     uint64_t paths = sample_shares_sum(&run->job.shares, rect, run->job.first_sample,
                                        run->job.end_sample);
     uint64_t done = atomic_fetch_add(&run->paths_done, paths) + paths;
-    if (worker != 0) return;
-    progress_update(&run->progress, (double)done);
-    if (run->options->tile_ended) run->options->tile_ended(run->options->user);
+    if (worker == 0) progress_update(&run->progress, (double)done);
 }
 
 /* Of the first `samples` samples of the run, over all pixels. */

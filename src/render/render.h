@@ -53,10 +53,9 @@ typedef struct RenderOptions {
     void   (*snapshot)(void *user, const RenderResult *so_far); /* NULL: none */
     void   (*checkpoint)(void *user, const RenderResult *so_far); /* NULL: none */
     double   checkpoint_interval_s; /* at least this between two, after the pass in hand */
-    /* For viewers: after a pass that is not the last; `shown` is to be cleared before a line
-     * is printed. And often meanwhile, by the thread that called. Both NULL: none */
+    /* After a pass that is not the last; `shown` is to be cleared before a line is printed.
+     * NULL: none */
     void   (*pass_ended)(void *user, const RenderResult *so_far, const Progress *shown);
-    void   (*tile_ended)(void *user);
     void    *user;             /* of all */
     const Checkpoint *resume;  /* what was done before; NULL: nothing. It fits these options */
 } RenderOptions;

@@ -5,8 +5,8 @@
 #include <string.h>
 
 const RemovedWord removed_words[] = {
-    {"render", "--tev", "write --live FILE.exr and open that file in tev: it reads it again by "
-                        "itself"},
+    {"render", "--tev", "write --live FILE.exr and open it by `tev --watch FILE.exr`, which "
+                        "reads it again by itself"},
     {"road", "twilight_steps", "write a condition an hour, and name them in 'conditions' of "
                                "the road"},
     {"road", "sky_cd_m2_per_lx", "add the sky's part to 'luminance_cd_m2' of the road"},

@@ -271,7 +271,7 @@ def check_manifests(work):
 
 
 FOREIGN_WORDS = (("--help",), ("-V",), ("--help=man",), ("--version",), ("-o", "elsewhere.exr"),
-                 ("-o=elsewhere.exr",), ("--png", "a.png"), ("--live=a.exr",), ("--tev", "h"),
+                 ("-o=elsewhere.exr",), ("--png", "a.png"), ("--live=a.exr",),
                  ("--replay", "1,1,1"), ("--slurm", "2"), ("--job", "a"), ("--submit",),
                  ("--checkpoint", "c"), ("--resume",), ("--samples", "0:1"), ("--spp", "4"),
                  ("--crop", "0,0,4,4"), ("--noise", "0.1"), ("--threads=2",), ("--json",),
@@ -351,7 +351,7 @@ def check_lines(work):
     """What does not go with --slurm, and what goes with it alone."""
     line = ("render", "small.gltf", "-o", "refused.exr", *SMALL)
     for more, word in ((("--noise", "0.1"), "--noise"), (("--png", "a.png"), "--png"),
-                       (("--live", "b.exr"), "--live"), (("--tev", "here"), "--tev"),
+                       (("--live", "b.exr"), "--live"),
                        (("--checkpoint", "c"), "--checkpoint"), (("--resume",), "--resume"),
                        (("--replay", "1,1,1"), "--replay"), (("--slurm", "0"), "--slurm"),
                        (("--slurm", "13"), "only 12 samples"),

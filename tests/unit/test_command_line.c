@@ -25,14 +25,14 @@ ARENA_TEST(idle_words_are_left_out_on_request)
 {
     char *words[] = {"render", "a b.gltf", "--threads", "3", "--quiet", "--progress=none",
                      "--spp", "8", "-o", "f.exr", "--png=f.png", "--exposure", "auto",
-                     "--checkpoint", "x y", "--resume", "--tev", "[::1]:5", "--live=l.exr",
+                     "--checkpoint", "x y", "--resume", "--live=l.exr",
                      "--", "--quiet"};
     assert_string_equal(command_line_join(COUNT_OF(words), words, false, &arena),
                         "parhelion render 'a b.gltf' --spp 8 -- --quiet");
     assert_string_equal(command_line_join(COUNT_OF(words), words, true, &arena),
                         "parhelion render 'a b.gltf' --threads 3 --quiet --progress=none "
                         "--spp 8 -o f.exr --png=f.png --exposure auto --checkpoint 'x y' "
-                        "--resume --tev '[::1]:5' --live=l.exr -- --quiet");
+                        "--resume --live=l.exr -- --quiet");
 }
 
 TEST(what_parts_have_in_common_is_without_outputs_and_ranges)

@@ -19,6 +19,18 @@ static double angle_of(Fisheye kind, double radius)
     return kind == FISHEYE_EQUISOLID ? 2 * asin(radius / sqrt(2)) : radius * PI / 2;
 }
 
+/* The place of a direction of any length but 0; what lies behind is put on the rim. */
+static Vec2 place_of(Fisheye kind, Vec3 d)
+{
+    float beside = sqrtf(d.x * d.x + d.y * d.y), length = vec3_length(d);
+    float sine = beside / length, radius = 1;
+    if (!(beside > 0)) return (Vec2){d.z < 0 ? 0.0f : 1.0f, 0};
+    if (d.z < 0)
+        radius = kind == FISHEYE_EQUISOLID ? sine / sqrtf(1 - d.z / length)
+                                           : atan2_f(beside, -d.z) * 0.636619772f;
+    return (Vec2){radius * d.x / beside, radius * d.y / beside};
+}
+
 TEST(directions_are_those_of_the_projection)
 {
     for (Fisheye kind = FISHEYE_EQUIDISTANT; kind <= FISHEYE_EQUISOLID; kind++) {
@@ -33,7 +45,7 @@ TEST(directions_are_those_of_the_projection)
             assert_near(ray.direction.y, sin(a) * sin(turn), 2e-6);
             assert_near(ray.direction.z, -cos(a), 2e-6);
             assert_close(vec3_length(ray.direction), 1, 1e-6);
-            Vec2 back = fisheye_place(kind, vec3_scale(ray.direction, 3));
+            Vec2 back = place_of(kind, vec3_scale(ray.direction, 3));
             assert_near(back.x, right, 3e-6);
             assert_near(back.y, up, 3e-6);
         }
@@ -97,7 +109,7 @@ TEST(samples_of_a_cut_pixel_are_even_over_what_is_seen)
         Vec2    at = sampler_2d(&sampler);
         Ray     ray = camera_pixel_ray(&camera, x, y, at, &sampler);
         assert_true(ray.direction.z < 1e-6f);
-        Vec2 place = fisheye_place(FISHEYE_EQUISOLID, ray.direction);
+        Vec2 place = place_of(FISHEYE_EQUISOLID, ray.direction);
         if (place.x > -place.y) upper++;
     }
     assert_near(upper / (double)count, wanted_upper / wanted, 4 * 0.5 / sqrt(count));
@@ -125,60 +137,6 @@ TEST(the_cone_is_the_middle_pixels)
         assert_close(camera_cone(&camera).spread, vec3_length(vec3_sub(a, b)), 1e-3);
         assert_near(camera_cone(&camera).width, 0, 0);
     }
-}
-
-/* ---- boxes of parts --------------------------------------------------------------------- */
-
-static bool box_of(const Camera *camera, const Vec3 corner[3], FilmBox *out)
-{
-    Vec3     positions[3] = {corner[0], corner[1], corner[2]};
-    Triangle triangle = {{0, 1, 2}, 0};
-    Part     part = {.triangle_count = 1};
-    Scene    scene = {.positions = positions, .vertex_count = 3, .triangles = &triangle,
-                      .triangle_count = 1, .parts = &part, .part_count = 1};
-    return camera_box_of_part(camera, &scene, 0, out);
-}
-
-/* All of the triangle's places, projected, lie within, and some reach each side. */
-static void assert_tight(const Camera *camera, const Vec3 corner[3])
-{
-    FilmBox box, found = {SIZE, SIZE, 0, 0};
-    assert_true(box_of(camera, corner, &box));
-    for (int i = 0; i <= 300; i++)
-        for (int k = 0; k <= 300 - i; k++) {
-            Vec3 along = vec3_along(corner[0], vec3_sub(corner[1], corner[0]), i / 300.0f);
-            Vec3 at = vec3_along(along, vec3_sub(corner[2], corner[0]), k / 300.0f);
-            if (at.z >= 0) continue;
-            Vec2  place = fisheye_place(camera->fisheye, at);
-            float x = (1 + place.x) * SIZE / 2, y = (1 - place.y) * SIZE / 2;
-            found = (FilmBox){fminf(found.x0, x), fminf(found.y0, y), fmaxf(found.x1, x),
-                              fmaxf(found.y1, y)};
-        }
-    assert_near(box.x0, found.x0, 0.2);
-    assert_near(box.y0, found.y0, 0.2);
-    assert_near(box.x1, found.x1, 0.2);
-    assert_near(box.y1, found.y1, 0.2);
-}
-
-TEST(a_box_is_about_the_bent_edges)
-{
-    const Vec3 wide[3] = {vec3(-3, -2, -1), vec3(3, -2, -1), vec3(0.5f, 4, -1)};
-    const Vec3 side[3] = {vec3(1, -1, -0.5f), vec3(2, -0.5f, -3), vec3(1.5f, 2, -1)};
-    for (Fisheye kind = FISHEYE_EQUIDISTANT; kind <= FISHEYE_EQUISOLID; kind++) {
-        Camera camera = fisheye_of(kind);
-        assert_tight(&camera, wide);
-        const Vec3 turned[3] = {side[0], side[2], side[1]};
-        FilmBox    box;
-        assert_tight(&camera, box_of(&camera, side, &box) ? side : turned);
-    }
-}
-
-TEST(what_lies_behind_has_no_box)
-{
-    Camera     camera = fisheye_of(FISHEYE_EQUIDISTANT);
-    const Vec3 behind[3] = {vec3(-1, -1, 2), vec3(0, 1, 2), vec3(1, -1, 2)};
-    FilmBox    box;
-    assert_false(box_of(&camera, behind, &box));
 }
 
 TEST_PROGRAM(NULL, NULL)

@@ -236,7 +236,7 @@ static const struct {
     {"--location", "--where"}, {"--epw", "--weather"}, {"--denoiser", "--denoise"},
     {"--cropwindow", "--crop"}, {"--region", "--crop"}, {"--ev", "--exposure"},
     {"--tonemap", "--view"}, {"--ocio", "--config"}, {"--continue", "--resume"},
-    {"--interactive", "--tev"}, {"--preview", "--tev"}, {"--limits", "--profile"},
+    {"--interactive", "--live"}, {"--limits", "--profile"},
     {"--standard", "--profile"},
 };
 

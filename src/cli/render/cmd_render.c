@@ -378,38 +378,16 @@ static void show_pass(void *user, const RenderResult *so_far, const Progress *sh
 {
     RenderRun *work = user;
     Error      err;
-    if (!render_live_show(&work->live, so_far->film, *work->arena, &err)) {
-        progress_clear(shown);
-        warn_of(work, &err);
-    }
-    if (render_live_wants_file(&work->live) && !write_live_file(work, so_far, &err)) {
-        progress_clear(shown);
-        warn_of(work, &err);
-    }
-}
-
-static void show_on(void *user)
-{
-    RenderRun *work = user;
-    render_live_push(&work->live);
+    if (!render_live_is_due(&work->live) || write_live_file(work, so_far, &err)) return;
+    progress_clear(shown);
+    warn_of(work, &err);
 }
 
 /* The file is a copy of the frame in the end, but for a part's sums. */
 static void show_end(RenderRun *work, const RenderResult *result)
 {
     Error err;
-    if (work->live.has_file && !write_live_file(work, result, &err)) warn_of(work, &err);
-    if (!render_live_finish(&work->live, result->film, *work->arena, &err))
-        warn_of(work, &err);
-}
-
-static void find_viewer(RenderRun *work)
-{
-    RenderOptions *options = &work->request.render;
-    Error          err;
-    if (!render_live_open(&work->live, &work->request, &err)) warn_of(work, &err);
-    options->pass_ended = work->live.has_file || work->live.has_viewer ? show_pass : NULL;
-    options->tile_ended = work->live.has_viewer ? show_on : NULL;
+    if (work->live.path && !write_live_file(work, result, &err)) warn_of(work, &err);
 }
 
 /* A part of a job leaves no partial frame. */
@@ -469,7 +447,7 @@ static Outcome hand_over(RenderRun *work, const RenderResult *result, Error *err
     if (work->task) return OUTCOME_DONE;
     show_end(work, result);
     if ((work->request.png && !develop(work, result, err)) ||
-        !render_print_answer(&work->request, result, render_live_seconds(&work->live),
+        !render_print_answer(&work->request, result, work->live.spent_s,
                              &work->problems, err))
         return OUTCOME_FAILED;
     return result->complete ? OUTCOME_DONE : report_interruption(work, result, is_kept);
@@ -507,10 +485,10 @@ static Outcome run(RenderRun *work, Error *err)
     if (!check_view(work, err)) return OUTCOME_FAILED;
     if (work->request.share.parts) return outcome_of(share(work, err));
     if (!check_task(work, err)) return OUTCOME_FAILED;
-    find_viewer(work);
+    work->live = render_live_begin(&work->request);
+    if (work->live.path) options->pass_ended = show_pass;
     if (!render_prepare(work->scene, &work->camera, options, work->arena, &work->setup, err))
         return OUTCOME_FAILED;
-    render_live_find_displays(&work->live, work->scene, &work->setup.camera, work->arena);
     bool done = find_lights(work, err) && identify(work, err);
     if (done) warn_of_memory(work);
     done = done && render_prepared(&work->setup, options, work->arena, &result, err);
@@ -523,7 +501,6 @@ Outcome cmd_render_request(const RenderRequest *request, const RenderTask *task,
 {
     RenderRun work = {.request = *request, .arena = arena, .task = task};
     Outcome   outcome = run(&work, err);
-    render_live_close(&work.live);
     scene_close(work.scene);
     return outcome;
 }

@@ -21,7 +21,7 @@ static int idle_words(const char *word)
     } idle[] = {{"-o", true}, {"--png", true}, {"--false-colour", true}, {"--threads", true},
                 {"--json", false}, {"--quiet", false}, {"--progress", true},
                 {"--checkpoint", true}, {"--checkpoint-interval", true}, {"--resume", false},
-                {"--tev", true}, {"--live", true}, {"--slurm", true}, {"--split", true},
+                {"--live", true}, {"--slurm", true}, {"--split", true},
                 {"--job", true}, {"--submit", false}};
     DevelopOptions look;
     const Option   looks[] = {LOOK_OPTIONS(&look)};

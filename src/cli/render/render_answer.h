@@ -12,7 +12,7 @@ FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
                              const SceneCamera *camera, const RenderResult *result,
                              Arena *arena);
 
-/* The command's answer on stdout. live_s: seconds that showing the frame meanwhile took. */
+/* The command's answer on stdout. live_s: seconds that the file of --live took. */
 bool render_print_answer(const RenderRequest *request, const RenderResult *result,
                          double live_s, const Problems *problems, Error *err);
 

@@ -204,9 +204,9 @@ static bool check_share(const RenderWords *typed, const RenderRequest *request, 
     if (request->png)
         return refuse_shared("--png", "nothing is rendered yet — `parhelion develop` the "
                              "merged frame", err);
-    if (request->live || request->tev)
-        return refuse_shared(request->live ? "--live" : "--tev", "there is no single run to "
-                             "watch — `parhelion status` tells how far it is", err);
+    if (request->live)
+        return refuse_shared("--live", "there is no single run to watch — `parhelion status` "
+                             "tells how far it is", err);
     if (request->checkpoint || request->resumes)
         return refuse_shared(request->checkpoint ? "--checkpoint" : "--resume", "each part "
                              "has a checkpoint of its own, and goes on from it", err);
@@ -301,8 +301,6 @@ static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *
                                 &options->layers, arena, &options->eye, err))
         return false;
     if (typed->has_replay && !parse_replay(typed->replay, options, err)) return false;
-    if (request->tev && !viewer_address_parse(request->tev, &request->viewer, err))
-        return error_prefix(err, "--tev %.80s", request->tev);
     request->replays = typed->has_replay;
     request->is_part = typed->samples || typed->has_crop;
     return true;
@@ -349,15 +347,6 @@ static const char *resume_line(int argc, char **argv, bool resumes, Arena *arena
     {"--resume", OPTION_FLAG, NULL,                                                            \
      "go on from the checkpoint, to the same frame bit for bit; without one begin",            \
      &(request)->resumes}
-
-#define LIVE_OPTIONS(request)                                                                  \
-    {"--tev", OPTION_TEXT, "HOST[:PORT]",                                                      \
-     "show the frame meanwhile in a viewer that speaks tev's packets (default port 14158); "   \
-     "with --denoise the filtered picture as well, as a layer",                                \
-     &(request)->tev},                                                                         \
-    {"--live", OPTION_TEXT, "FILE.exr",                                                        \
-     "the frame so far, for any viewer: written anew about every ten seconds",                 \
-     &(request)->live, .file = OPTION_OUTPUT}
 
 #define SHARE_OPTIONS(request, typed)                                                          \
     {"--slurm", OPTION_INTEGER, "N",                                                           \
@@ -416,7 +405,9 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
         {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
          &request->render.isa},
         CHECKPOINT_OPTIONS(request, typed),
-        LIVE_OPTIONS(request),
+        {"--live", OPTION_TEXT, "FILE.exr",
+         "the frame so far, for any viewer: written anew about every ten seconds",
+         &request->live, .file = OPTION_OUTPUT},
         SHARE_OPTIONS(request, typed),
         {"--replay", OPTION_NUMBERS, "X,Y,SAMPLE", "one sample of one pixel, printed",
          typed->replay, .count = 3, .given = &typed->has_replay},

@@ -13,7 +13,6 @@
 #include "image/develop.h"
 #include "job/job.h"
 #include "job/job_share.h"
-#include "live/viewer.h"
 #include "render/render.h"
 #include "scene/scene.h"
 
@@ -24,8 +23,6 @@ typedef struct RenderRequest {
     const char   *png;    /* NULL: none */
     bool          only_png; /* the frame is not kept: output is png */
     DevelopOptions look;  /* of the png */
-    const char   *tev;    /* who is shown the frame meanwhile, as typed; NULL: nobody */
-    ViewerAddress viewer; /* the same, taken apart */
     const char   *live;   /* the file that has the frame so far; NULL: none */
     CameraChoice  camera;
     EnvironmentChange environment;
