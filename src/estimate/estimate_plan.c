@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "estimate/estimate_plan.h"
 
-long estimate_paths(const EstimatePlan *plan, long pilot)
+/* Paths that will do, the fewest; the most there are, where none will. */
+static long estimate_paths(const EstimatePlan *plan, long pilot)
 {
     long paths = plan->least;
     while (2 * paths <= plan->most && !plan->will_do(plan->user, pilot, paths)) paths *= 2;

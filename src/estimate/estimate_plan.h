@@ -23,9 +23,6 @@ typedef struct EstimatePlan {
                                                         the pilot of so many found? */
 } EstimatePlan;
 
-/* Paths that will do, the fewest; the most there are, where none will. */
-long estimate_paths(const EstimatePlan *plan, long pilot);
-
 /* Reads the pilot, and reports how many fresh ones there should be. No pilot is read where
  * there is no choice. */
 long estimate_plan(const EstimatePlan *plan);

@@ -70,46 +70,12 @@ static void start_path(const ProbeAim *aim, int path, PathStatistics *statistics
 
 /* ---- by the light that is there ---------------------------------------------------------- */
 
-static int display_of(const Scene *scene, int part_id)
-{
-    return scene->materials[scene->parts[part_id].material_id].display_id;
-}
-
-/* The light's last turn before it came to the eye; NULL: it came straight. */
-static const PathStep *turn_of(const PathHistory *history)
-{
-    for (int i = 0; i < path_steps_kept(history); i++)
-        if (history->step[i].event != PATH_TRANSMITS) return &history->step[i];
-    return NULL;
-}
-
-/* Sums of the light that displays send. */
-typedef struct OwnSums {
-    const Scene *scene;
-    bool         of_meter;
-    ProbeOwn    *display;
-} OwnSums;
-
-static void add_display(void *user, const PathHistory *history, const float xyz[3])
-{
-    const OwnSums  *sums = user;
-    const PathStep *turn = turn_of(history);
-    int             display = display_of(sums->scene, history->source_id);
-    if (display == NO_ID || (!turn && !sums->of_meter)) return;
-    sums->display[display].reflected += xyz[1];
-    if (!sums->of_meter && turn->event == PATH_REFLECTS &&
-        display_of(sums->scene, turn->part_id) != NO_ID)
-        sums->display[display].mirror += xyz[1];
-}
-
 static void look(const ProbeAim *aim, int path, ProbeLook *out, PathStatistics *statistics)
 {
     ProbePath    own;
     SeenLight    seen;
     float        emitted[3];
-    OwnSums      sums = {aim->context->scene, false, out->display};
-    PathListener listener = {.on_light = add_display, .user = &sums, .of_emitters = true};
-    SeenRequest  request = {.listener = aim->by_display ? &listener : NULL};
+    SeenRequest  request = {.listener = NULL};
     *out = (ProbeLook){.is_found = false};
     start_path(aim, path, statistics, &own);
     path_seen(&own.start, own.ray, &request, &seen);
@@ -130,12 +96,8 @@ static void read_meter(const ProbeAim *aim, int path, ProbeLook *out,
                        PathStatistics *statistics)
 {
     ProbePath    own;
-    OwnSums      sums = {aim->context->scene, true, out->display};
-    PathListener listener = {.on_light = add_display, .user = &sums, .of_emitters = true};
-    HistoryCollector by_way = history_collector(&listener, NULL);
     *out = (ProbeLook){.is_found = true};
     start_path(aim, path, statistics, &own);
-    if (aim->by_display) own.start.collector = &by_way.base;
     path_from_point(&own.start, *aim->meter, out->reflected);
 }
 

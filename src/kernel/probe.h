@@ -26,8 +26,6 @@ typedef struct ProbePixel {
     int           x, y;
 } ProbePixel;
 
-#define PROBE_DISPLAYS 16 /* whose light looks can keep apart */
-
 /* An eye and the points that it looks at, one path each; more paths than points begin again. */
 typedef struct ProbeAim {
     const PathContext *context;
@@ -39,16 +37,9 @@ typedef struct ProbeAim {
     bool            is_spread; /* paths take points by chance, evenly, however few they are */
     const LitPoint *meter;     /* a luxmeter instead: eye and targets do not count; or NULL */
     const ProbePixel *pixel;   /* a frame's pixel instead of targets; or NULL */
-    bool            by_display; /* looks keep the light of each display apart; of a scene of at
-                                   most PROBE_DISPLAYS of them */
     const Curve    *colour;    /* of glasses before an eye: weighs each wavelength; NULL: 1 */
     uint32_t        seed;
 } ProbeAim;
-
-/* Y of what a display sends, as `reflected` and `mirror` count it. */
-typedef struct ProbeOwn {
-    float reflected, mirror;
-} ProbeOwn;
 
 /* The light that one path found, XYZ. */
 typedef struct ProbeLook {
@@ -56,8 +47,6 @@ typedef struct ProbeLook {
     float mirror[3];    /* of it, via a display's mirror */
     bool  is_found;     /* the first surface is a display, or a luxmeter's; else these are 0 */
     int   target;       /* of the aim, that it went to; of a luxmeter or a pixel 0 */
-    ProbeOwn display[PROBE_DISPLAYS]; /* of these, what each of the scene's displays sends, if
-                                         the aim requests it; else 0 */
 } ProbeLook;
 
 /* HOT. Path i of [first, end) fills out[i - first]. */

@@ -138,7 +138,6 @@ static PathLight light_of(const PathFound *found)
 static void on_light(PathCollector *c, PathState *path, const PathFound *found)
 {
     const PathListener *listener = ((HistoryCollector *)c)->listener;
-    if (found->set != LIGHTS_EMITTERS && listener->of_emitters) return;
     PathLight   light = light_of(found);
     PathHistory history = *history_of(c);
     Spectrum    lanes = light.radiance;

@@ -71,7 +71,6 @@ typedef struct PathListener {
     void  *user;
     bool   with_lanes;  /* displays' lanes are requested, too */
     bool   with_extrapolated; /* is_extrapolated is requested, too */
-    bool   of_emitters; /* it gets these alone */
     bool   is_polarised; /* light counts by how it is polarised, as the context's eye has it */
     PathReach reach;
 } PathListener;

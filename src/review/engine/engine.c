@@ -54,17 +54,8 @@ static bool run_steps(const ReviewRun *run, const ReviewSteps *steps, ReviewOutc
 bool review_run(const ReviewRun *run, const ReviewSteps *steps, Arena *arena,
                 ReviewOutcome *out, Error *err)
 {
-    ReviewRun  own = *run;
-    Inherited *inherited = run->request->is_compared ? inherited_start(run->request) : NULL;
-    own.means.inherited = inherited;
-    review_riders_start(&own, steps->with_sensitivities, arena);
-    bool ok = review_run_conditions(&own, arena, out, err);
-    if (ok) {
-        out->review.is_strict = steps->is_strict;
-        review_decide(&out->review);
-        ok = run_steps(&own, steps, out, arena, err);
-    }
-    review_riders_end(&own);
-    inherited_end(inherited);
-    return ok;
+    if (!review_run_conditions(run, arena, out, err)) return false;
+    out->review.is_strict = steps->is_strict;
+    review_decide(&out->review);
+    return run_steps(run, steps, out, arena, err);
 }

@@ -22,7 +22,6 @@ typedef struct ReviewSteps {
     void  *user;
 } ReviewSteps;
 
-/* The run's riders and inherited are the engine's own. Pictures and checkpoints are written
- * into the run's folders; nothing else is written here. */
+/* Pictures and checkpoints are written into the run's folders; nothing else is written here. */
 bool review_run(const ReviewRun *run, const ReviewSteps *steps, Arena *arena,
                 ReviewOutcome *out, Error *err);

@@ -45,7 +45,7 @@ Reading setup_read_on(const Setup *setup, const ProbeAim *aim, const ReadingGoal
         plain.most = read_on_paths(reading.paths, left);
         if (!plain.most) break;
         own.seed = hash_combine(own.seed, SEED);
-        reading = setup_read(setup, &own, &plain, scratch);
+        reading = reading_take(&own, &plain, &setup->tools, scratch);
         widen(&reading, read_on_widening(round));
         left -= reading.paths;
     }

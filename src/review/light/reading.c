@@ -16,10 +16,7 @@
 #include "guide/guide_file.h"
 #include "render/identity.h"
 #include "render/signals.h"
-#include "review/light/reading_batch.h"
 #include "review/light/response_suns.h"
-
-/* ---- x ----------------------------------------------------------------------------------- */
 
 static void add_floats(XXH3_state_t *state, Vec3 v)
 {
@@ -105,6 +102,15 @@ JournalKey question_key(const Question *question, const ProbeAim *aim, Arena scr
 #define PILOT_SEED 0x70696c6fu
 #define PIECE 64 /* paths that are looked at together */
 
+/* The sums of one batch of a reading's paths. */
+typedef struct Batch {
+    double reflected, mirror;
+    long   found;
+    long   sky_finds; /* PathStatistics' */
+    double sent_on;
+    BrightSamples bright;
+} Batch;
+
 /* Paths that go on where they ended. */
 typedef struct Stream {
     ProbeAim      aim;
@@ -126,6 +132,16 @@ static void add_targets(TargetLight *to, const ProbeLook *looks, int count)
     }
 }
 
+static void add_looks(Batch *to, const ProbeLook *looks, int count)
+{
+    for (int i = 0; i < count; i++) {
+        to->reflected += (double)looks[i].reflected[1];
+        to->mirror += (double)looks[i].mirror[1];
+        bright_add(&to->bright, (double)looks[i].reflected[1]);
+        to->found += looks[i].is_found;
+    }
+}
+
 static void read_batch(void *user, int item, int worker)
 {
     (void)worker;
@@ -139,7 +155,7 @@ static void read_batch(void *user, int item, int worker)
         if (signals_stop_requested()) return;
         int end = first + PIECE < stream->end ? first + PIECE : stream->end;
         stream->kernel->look(&aim, first, end, looks, &statistics);
-        reading_batch_add(&stream->batches[item], looks, end - first, aim.by_display);
+        add_looks(&stream->batches[item], looks, end - first);
         if (stream->targets)
             add_targets(stream->targets + (size_t)item * (size_t)aim.target_count, looks,
                         end - first);
@@ -240,15 +256,6 @@ static bool is_decided(const Reading *reading, const ReadingGoal *goal, Arena sc
            question->is_decided(question->user, reading->interval, scratch);
 }
 
-/* ---- under other levels ------------------------------------------------------------------ */
-
-/* All that a shared reading is made of. */
-typedef struct ReadingParts {
-    Batch  pilot[BATCHES], fresh[BATCHES];
-    int    pilot_paths, paths; /* in every batch */
-    double seconds;
-} ReadingParts;
-
 /* ---- one stream -------------------------------------------------------------------------- */
 
 static Stream stream_start(const ProbeAim *aim, const ReadingTools *tools, Arena *arena)
@@ -264,12 +271,6 @@ static Reading stream_read(Stream *stream, long paths, const ReadingGoal *goal)
     parallel_for(stream->threads, BATCHES, read_batch, stream);
     stream->first = stream->end;
     return reading_of(&stream->aim, stream->batches, stream->end, goal->known);
-}
-
-static void keep_stream(const Stream *stream, Batch *batches, int *paths)
-{
-    memcpy(batches, stream->batches, BATCHES * sizeof *batches);
-    *paths = stream->end;
 }
 
 /* ---- a pilot, and what it requires ------------------------------------------------------- */
@@ -311,7 +312,7 @@ static EstimatePlan plan_of(PilotWork *work)
 }
 
 static Reading take_planned(const ProbeAim *aim, const ReadingGoal *goal,
-                            const ReadingTools *tools, ReadingParts *parts, Arena scratch)
+                            const ReadingTools *tools, Arena scratch)
 {
     Stream    fresh = stream_start(aim, tools, &scratch);
     PilotWork work = {.stream = stream_start(aim, tools, &scratch), .goal = goal};
@@ -320,24 +321,16 @@ static Reading take_planned(const ProbeAim *aim, const ReadingGoal *goal,
     EstimatePlan plan = plan_of(&work);
     long         paths = estimate_plan(&plan);
     if (goal->times > 1) paths *= goal->times;
-    Reading reading = stream_read(&fresh, paths > goal->least ? paths : goal->least, goal);
-    if (!parts) return reading;
-    keep_stream(&work.stream, parts->pilot, &parts->pilot_paths);
-    keep_stream(&fresh, parts->fresh, &parts->paths);
-    return reading;
+    return stream_read(&fresh, paths > goal->least ? paths : goal->least, goal);
 }
 
-/* parts: NULL: not requested. */
 static Reading take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
-                    ReadingParts *parts, Arena scratch)
+                    Arena scratch)
 {
-    double   start = monotonic_seconds();
-    ProbeAim own = *aim;
-    own.by_display = parts != NULL;
-    Reading reading = take_planned(&own, goal, tools, parts, scratch);
+    double  start = monotonic_seconds();
+    Reading reading = take_planned(aim, goal, tools, scratch);
     reading.reached = uncertainty(&reading, goal);
     reading.seconds = monotonic_seconds() - start;
-    if (parts) parts->seconds = reading.seconds;
     return reading;
 }
 
@@ -362,25 +355,6 @@ static JournalKey key_of(const ProbeAim *aim, const ReadingGoal *goal,
     return question_key(&question, aim, scratch);
 }
 
-/* Without emitted light and number of paths, in which shared readings differ. */
-static JournalKey parts_key(const ProbeAim *aim, const ReadingGoal *goal,
-                            const ReadingTools *tools, Arena scratch)
-{
-    const ReadingQuestion *asked = goal->question;
-    double   numbers[] = {goal->precision, (double)goal->most, goal->known,
-                          asked ? asked->precision : 0};
-    Question question = {.base = tools->base,
-                         .kind = arena_format(&scratch, "parts, %s",
-                                              asked ? asked->name : "reading"),
-                         .numbers = numbers, .number_count = COUNT_OF(numbers)};
-    return question_key(&question, aim, scratch);
-}
-
-static int displays_of(const ProbeAim *aim)
-{
-    return aim->context->scene->display_count;
-}
-
 /* No plan requires more: whoever kept it took no more. */
 static long most_paths(const ReadingGoal *goal)
 {
@@ -401,109 +375,22 @@ static bool is_sound(const Reading *reading, const ReadingGoal *goal)
     return ok;
 }
 
-static size_t parts_bytes(int displays)
-{
-    return 2 * BATCHES * reading_batch_bytes(displays) + 2 * sizeof(int) + sizeof(double);
-}
-
-static void keep_parts(Journal *journal, JournalKey key, const ReadingParts *parts,
-                       int displays, Arena scratch)
-{
-    unsigned char *bytes = ARENA_NEW(&scratch, unsigned char, parts_bytes(displays));
-    unsigned char *to = bytes;
-    const int      paths[2] = {parts->pilot_paths, parts->paths};
-    reading_batches_pack(parts->pilot, displays, &to);
-    reading_batches_pack(parts->fresh, displays, &to);
-    memcpy(to, paths, sizeof paths);
-    memcpy(to + sizeof paths, &parts->seconds, sizeof parts->seconds);
-    keep(journal, key, bytes, parts_bytes(displays));
-}
-
-/* Who was given a number of paths had no pilot. */
-static bool find_parts(const Journal *journal, JournalKey key, int displays, long most,
-                       ReadingParts *parts, Arena scratch)
-{
-    unsigned char       *bytes = ARENA_NEW(&scratch, unsigned char, parts_bytes(displays));
-    const unsigned char *from = bytes;
-    int                  paths[2];
-    if (!journal_find(journal, key, bytes, parts_bytes(displays))) return false;
-    reading_batches_unpack(&from, displays, parts->pilot);
-    reading_batches_unpack(&from, displays, parts->fresh);
-    memcpy(paths, from, sizeof paths);
-    memcpy(&parts->seconds, from + sizeof paths, sizeof parts->seconds);
-    parts->pilot_paths = paths[0];
-    parts->paths = paths[1];
-    return paths[0] >= 0 && paths[0] <= most / BATCHES && paths[1] > 0 &&
-           paths[1] <= most / BATCHES &&
-           reading_batches_are_sound(parts->pilot, paths[0], displays) &&
-           reading_batches_are_sound(parts->fresh, paths[1], displays);
-}
-
 static bool find_reading(const Journal *journal, JournalKey key, const ReadingGoal *goal,
                          Reading *out)
 {
     return journal_find(journal, key, out, sizeof *out) && is_sound(out, goal);
 }
 
-/* A reading that was kept before anybody shared it is taken again, with the same result. */
-static Reading take_shared(const ProbeAim *aim, const ReadingGoal *goal,
-                           const ReadingTools *tools, Arena scratch)
-{
-    Reading       reading;
-    ReadingParts *parts = ARENA_NEW(&scratch, ReadingParts, 1);
-    JournalKey key = key_of(aim, goal, tools, scratch);
-    JournalKey shared = parts_key(aim, goal, tools, scratch);
-    if (find_reading(tools->journal, key, goal, &reading) &&
-        find_parts(tools->journal, shared, displays_of(aim), most_paths(goal), parts, scratch))
-        return reading;
-    reading = take(aim, goal, tools, parts, scratch);
-    keep_parts(tools->journal, shared, parts, displays_of(aim), scratch);
-    keep(tools->journal, key, &reading, sizeof reading);
-    return reading;
-}
-
 Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
                      Arena scratch)
 {
     Reading reading;
-    if (!tools->journal) return take(aim, goal, tools, NULL, scratch);
-    if (goal->is_shared && displays_of(aim) <= PROBE_DISPLAYS)
-        return take_shared(aim, goal, tools, scratch);
+    if (!tools->journal) return take(aim, goal, tools, scratch);
     JournalKey key = key_of(aim, goal, tools, scratch);
     if (find_reading(tools->journal, key, goal, &reading)) return reading;
-    reading = take(aim, goal, tools, NULL, scratch);
+    reading = take(aim, goal, tools, scratch);
     keep(tools->journal, key, &reading, sizeof reading);
     return reading;
-}
-
-/* Would the reading have been taken by as many paths? */
-static bool is_enough(const ProbeAim *aim, const ReadingParts *parts, const Reading *reading,
-                      const ReadingGoal *goal, Arena scratch)
-{
-    PilotWork    work = {.stream.aim = *aim, .goal = goal, .scratch = scratch,
-                         .reading = reading_of(aim, parts->pilot, parts->pilot_paths,
-                                               goal->known)};
-    EstimatePlan plan = plan_of(&work);
-    return estimate_paths(&plan, work.reading.paths) <= reading->paths;
-}
-
-bool reading_scaled(const ProbeAim *aim, const ReadingGoal *goal, const double *scale,
-                    const ReadingTools *tools, Arena scratch, Reading *out)
-{
-    int           displays = displays_of(aim);
-    ReadingParts *parts = ARENA_NEW(&scratch, ReadingParts, 1);
-    if (!tools->journal || displays > PROBE_DISPLAYS ||
-        !find_parts(tools->journal, parts_key(aim, goal, tools, scratch), displays,
-                    most_paths(goal), parts, scratch))
-        return false;
-    reading_batches_scale(parts->pilot, scale, displays);
-    reading_batches_scale(parts->fresh, scale, displays);
-    Reading reading = reading_of(aim, parts->fresh, parts->paths, goal->known);
-    if (!is_enough(aim, parts, &reading, goal, scratch)) return false;
-    reading.reached = uncertainty(&reading, goal);
-    reading.seconds = parts->seconds;
-    *out = reading;
-    return true;
 }
 
 /* ---- target by target -------------------------------------------------------------------- */
@@ -513,15 +400,14 @@ static size_t targets_bytes(const ProbeAim *aim)
     return (size_t)aim->target_count * sizeof(TargetLight);
 }
 
-static void trace_field(const ProbeAim *aim, const FieldArgs *args, const ReadingTools *tools,
+static void trace_field(const ProbeAim *aim, long paths, const ReadingTools *tools,
                         Batch *batches, TargetLight *targets, Arena scratch)
 {
     ReadingGoal goal = {.known = 0};
     size_t      count = (size_t)aim->target_count;
     Stream      stream = stream_start(aim, tools, &scratch);
-    stream.aim.by_display = args->is_shared;
     stream.targets = ARENA_NEW(&scratch, TargetLight, BATCHES * count);
-    stream_read(&stream, args->paths, &goal);
+    stream_read(&stream, paths, &goal);
     for (size_t i = 0; i < BATCHES * count; i++) {
         TargetLight *to = &targets[i % count];
         to->paths += stream.targets[i].paths;
@@ -531,19 +417,32 @@ static void trace_field(const ProbeAim *aim, const FieldArgs *args, const Readin
     memcpy(batches, stream.batches, BATCHES * sizeof *batches);
 }
 
-static JournalKey field_key(const ProbeAim *aim, const FieldArgs *args,
-                            const ReadingTools *tools, Arena scratch)
+static JournalKey field_key(const ProbeAim *aim, long paths, const ReadingTools *tools,
+                            Arena scratch)
 {
-    double   numbers[] = {(double)args->paths, args->is_shared};
+    double   numbers[] = {(double)paths};
     Question question = {.base = tools->base, .kind = "field", .numbers = numbers,
                          .number_count = COUNT_OF(numbers)};
     return question_key(&question, aim, scratch);
 }
 
-static bool field_is_sound(const ProbeAim *aim, const FieldArgs *args,
-                           const TargetLight *targets, const Batch *batches, int displays)
+/* A sum of numbers is finite only if each of them is. */
+static bool batches_are_sound(const Batch *batches, long paths)
 {
-    bool ok = reading_batches_are_sound(batches, args->paths / BATCHES, displays);
+    bool ok = true;
+    for (int i = 0; i < BATCHES; i++) {
+        const Batch *b = &batches[i];
+        ok = ok && isfinite(b->reflected + b->mirror + b->sent_on + b->bright.squares +
+                            b->bright.fourths) &&
+             b->found >= 0 && b->found <= paths && b->sky_finds >= 0;
+    }
+    return ok;
+}
+
+static bool field_is_sound(const ProbeAim *aim, long paths, const TargetLight *targets,
+                           const Batch *batches)
+{
+    bool ok = batches_are_sound(batches, paths / BATCHES);
     for (int i = 0; i < aim->target_count; i++)
         ok = ok && targets[i].paths >= 0 && isfinite(targets[i].paths) &&
              isfinite(targets[i].sum) && isfinite(targets[i].squares);
@@ -551,35 +450,29 @@ static bool field_is_sound(const ProbeAim *aim, const FieldArgs *args,
 }
 
 /* Kept: the targets, then the batches. */
-static void find_field(const ProbeAim *aim, const FieldArgs *args, const ReadingTools *tools,
+static void find_field(const ProbeAim *aim, long paths, const ReadingTools *tools,
                        Batch *batches, TargetLight *targets, Arena scratch)
 {
-    int            displays = args->is_shared ? displays_of(aim) : 0;
-    size_t         bytes = targets_bytes(aim) + BATCHES * reading_batch_bytes(displays);
+    size_t         bytes = targets_bytes(aim) + BATCHES * sizeof *batches;
     unsigned char *kept = ARENA_NEW(&scratch, unsigned char, bytes);
-    unsigned char *to = kept + targets_bytes(aim);
-    const unsigned char *from = to;
-    JournalKey     key = field_key(aim, args, tools, scratch);
+    JournalKey     key = field_key(aim, paths, tools, scratch);
     if (journal_find(tools->journal, key, kept, bytes)) {
         memcpy(targets, kept, targets_bytes(aim));
-        reading_batches_unpack(&from, displays, batches);
-        if (field_is_sound(aim, args, targets, batches, displays)) return;
+        memcpy(batches, kept + targets_bytes(aim), BATCHES * sizeof *batches);
+        if (field_is_sound(aim, paths, targets, batches)) return;
         memset(targets, 0, targets_bytes(aim));
     }
-    trace_field(aim, args, tools, batches, targets, scratch);
+    trace_field(aim, paths, tools, batches, targets, scratch);
     memcpy(kept, targets, targets_bytes(aim));
-    reading_batches_pack(batches, displays, &to);
+    memcpy(kept + targets_bytes(aim), batches, BATCHES * sizeof *batches);
     keep(tools->journal, key, kept, bytes);
 }
 
-Reading reading_field(const ProbeAim *aim, const FieldArgs *asked, const ReadingTools *tools,
+Reading reading_field(const ProbeAim *aim, long paths, double known, const ReadingTools *tools,
                       TargetLight *targets, Arena scratch)
 {
-    FieldArgs args = *asked;
-    Batch   *batches = ARENA_NEW(&scratch, Batch, BATCHES);
-    args.is_shared = args.is_shared && displays_of(aim) <= PROBE_DISPLAYS;
-    if (tools->journal) find_field(aim, &args, tools, batches, targets, scratch);
-    else trace_field(aim, &args, tools, batches, targets, scratch);
-    if (args.scale) reading_batches_scale(batches, args.scale, displays_of(aim));
-    return reading_of(aim, batches, (int)(args.paths / BATCHES), args.known);
+    Batch *batches = ARENA_NEW(&scratch, Batch, BATCHES);
+    if (tools->journal) find_field(aim, paths, tools, batches, targets, scratch);
+    else trace_field(aim, paths, tools, batches, targets, scratch);
+    return reading_of(aim, batches, (int)(paths / BATCHES), known);
 }

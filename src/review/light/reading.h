@@ -66,8 +66,6 @@ typedef struct ReadingGoal {
     double known;            /* the part by the display's mirror: paths leave it out
                                 (path_context.h); it is added, with the error of
                                 response_mirror_paths */
-    bool   is_shared;        /* reading_scaled will be called: what it needs is kept. Counts of
-                                scenes with no more than PROBE_DISPLAYS displays */
     const ReadingQuestion *question; /* NULL: none */
 } ReadingGoal;
 
@@ -103,22 +101,8 @@ typedef struct Reading {
 Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
                      Arena scratch);
 
-/* The reading by the same paths with light of displays times scale[display]: of a reading that
- * was shared, by its aim and goal but for emitted light and how it may be decided. Its paths do
- * not depend on its result: the pilot requires as many, or it is not returned. False: it is not
- * known, or takes more paths. */
-bool reading_scaled(const ProbeAim *aim, const ReadingGoal *goal, const double *scale,
-                    const ReadingTools *tools, Arena scratch, Reading *out);
-
-/* A reading that also reports which target sends how much: to find what is read then. */
-typedef struct FieldArgs {
-    long          paths;     /* as many, whatever they find: a multiple of READING_BATCHES */
-    double        known;     /* as a goal's */
-    bool          is_shared; /* displays may be scaled, as in reading_scaled */
-    const double *scale;     /* [display]; NULL: by the light that is there */
-} FieldArgs;
-
-/* targets: [aim->target_count] 0 before; what is known and scaled is not in them. Of a scene
- * with more than PROBE_DISPLAYS displays nothing may be scaled. */
-Reading reading_field(const ProbeAim *aim, const FieldArgs *args, const ReadingTools *tools,
+/* A reading of `paths` paths, whatever they find (a multiple of READING_BATCHES), that also
+ * reports which target sends how much: to find what is read then. known: as a goal's; not in
+ * targets, which are [aim->target_count] 0 before. */
+Reading reading_field(const ProbeAim *aim, long paths, double known, const ReadingTools *tools,
                       TargetLight *targets, Arena scratch);

@@ -151,8 +151,7 @@ bool setup_open(const SetupOptions *options, Arena *arena, Problems *problems, S
     *out = (Setup){.request = options->request, .condition = options->condition,
                    .tools = {.threads = options->means.threads,
                              .journal = options->means.journal},
-                   .sensor_lux = (double)NAN, .guides = options->means.guides,
-                   .inherited = options->means.inherited};
+                   .sensor_lux = (double)NAN, .guides = options->means.guides};
     if (!kernel_choose(options->means.isa, &out->tools.kernel, err)) return false;
     if (!load_even(&scene, arena, problems, &out->scene, err)) return false;
     if (!bvh_create(out->scene, options->means.threads, options->means.isa, &out->bvh, err)) {
@@ -276,111 +275,6 @@ bool setup_light_again(Setup *setup, const Setup *before, const Environment *env
     return setup_light(setup, environment, arena, err);
 }
 
-/* ---- other levels under the same light --------------------------------------------------- */
-
-/* NULL: from what is dark there is no way to what shines. */
-static const double *scale_of(const Scene *scene, const float *levels, Arena *arena)
-{
-    double *scale = ARENA_NEW(arena, double, scene->display_count);
-    for (int i = 0; i < scene->display_count; i++) {
-        float stands = scene->displays[i].level;
-        if (!(stands > 0) && levels[i] > 0) return NULL;
-        scale[i] = stands > 0 ? (double)levels[i] / (double)stands : 1;
-    }
-    return scale;
-}
-
-Setup setup_beside(const Setup *of, const ReviewRequest *request, Arena *arena, Arena room,
-                   SetupOther *other)
-{
-    const Scene *scene = of->scene;
-    int    level_id = of->condition->level_id;
-    float *levels = ARENA_NEW(arena, float, scene->display_count);
-    Setup  out = *of;
-    out.request = request;
-    out.is_shared = false;
-    for (int i = 0; i < scene->display_count; i++)
-        levels[i] = (float)setup_level_of(&out,
-                                          level_id != NO_ID ? &request->levels[level_id] : NULL,
-                                          i, scene->displays[i].name, of->sensor_lux);
-    *other = (SetupOther){.levels = levels, .scale = scale_of(scene, levels, arena),
-                          .room = room};
-    out.other = other;
-    return out;
-}
-
-static void swap_levels(const Setup *setup)
-{
-    float *levels = setup->other->levels;
-    for (int i = 0; i < setup->scene->display_count; i++) {
-        float before = setup->scene->displays[i].level;
-        setup->scene->displays[i].level = levels[i];
-        levels[i] = before;
-    }
-}
-
-Setup setup_lit(const Setup *setup)
-{
-    SetupOther *other = setup->other;
-    Setup       out = *setup;
-    if (!other) return out;
-    swap_levels(setup);
-    if (!other->is_lit) {
-        const Lights *lights = lights_with_levels(setup->context.lights, &other->room);
-        other->context = path_context_relight(&setup->context, lights, &other->room);
-        other->context.guide = setup->context.guide;
-        other->is_lit = true;
-    }
-    out.context = other->context;
-    out.other = NULL;
-    return out;
-}
-
-void setup_unlight(const Setup *setup)
-{
-    if (setup->other) swap_levels(setup);
-}
-
-Reading setup_read(const Setup *setup, const ProbeAim *aim, const ReadingGoal *asked,
-                   Arena scratch)
-{
-    const SetupOther *other = setup->other;
-    ReadingGoal       goal = *asked;
-    ProbeAim          own = *aim;
-    Reading           reading;
-    goal.is_shared = setup->is_shared;
-    if (!other) return reading_take(aim, &goal, &setup->tools, scratch);
-    if (other->scale &&
-        reading_scaled(aim, &goal, other->scale, &setup->tools, scratch, &reading))
-        return reading;
-    Setup lit = setup_lit(setup);
-    lit.context.without_mirrored_sun = aim->context->without_mirrored_sun;
-    lit.context.eye = aim->context->eye;
-    own.context = &lit.context;
-    reading = reading_take(&own, &goal, &setup->tools, scratch);
-    setup_unlight(setup);
-    return reading;
-}
-
-Reading setup_field(const Setup *setup, const ProbeAim *aim, long paths, double known,
-                    TargetLight *targets, Arena scratch)
-{
-    const SetupOther *other = setup->other;
-    bool     is_few = setup->scene->display_count <= PROBE_DISPLAYS;
-    FieldArgs args = {paths, known, setup->is_shared || other, other ? other->scale : NULL};
-    if (!other || (other->scale && is_few))
-        return reading_field(aim, &args, &setup->tools, targets, scratch);
-    ProbeAim own = *aim;
-    Setup    lit = setup_lit(setup);
-    lit.context.without_mirrored_sun = aim->context->without_mirrored_sun;
-    lit.context.eye = aim->context->eye;
-    own.context = &lit.context;
-    args.scale = NULL;
-    Reading reading = reading_field(&own, &args, &setup->tools, targets, scratch);
-    setup_unlight(setup);
-    return reading;
-}
-
 /* ---- the sun ----------------------------------------------------------------------------- */
 
 #define SUN_DRAWS 16
@@ -445,12 +339,6 @@ Vec3 setup_direction(const Setup *setup, SunAngles angles)
     Vec3 along = vec3_add(vec3_scale(ahead, (float)(level * cos(azimuth))),
                           vec3_scale(right, (float)(level * sin(azimuth))));
     return vec3_normalize(vec3(along.x, (float)sin(elevation), along.z));
-}
-
-double setup_level(const Setup *setup, int display_id)
-{
-    return (double)(setup->other ? setup->other->levels[display_id]
-                                 : setup->scene->displays[display_id].level);
 }
 
 /* ---- eyes -------------------------------------------------------------------------------- */
@@ -524,8 +412,7 @@ static bool read_guide(Setup *setup, const char *file, Arena *arena)
            guide_read(file, &scene, arena, &setup->context.guide, &ignored);
 }
 
-/* A guide from the setup's folder, or a new one. */
-static void train(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena)
+void trained_guide_take(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena)
 {
     SceneCamera    look = camera_look_at(eye, vec3_add(eye, towards),
                                          (float)radians_from_degrees(TRAINING_DEG));
@@ -537,28 +424,4 @@ static void train(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena)
     setup->context.guide = train_guide(&setup->context, &camera, &options, arena, &cost);
     Error ignored; /* unkept, it is trained again: the same guide, of the same seed */
     if (file && setup->context.guide) guide_write(file, setup->context.guide, *arena, &ignored);
-}
-
-static bool is_variant(const Setup *setup)
-{
-    return setup->request->change != NULL;
-}
-
-bool trained_guide_inherit(Setup *setup)
-{
-    GuideScene scene = train_guide_scene(&setup->context);
-    if (!setup->inherited || !is_variant(setup)) return false;
-    setup->context.guide =
-        inherited_guide(setup->inherited, setup->request, condition_id(setup), &scene);
-    return setup->context.guide != NULL;
-}
-
-void trained_guide_take(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena)
-{
-    bool leaves = setup->inherited && !is_variant(setup);
-    train(setup, eye, towards, leaves ? inherited_room(setup->inherited) : arena);
-    GuideScene scene = train_guide_scene(&setup->context);
-    if (leaves && setup->context.guide)
-        inherited_keep_guide(setup->inherited, condition_id(setup), setup->context.guide,
-                             &scene);
 }

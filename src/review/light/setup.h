@@ -9,22 +9,11 @@
  */
 #pragma once
 #include "base/problems.h"
-#include "review/light/inherited.h"
 #include "review/light/sky_table.h"
 #include "review/light/reading.h"
 #include "review/request/request.h"
 
 #define SETUP_BOUNCES 64
-
-/* Levels of displays beside those that a setup is lit for: of a variant that changes nothing
- * else, and stands on its review's setup. */
-typedef struct SetupOther {
-    float        *levels; /* [display] */
-    const double *scale;  /* [display] of the setup's; NULL: a display is off there */
-    PathContext   context;
-    bool          is_lit; /* the context is, for these levels */
-    Arena         room;   /* the context's */
-} SetupOther;
 
 typedef struct Setup {
     const ReviewRequest   *request;
@@ -37,10 +26,7 @@ typedef struct Setup {
     double      *scene_levels; /* the displays', before the condition's */
     const char  *identity;     /* program and scene (render/identity.h), not its light */
     const char  *guides;       /* SetupOptions' */
-    Inherited   *inherited;
     JournalKey   planned;      /* program, files and request */
-    bool         is_shared;    /* its readings will be requested under other levels, too */
-    SetupOther  *other;        /* levels for readings; NULL: as it is lit */
 } Setup;
 
 /* By what means: the same for all setups of a review. */
@@ -52,7 +38,6 @@ typedef struct SetupMeans {
     Journal    *journal;   /* of readings that were taken before; NULL: none is kept */
     const char *guides;    /* folder of guides that were trained before (run/cases.h); NULL:
                               none is kept */
-    Inherited  *inherited; /* what variants take over from their review, or NULL */
 } SetupMeans;
 
 typedef struct SetupOptions {
@@ -112,28 +97,6 @@ SunAngles setup_angles(const Setup *setup, Vec3 towards);
 /* The other way round. */
 Vec3 setup_direction(const Setup *setup, SunAngles angles);
 
-/* The setup under another request's levels, which must be all in which that differs from its
- * own. Readings are taken there by setup_read; the room must outlive it. */
-Setup setup_beside(const Setup *of, const ReviewRequest *request, Arena *arena, Arena room,
-                   SetupOther *other);
-
-/* reading_take of an aim that this setup's context has. */
-Reading setup_read(const Setup *setup, const ProbeAim *aim, const ReadingGoal *goal,
-                   Arena scratch);
-
-/* reading_field of such an aim, by so many paths; targets are those of the setup that it
- * stands beside, whose levels do not move the worst part. */
-Reading setup_field(const Setup *setup, const ProbeAim *aim, long paths, double known,
-                    TargetLight *targets, Arena scratch);
-
-/* Lights a setup beside another for its own levels, for who needs more than readings; until
- * setup_unlight no other may be requested. */
-Setup setup_lit(const Setup *setup);
-void  setup_unlight(const Setup *setup);
-
-/* The level at which a display stands now. */
-double setup_level(const Setup *setup, int display_id);
-
 /* The level by one of the request (NULL: the scene's own), times a variant's brightness.
  * name: as the review calls it; sensor_lux: counts for a curve only. */
 double setup_level_of(const Setup *setup, const ReviewLevel *level, int display_id,
@@ -156,13 +119,8 @@ bool setup_eye_middle(const Setup *setup, const ReviewEye *eye, Arena scratch, V
 /* Trains a guide for a setup's paths on a condition's light, before any of
  * them counts.
  *
- * Memory   the guide comes from the arena, or from the room that variants inherit it from
- *          (inherited.h).
+ * Memory   the guide comes from the arena.
  * Threads  starts its own; the same guide for any count. */
-
-/* Of a variant: takes the guide that the review itself trained under this condition. False:
- * there is none. */
-bool trained_guide_inherit(Setup *setup);
 
 /* A guide for an eye, m, that looks towards what is judged: from the setup's folder of guides,
  * or a new one, which is kept there. One that is damaged is trained again. */

@@ -97,7 +97,7 @@ SkyTable sky_table_start(const DaylightInput *like, double low_deg, double high_
     int first, count = elevations_within(low_deg, high_deg, &first);
     return (SkyTable){*like, elevations + first,
                       arena_alloc(arena, sizeof(float[LIGHT_BANDS]), _Alignof(float),
-                                  (size_t)count), count, 0, SKY_AZIMUTHS, NULL};
+                                  (size_t)count), count, 0, SKY_AZIMUTHS};
 }
 
 void sky_table_between(SkyTable *table, double low_deg, double high_deg)
@@ -129,8 +129,7 @@ static DaylightInput row_input(const SkyTable *table, int row)
 const Daylight *sky_table_make(SkyTable *table, int row, Arena *arena, Error *err)
 {
     DaylightInput   input = row_input(table, row);
-    const Daylight *sky = table->inherited ? inherited_sky(table->inherited, &input, err)
-                           : build_sky(&input, arena, err);
+    const Daylight *sky = build_sky(&input, arena, err);
     if (sky) light_bands_sun(sky, table->sun_bands[row]);
     return sky;
 }

@@ -7,7 +7,7 @@
  * Threads  one at a time.
  */
 #pragma once
-#include "review/light/inherited.h"
+#include "spectrum/spectrum.h"
 #include "sky/daylight.h"
 
 /* What each band of a path's wavelengths gives of a light's luminance.
@@ -47,7 +47,6 @@ typedef struct SkyTable {
     int           count;
     int           first_azimuth, azimuths; /* those of SKY_AZIMUTHS that are made, on from the
                                               first; no other may be read */
-    Inherited    *inherited; /* where its skies are found and kept; NULL: they are not */
 } SkyTable;
 
 /* Elevations that reach from `low` to `high`; `like` gives air and ground. Its skies are made

@@ -256,6 +256,7 @@ ReviewRequest review_request_variant(const ReviewRequest *request, const ReviewV
     of.variant_count = 0;
     of.parameter_count = 0;
     of.change = &variant->change;
+    of.is_relevelled = review_variant_is_of_levels(request, variant);
     if (variant->level_count) set_levels(&of, variant, arena);
     set_scenes(&of, variant, arena);
     if (variant->eye_moves) move_eyes(&of, variant, arena);

@@ -400,6 +400,7 @@ typedef struct ReviewRequest {
     bool             is_compared; /* has variants or parameters that change more than levels, or
                                      is one of them: read from more paths (run/cases.c) */
     const ReviewChange *change;  /* this variant's; NULL: the review itself */
+    bool             is_relevelled; /* it changes levels of displays and nothing else */
     ReviewInput     *inputs;     /* the file itself, routes, weathers, skies' pictures */
     int              input_count;
 } ReviewRequest;

@@ -59,7 +59,7 @@ static double face_lux(const CaseTools *tools, const SetupSymbol *symbol, Arena 
     ProbeAim    aim = {.context = &setup->context, .meter = &head,
                        .seed = review_seed(setup->request, FACE_SEED)};
     ReadingGoal goal = {.precision = FACE_PRECISION, .most = FACE_PATHS};
-    return setup_read(setup, &aim, &goal, scratch).reflected;
+    return reading_take(&aim, &goal, &setup->tools, scratch).reflected;
 }
 
 /* The display's luminance to the eye by direct sun alone, cd m^-2. */
@@ -222,7 +222,7 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictArg
                             .most = request->precision_paths,
                             .known = aim->context->eye ? 0 : args->direct.mirror,
                             .times = request->is_compared ? COMPARED_TIMES : 1,
-                            .least = request->is_compared ? base_paths(args) : 0,
+                            .least = base_paths(args),
                             .question = &question};
     without.without_mirrored_sun = goal.known > 0;
     rest.context = &without;
@@ -233,7 +233,7 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictArg
         goal.least = 0;
         goal.question = NULL;
     }
-    ReadOn from = {setup_read(setup, &rest, &goal, scratch),
+    ReadOn from = {reading_take(&rest, &goal, &setup->tools, scratch),
                    request->decide_times * request->precision_paths, is_worth_paths};
     return goal.question ? setup_read_on(setup, &rest, &goal, &from, scratch) : from.reading;
 }
@@ -251,11 +251,9 @@ static void see_stray_light(const Setup *setup, const SetupSymbol *symbol, Vec3 
     bool       has_levels = c->visibility_count > 0;
     EyeLook    look = {eye, vec3_sub(symbol_middle(symbol).position, eye),
                        has_levels ? VISIBILITY_ROUNDS : 1, NULL, has_levels, NULL};
-    Setup      lit = setup_lit(setup);
-    EyeReading stray = eye_read(&lit, &look, *arena);
+    EyeReading stray = eye_read(setup, &look, *arena);
     c->luminance_cd_m2.veil = stray.veil;
-    if (has_levels) case_visibility_veils(&lit, &look, &stray, c, arena);
-    setup_unlight(setup);
+    if (has_levels) case_visibility_veils(setup, &look, &stray, c, arena);
     c->veil_displays = stray.parts[EYE_LAMPS] + stray.parts[EYE_GLINTS] + stray.parts[EYE_NEAR];
     c->glare = glare_found(&stray.glare, &setup->request->glare);
 }
@@ -405,7 +403,7 @@ static ReviewCase start_case(const CaseTools *tools, const ReviewEye *eye,
     c.eye = eye->name;
     c.symbol = symbol->name;
     c.display = symbol->display_name;
-    c.level = setup_level(setup, symbol->display.display_id);
+    c.level = (double)setup->scene->displays[symbol->display.display_id].level;
     c.panel = symbol->panel;
     c.is_optional = review_is_optional(setup->request, symbol->symbol_id, eye);
     c.must_not_be_read = review_is_private(setup->request, symbol->symbol_id, eye);
@@ -446,7 +444,7 @@ static double data_share_of(const CaseTools *tools, const CaseLook *look, const 
     const ReviewCase *like = tools->base ? review_case_like(tools->base, c) : NULL;
     CauseArgs          args = {.tools = &setup->tools, .aim = aim, .paths = CAUSE_PATHS};
     int               count;
-    if (!like || look->is_coarse || setup->other || !aim->target_count)
+    if (!like || look->is_coarse || setup->request->is_relevelled || !aim->target_count)
         return like ? like->without_data_share : 0;
     scene_without_data(setup->scene, &count, &scratch);
     return count ? case_data_share(&args, scratch) : 0;

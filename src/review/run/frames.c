@@ -460,7 +460,6 @@ static bool make_frame(const FrameWork *work, ReviewCase *of, Arena *arena, cons
     Problems     so_far = problems_start(arena);
     Arena scratch = arena_reserve(SETUP_BYTES);
     Setup setup;
-    options.means.inherited = NULL;
     bool  ok = setup_open(&options, &scratch, &so_far, &setup, err);
     if (ok) {
         FrameArgs args = {&setup, review_eye_named(run->request, work->of->of->eye),

@@ -11,7 +11,6 @@ ReviewRun review_run_of(const ReviewRun *run, const ReviewRequest *request, cons
     own.identity = NULL;
     own.news.on_condition = NULL;
     own.share = (ReviewShare){0};
-    own.rider_count = 0;
     return own;
 }
 

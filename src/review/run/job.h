@@ -10,7 +10,7 @@
 #include "base/problems.h"
 #include "keep/journal.h"
 #include "review/eye/false_suns.h"
-#include "review/light/inherited.h"
+#include "review/light/setup.h"
 #include "review/pace/work.h"
 #include "review/profile.h"
 #include "review/request/request.h"
@@ -58,19 +58,10 @@ typedef struct ReviewNews {
     void  *user;
 } ReviewNews;
 
-/* A variant that changes levels alone: it goes with the review, setup by setup, and is read
- * from its paths. */
-typedef struct ReviewRider {
-    const ReviewVariant *variant;
-    const ReviewRequest *request;
-    ReviewOutcome       *outcome; /* made with the review's */
-    Arena                room;    /* scratch of its own */
-} ReviewRider;
-
 typedef struct ReviewRun {
     const ReviewRequest *request;
     const Profile       *profile;
-    SetupMeans           means;    /* inherited: what its variants will take over, or do */
+    SetupMeans           means;
     Work                *work;
     WorkPlan            *plan;     /* of the condition in hand: what is planned of it */
     const char          *folder;   /* of the frames, which is there; */
@@ -86,8 +77,6 @@ typedef struct ReviewRun {
     SunSearches         *sun_searches; /* review_run_conditions' own */
     const Review        *base;     /* this is a variant of that, which is made before: verdicts
                                       alone are made (cases.h); NULL: the review itself */
-    ReviewRider         *riders;   /* go with it; a share of one has none */
-    int                  rider_count;
 } ReviewRun;
 
 /* A variant's run, by its request, held against that. */

@@ -214,7 +214,7 @@ static RoadDisplay display_of(const RoadWork *work, int age, int d)
     const char *name = setup->scene->displays[d].name;
     RoadDisplay out = {
         .display = arena_string(work->arena, name ? name : "", name ? strlen(name) : 0),
-        .level = setup_level(setup, d), .share = own.mean / all.mean,
+        .level = (double)setup->scene->displays[d].level, .share = own.mean / all.mean,
         .increment_pct = road_threshold_increment(own.mean, road),
         .increment_range = increments(own, road), .level_most = NAN,
         .level_most_range = {NAN, NAN}};

@@ -79,45 +79,6 @@ static bool add_roads(const GazesArgs *looks, Arena *arena, Review *review, Erro
     return true;
 }
 
-/* The same cases under a rider's levels. */
-static bool ride_moment(const CaseTools *base_tools, const ReviewRider *rider,
-                        const ReviewRun *run, const Review *base, Arena *arena, Error *err)
-{
-    SetupOther other;
-    Arena      room = rider->room, of_context = arena_reserve(SETUP_BYTES);
-    ReviewRun  own = review_run_of(run, rider->request, base);
-    Review    *review = &rider->outcome->review;
-    Setup      setup =
-        setup_beside(base_tools->setup, rider->request, &room, of_context, &other);
-    CaseTools tools = *base_tools;
-    tools.setup = &setup;
-    tools.work = NULL;
-    tools.base = own.base;
-    ReviewCase *cases = review->cases + review->case_count;
-    int         count = tools.symbol_count * rider->request->eye_count;
-    bool        ok = setup_cases(&tools, arena, cases, err);
-    if (ok) review->case_count += count;
-    if (ok && roads_of_moment(&setup)) {
-        Setup     lit = setup_lit(&setup);
-        GazesArgs looks = {&lit, &ALL_OF_IT, run->sun_searches, run->profile, cases, count,
-                           true};
-        ok = add_roads(&looks, arena, review, err);
-        setup_unlight(&setup);
-    }
-    if (ok) keep_names(cases, count, arena);
-    else if (err->code) error_prefix(err, "variant '%.100s'", rider->variant->name);
-    arena_release(&of_context);
-    return ok;
-}
-
-static bool ride_moments(const ReviewRun *run, const CaseTools *tools, const Review *review,
-                         Arena *arena, Error *err)
-{
-    for (int i = 0; i < run->rider_count; i++)
-        if (!ride_moment(tools, &run->riders[i], run, review, arena, err)) return false;
-    return true;
-}
-
 static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena *arena,
                        ReviewOutcome *out, Error *err)
 {
@@ -143,7 +104,6 @@ static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena
     int count = tools.symbol_count * run->request->eye_count;
     if (!run->share.count) keep_names(cases, count, arena); /* others' cases have none */
     review->case_count += count;
-    if (!ride_moments(run, &tools, review, arena, err)) return false;
     GazesArgs roads = {setup, &ALL_OF_IT, run->sun_searches, run->profile, cases, count, true};
     if (run->base) return add_roads(&roads, arena, review, err);
     GazeFinding *gazes = review->gazes + review->gaze_count;
@@ -271,7 +231,6 @@ static bool run_condition(const ReviewRun *run, const ReviewCondition *condition
     Setup setup;
     bool  ok = setup_open(&options, &scratch, run->problems, &setup, err);
     if (ok) {
-        setup.is_shared = run->rider_count > 0;
         report_without_data(setup.scene, &out->review, scratch, arena);
         rests_add_scene(run->request, setup.scene, &out->review, arena);
         rests_add_scene_files(setup.scene, &out->review, arena);
@@ -371,7 +330,6 @@ static bool plan_condition(const ReviewRun *run, const ReviewCondition *conditio
     Setup setup;
     options.means.journal = NULL; /* nothing is read */
     options.means.guides = NULL;
-    options.means.inherited = NULL;
     bool  ok = setup_open(&options, &scratch, run->problems, &setup, err);
     if (ok) {
         Sweep        sweep = {.run = run, .setup = &setup};
@@ -556,11 +514,8 @@ bool review_run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *ou
     SunSearches searches = sun_searches_start();
     ReviewRun   with = *run;
     with.sun_searches = &searches;
-    if (run->share.count) with.rider_count = 0;
     start(run, run->request, out, arena);
     rests_add_request(run->request, run->profile, &out->review, arena);
-    for (int i = 0; i < with.rider_count; i++)
-        start(run, run->riders[i].request, run->riders[i].outcome, arena);
     bool ok = run_conditions(&with, arena, out, err);
     sun_searches_end(&searches);
     if (!ok || run->share.count) return ok;

@@ -25,7 +25,7 @@ static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const DistantT
 {
     const ReviewGlasses *glasses = sweep->setup->condition->glasses;
     DistantReading light =
-        sight->read ? sight->read[sun] : distant_probe_read(&sight->probe, tools, sun);
+        distant_probe_read(&sight->probe, tools, sun);
     double     level = level_for(sweep, sight, sun);
     double     own = sight->own.lamps + level * sight->own.displays;
     double     reflected = distant_reading_sum(light) + own;

@@ -102,8 +102,6 @@ typedef struct SweepReport {
     ReviewOutcome   *out;
     Arena           *arena;  /* of what is kept */
     Arena            scratch;
-    const ReviewRider *rider; /* whose it is; NULL: the review's own */
-    Arena            beside; /* room for its setup */
 } SweepReport;
 
 /* By the probes, for other suns. */
@@ -114,7 +112,6 @@ static SunFigures judge_others(const SweepReport *to, const Sight *sight, const 
     DistantTools tools = *to->tools, of_meters;
     SweepMeter face = *sight->face, sensor;
     Sight      seen = *sight;
-    seen.read = NULL;
     sweep.suns = *suns;
     tools.suns = (DistantSuns){suns->distant, suns->count};
     of_meters = tools;
@@ -198,11 +195,7 @@ static bool read_worst(SweepReport *to, const Sight *sight, const SweepSun *sun,
     ReviewRequest request = *sweep->run->request;
     request.seed += picks ? PICK_SEED : 0;
     if (!sweep_light_sun(sweep, sun, &sky, err)) return false;
-    Arena      room = to->scratch;
-    SetupOther other;
-    Setup      setup = sweep->lit->setup;
-    if (to->rider)
-        setup = setup_beside(&sweep->lit->setup, &request, &room, to->beside, &other);
+    Setup setup = sweep->lit->setup;
     setup.request = &request;
     CaseTools tools = {.setup = &setup, .profile = sweep->run->profile,
                        .symbols = sight->symbol, .symbol_count = 1,
@@ -334,36 +327,21 @@ static bool report_sight(SweepReport *to, const Sight *sight, const Sight *asked
     return true;
 }
 
-/* A sight for the review, then for its riders: its suns are sampled, and forgotten when all is
- * reported. */
-static bool report_asked(Sweep *sweep, SweepReport *to, int count, const Sight *sight,
-                         Arena room, Error *err)
+/* Symbol by symbol, so that what its eyes share is at hand. A sight's suns are sampled, and
+ * forgotten when it is reported. */
+static bool report_sights(SweepReport *to, Arena room, Error *err)
 {
-    Sight asked = *sight;
-    if (sight->twin == NO_ID && sight->probe.aim.target_count) {
-        asked = sweep_sample_sight(sweep, sight, &room);
-        if (count > 1) asked.read = sweep_read_sight(&asked, to->tools, &room);
-    }
-    for (int i = 0; i < count; i++) {
-        if (report_sight(&to[i], sight, &asked, err)) continue;
-        return !err->code || !to[i].rider
-                   ? false
-                   : error_prefix(err, "variant '%.100s'", to[i].rider->variant->name);
-    }
-    return true;
-}
-
-/* Symbol by symbol, so that what its eyes share is at hand. to[0]: the review's own. */
-static bool report_sights(Sweep *sweep, SweepReport *to, int count, Arena room, Error *err)
-{
-    int symbols = sweep->symbol_count;
+    Sweep *sweep = to->sweep;
+    int    symbols = sweep->symbol_count;
     for (int i = 0; i < sweep->sight_count; i++) {
         int          eyes = sweep->sight_count / symbols;
         const Sight *sight = &sweep->sights[i % eyes * symbols + i / eyes];
+        Arena        of_sight = room;
+        Sight        asked = *sight;
         if (sight->is_left) continue;
-        if (!review_goes_on(sweep->run->means.journal, err) ||
-            !report_asked(sweep, to, count, sight, room, err))
-            return false;
+        if (!review_goes_on(sweep->run->means.journal, err)) return false;
+        if (sight->twin == NO_ID) asked = sweep_sample_sight(sweep, sight, &of_sight);
+        if (!report_sight(to, sight, &asked, err)) return false;
         work_add(sweep->run->work, sweep->run->base ? WORK_BARE_SIGHT : WORK_SIGHT,
                  work_of_sight(sweep->suns.count, sweep->run->base != NULL));
     }
@@ -409,7 +387,6 @@ static bool make_skies(Sweep *sweep, Arena *scratch, Error *err)
     like.has_time = false;
     like.threads = setup->tools.threads;
     sweep->table = sky_table_start(&like, low, high, scratch);
-    sweep->table.inherited = sweep->run->means.inherited;
     if (setup->condition->kind == CONDITION_SUN_SWEEP) {
         const ReviewRange *azimuths = &setup->condition->azimuth_deg;
         double             heading = sweep->suns.list[0].heading_deg; /* of all of them */
@@ -464,52 +441,6 @@ static void set_level(Sweep *sweep)
         has_level && sweep->level->is_curve ? &sweep->sensors[condition->level_id] : NULL;
 }
 
-/* A rider on the review's probes. */
-typedef struct Riding {
-    ReviewRun run;
-    Setup     setup;
-    Sweep     sweep;
-    Arena     beside;
-} Riding;
-
-static void start_riding(const SweepReport *own, const ReviewRider *rider, Riding *riding,
-                         SweepReport *to)
-{
-    const Sweep *sweep = own->sweep;
-    *riding = (Riding){.run = review_run_of(sweep->run, rider->request, &own->out->review),
-                       .setup = *sweep->setup, .sweep = *sweep,
-                       .beside = arena_reserve(SWEEP_BYTES)};
-    riding->setup.request = rider->request;
-    riding->sweep.run = &riding->run;
-    riding->sweep.setup = &riding->setup;
-    set_level(&riding->sweep);
-    *to = *own;
-    to->sweep = &riding->sweep;
-    to->out = rider->outcome;
-    to->first = rider->outcome->review.sweep_count;
-    to->scratch = rider->room;
-    to->rider = rider;
-    to->beside = riding->beside;
-    to->sights = ARENA_NEW(&to->scratch, SightFigures, sweep->sight_count);
-}
-
-/* The review's own, then its riders'. */
-static bool report_with_riders(Sweep *sweep, const SweepReport *own, Arena room, Error *err)
-{
-    int      riders = sweep->run->rider_count;
-    SweepReport *to = ARENA_NEW(&room, SweepReport, 1 + riders);
-    Riding  *riding = ARENA_NEW(&room, Riding, riders);
-    to[0] = *own;
-    for (int i = 0; i < riders; i++)
-        start_riding(own, &sweep->run->riders[i], &riding[i], &to[1 + i]);
-    bool ok = report_sights(sweep, to, 1 + riders, room, err);
-    for (int i = 0; i < riders; i++) {
-        if (ok) sweep->run->riders[i].outcome->review.sweep_count += sweep->sight_count;
-        arena_release(&riding[i].beside);
-    }
-    return ok;
-}
-
 static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOutcome *out,
                             Error *err)
 {
@@ -528,7 +459,7 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
     sweep->lit->is_ready = sweep->lit->is_lit = false;
     if (!sweep->run->share.count && !sweep->run->base)
         false_sun_times(sweep, scratch, arena, &out->review);
-    if (!report_with_riders(sweep, &to, scratch, err)) return false;
+    if (!report_sights(&to, scratch, err)) return false;
     keep_tables(&to);
     out->review.sweep_count += sweep->sight_count;
     return true;

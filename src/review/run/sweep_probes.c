@@ -328,9 +328,12 @@ static void leave_others(Sweep *sweep)
 
 /* ---- what they have to find -------------------------------------------------------------- */
 
+/* Levels move no response: those of the review serve. */
 static double response_precision(const Sweep *sweep)
 {
-    return sweep->run->base ? RESPONSE_PRECISION_VARIANT : RESPONSE_PRECISION;
+    const ReviewRun *run = sweep->run;
+    bool             is_bare = run->base && !run->request->is_relevelled;
+    return is_bare ? RESPONSE_PRECISION_VARIANT : RESPONSE_PRECISION;
 }
 
 static void add_meter_call(Sweep *sweep, SweepMeter *meter, const char *name)
@@ -502,12 +505,6 @@ Sight sweep_sample_sight(Sweep *sweep, const Sight *sight, Arena *arena)
     Sight    asked = *sight;
     if (asked.probe.aim.target_count) distant_probe_sample_suns(&asked.probe, &tools, arena);
     return asked;
-}
-
-const DistantReading *sweep_read_sight(const Sight *asked, const DistantTools *tools,
-                                       Arena *arena)
-{
-    return read_suns(&asked->probe, tools, arena);
 }
 
 /* ---- the sun in mirrors ------------------------------------------------------------------ */

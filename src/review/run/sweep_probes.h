@@ -64,7 +64,6 @@ typedef struct Sight {
     bool               has_twin; /* a later one has this for its twin */
     bool               is_left; /* as a meter */
     bool               is_private; /* the eye must not read it */
-    const DistantReading *read;    /* [sun], where several need them; else NULL */
 } Sight;
 
 /* Is enough of it seen to judge it (case_is_seen)? */
@@ -101,7 +100,7 @@ typedef struct Sweep {
     bool               has_hours; /* of a weather file: probes do not use the table */
     const ReviewLevel *level;   /* NULL: the scene's */
     SweepMeter        *sensor;  /* of the level; NULL: it is fixed */
-    SweepLit          *lit;     /* shared with riders */
+    SweepLit          *lit;
     Arena              figures; /* scratch for the figures of a condition */
     Arena              between; /* for what meters read between its suns */
 } Sweep;
@@ -125,10 +124,6 @@ bool sweep_sample_light(Sweep *sweep, Arena *arena, Error *err);
 
 /* One sight, for these suns: some 150 bytes a sun, so that they are sampled one by one. */
 Sight sweep_sample_sight(Sweep *sweep, const Sight *sight, Arena *arena);
-
-/* And read once for all who need it. */
-const DistantReading *sweep_read_sight(const Sight *asked, const DistantTools *tools,
-                                       Arena *arena);
 
 /* The meter's readings under each of the tools' suns, sampled where they are not kept. */
 const double *sweep_meter_read(const SweepMeter *meter, const DistantTools *tools,

@@ -385,7 +385,7 @@ static int read_all(const Setup *setup, const LightParts *parts, CaseWhole *whol
     aim.context = &without;
     aim.seed = FIELD_SEED;
     long    paths = is_shade(known, targets) ? SHADE_PATHS : FIELD_PATHS;
-    Reading mean = setup_field(setup, &aim, paths, mirror, found, scratch);
+    Reading mean = reading_field(&aim, paths, mirror, &setup->tools, found, scratch);
     whole->reflected = mean.reflected;
     whole->reflected_range = mean.interval;
     return light_parts_choose(parts, found, known, scratch);
@@ -478,7 +478,6 @@ void worst_part_take_all(const SetupSymbol *symbol, WorstPart *part, Arena *aren
 bool setup_learn(Setup *setup, const SetupSymbol *symbols, int count, Arena *arena, Error *err)
 {
     Vec3 eye, sum = vec3(0, 0, 0);
-    if (trained_guide_inherit(setup)) return true;
     if (!setup_eye_middle(setup, &setup->request->eyes[0], *arena, &eye, err)) return false;
     for (int i = 0; i < count; i++) sum = vec3_add(sum, symbol_middle(&symbols[i]).position);
     Vec3 towards = vec3_sub(vec3_scale(sum, 1 / (float)count), eye);

@@ -95,6 +95,5 @@ void worst_part_take_all(const SetupSymbol *symbol, WorstPart *part, Arena *aren
 /* Trains the setup's guide, once it is lit, on where light comes from to what the first eye
  * sees of the symbols: lamps that few of them would find otherwise, at night above all. The
  * guide comes from the arena, or from the setup's folder of guides, where it is kept; one that
- * is damaged is trained again. A variant takes the review's (light/inherited.h). Fails where an
- * eye's camera is missing. */
+ * is damaged is trained again. Fails where an eye's camera is missing. */
 bool setup_learn(Setup *setup, const SetupSymbol *symbols, int count, Arena *arena, Error *err);

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* variants.h -- the review once more for each of its variants, and what they differ by.
  *
- * A variant is read by the same random numbers as the review itself, from no fewer paths, and
- * judged by the light alone: no causes, gazes, false suns, pictures. What its change does not
- * reach is not traced again: responses and readings are found by what decides them
- * (sweep_probes.h, light/reading.h); guides and clear skies are the review's
- * (light/inherited.h). Responses end half as long: how long it fails hangs on them alone.
+ * A variant is this review with another request: read by the same random numbers as the review
+ * itself, from no fewer paths, and judged by the light alone: no causes, gazes, false suns,
+ * pictures. Responses are found by what decides them (sweep_probes.h). They end half as long:
+ * how long it fails hangs on them alone.
  *
  * Intervals  of differences of margins: jackknife over the batches of both readings, which are
  *            independent of each other and share their luck pair by pair; Student's t for 95 %.
@@ -17,15 +16,6 @@
  */
 #pragma once
 #include "review/run/job.h"
-
-/* Riders: variants that change levels of displays and nothing else. They go with the review,
- * setup by setup, and are read from its paths, since light is linear in what shines. Each has a
- * room until review_riders_end.
- *
- * Sets run->riders: the variants, and both ends of the sensitivities' ranges, that can ride.
- * with_parameters: sensitivities are requested. */
-void review_riders_start(ReviewRun *run, bool with_parameters, Arena *arena);
-void review_riders_end(ReviewRun *run);
 
 /* Before long work: the scenes of all variants and parameters are loaded, and what they name is
  * looked for. */
