@@ -157,7 +157,7 @@ var skies=[];
 async function skyOf(id){
   var s=t.data.skies[id],n=s.count;
   var azimuth=await t.unpack(s.azimuth,n,2),elevation=await t.unpack(s.elevation,n,2);
-  var sky={count:n,year:s.year,route:s.route,minutes:s.minutes,headings:s.headings,
+  var sky={count:n,year:s.year,minutes:s.minutes,headings:s.headings,
     azimuth:Float32Array.from(azimuth,function(v){return v/100;}),
     elevation:Float32Array.from(elevation,function(v){return v/100-90;})};
   if(!s.year)return sky;
@@ -314,7 +314,6 @@ function Panel(sweep,section,map){
   this.box.append(make('h4','','Move the sun'),this.controls,this.answer);
   section.querySelector('.sweeps').insertAdjacentElement('afterend',this.box);
   if(this.sky.year)this.addTimes(section);
-  else if(this.sky.route)this.addRoute();
   else this.addAngles();
   this.factor=t.slider(this.controls,'Display brightness',
     {min:-4,max:4,step:0.125,value:0},factorWords,function(){panel.show(true);});
@@ -337,12 +336,6 @@ Panel.prototype.addAngles=function(){
     {min:map.first,max:last,step:map.step,value:map.first},degrees,moved);
   this.elevation=t.slider(this.controls,'Height of the sun',
     {min:map.low,max:map.low+(map.rows-1)*map.rise,step:map.rise,value:map.low},degrees,moved);
-};
-/* The points of a route while the sun is up. */
-Panel.prototype.addRoute=function(){
-  var panel=this,count=this.sky.count;
-  this.point=t.slider(this.controls,'Along the route',{min:0,max:count-1,step:1,value:0},
-    function(v){return 'point '+(v+1)+' of '+count;},function(v){panel.move(v);});
 };
 Panel.prototype.addTimes=function(section){
   var panel=this,sky=this.sky;
@@ -407,14 +400,10 @@ Panel.prototype.addSun=function(){
     panel.step(way[0],way[1]);
   });
 };
-/* By keys: over the map by a cell; along a route by a point; over a year by a step of time and
+/* By keys: over the map by a cell; over a year by a step of time and
    by a day. */
 Panel.prototype.step=function(right,up){
   var sky=this.sky,map=this.map;
-  if(sky.route){
-    this.move(Math.min(Math.max(this.at+(right||up),0),sky.count-1));
-    return;
-  }
   if(!sky.year){
     this.move(nearest(sky,sky.azimuth[this.at]+right*map.step,
       Math.max(sky.elevation[this.at]+up*map.rise,-90)));
@@ -445,12 +434,9 @@ Panel.prototype.move=function(i){
     return;
   }
   this.at=i;
-  if(sky.route)this.point.set(i);
-  else{
-    this.azimuth.set(this.map.first+
-      turn(sky.azimuth[i]-this.map.first+this.map.step/2)-this.map.step/2);
-    this.elevation.set(sky.elevation[i]);
-  }
+  this.azimuth.set(this.map.first+
+    turn(sky.azimuth[i]-this.map.first+this.map.step/2)-this.map.step/2);
+  this.elevation.set(sky.elevation[i]);
   this.show(false);
 };
 Panel.prototype.moveTo=function(day,hour,heading){

@@ -79,7 +79,7 @@ struct GazeRoad {
     double       luminance_cd_m2; /* of the road, as the request states it */
     double       s_p;             /* NaN: not stated */
     double       mesopic_cd_m2;   /* of the road; NaN likewise */
-    bool         is_after_dark;   /* of a sweep or route: without sun and sky */
+    bool         is_after_dark;   /* of a sweep: without sun and sky */
     RoadLeftOut  left_out;        /* else nothing below is known */
     double       without_data_share; /* of the veil, via materials without optical data */
     RoadAge     *ages;            /* rising */

@@ -14,6 +14,11 @@ const RemovedWord removed_words[] = {
                       "they say"},
     {"help", "--completion", "an installation has it for bash; help --json lists options and "
                              "their values"},
+    {"condition", "route", "write its points as conditions with 'when', 'where' and "
+                           "'heading_deg'; `parhelion help glare-review` has a script for GPX"},
+    {"condition", "when", "state it in 'environment'"},
+    {"condition", "weather", "state it in 'sweep' of a year"},
+    {"condition", "weather_lux", "state it in 'sweep' of a year"},
     {NULL, NULL, NULL},
 };
 

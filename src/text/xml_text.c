@@ -97,18 +97,6 @@ static size_t character(const XmlBytes *in, size_t at, unsigned *code)
     return in->encoding != XML_ASCII || *code < 0x80;
 }
 
-bool xml_text_is(const FileBytes *bytes)
-{
-    XmlBytes in = find_encoding("", bytes);
-    unsigned code = 0;
-    size_t   taken = 1;
-    for (size_t at = in.mark; at < in.size && taken; at += taken) {
-        taken = character(&in, at, &code);
-        if (code != ' ' && code != '\t' && code != '\r' && code != '\n') break;
-    }
-    return in.encoding == XML_UTF32 || (taken && code == '<');
-}
-
 static bool decode(const XmlBytes *in, Arena *arena, const char **out, Error *err)
 {
     char *text = ARENA_NEW(arena, char, 3 * (in->size - in->mark) + UTF8_BYTES_MAX), *to = text;

@@ -14,9 +14,6 @@
 #include "base/error.h"
 #include "base/file.h"
 
-/* Begins the file as XML does, in any of these encodings? */
-bool xml_text_is(const FileBytes *bytes);
-
 /* *out is terminated and holds no zero. */
 bool xml_text_read(const char *file, const FileBytes *bytes, Arena *arena, const char **out,
                    Error *err);

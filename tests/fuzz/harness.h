@@ -89,5 +89,5 @@ FuzzMake fuzz_make_field, fuzz_make_response, fuzz_make_journal, fuzz_make_answe
 FuzzRun fuzz_scene, fuzz_panel, fuzz_import, fuzz_import_any, fuzz_import_text,
     fuzz_declaration, fuzz_image, fuzz_frame, fuzz_manifest, fuzz_recipe, fuzz_table,
     fuzz_weather, fuzz_curve, fuzz_primaries, fuzz_environment, fuzz_cli, fuzz_uri,
-    fuzz_part, fuzz_checkpoint, fuzz_review, fuzz_route, fuzz_field, fuzz_response,
+    fuzz_part, fuzz_checkpoint, fuzz_review, fuzz_field, fuzz_response,
     fuzz_journal, fuzz_answers, fuzz_job;

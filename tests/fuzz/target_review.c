@@ -1,30 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a review has to do: REVIEW.json, and the routes that it may name. */
+/* What a review has to do: REVIEW.json. */
 #include <math.h>
 
 #include "harness.h"
 #include "review/request/request_read.h"
 
-#define ROUTE "time,lat,lon\n2026-06-21T08:30:00Z,0,10\n2026-06-21T08:30:01Z,0,10.001\n"
-
 static void write_named_files(Arena *arena)
 {
     fuzz_file("a.gltf", "", 0, arena);
     fuzz_file("p.png", "", 0, arena);
-    fuzz_file("r.csv", ROUTE, sizeof ROUTE - 1, arena);
-}
-
-static void claim_route(const Route *route)
-{
-    fuzz_claim(route->count > 0, "a route has points");
-    for (int i = 0; i < route->count; i++) {
-        const RoutePoint *point = &route->points[i];
-        fuzz_claim(point->heading_deg >= 0 && point->heading_deg < 360,
-                   "a heading is a compass's");
-        fuzz_claim(isfinite(point->seconds) && (!i || point->seconds >= point[-1].seconds),
-                   "times do not fall");
-        fuzz_claim(fabs(point->where.latitude_deg) <= 90, "a point is on the earth");
-    }
 }
 
 static void claim_condition(const ReviewRequest *request, const ReviewCondition *condition)
@@ -32,7 +16,6 @@ static void claim_condition(const ReviewRequest *request, const ReviewCondition 
     fuzz_claim(condition->level_id < request->level_count &&
                    condition->with_id < request->with_count &&
                    condition->weather_id < request->weather_count, "names are found");
-    if (condition->kind == CONDITION_ROUTE) claim_route(&condition->route);
     if (condition->kind == CONDITION_YEAR_SWEEP)
         fuzz_claim(condition->heading_count > 0 && condition->step_minutes > 0,
                    "a year has hours and headings");
@@ -75,14 +58,4 @@ void fuzz_review(const uint8_t *data, size_t size, Arena *arena)
     for (int i = 0; i < request.level_count; i++) claim_level(&request.levels[i]);
     for (int i = 0; i < request.condition_count; i++)
         claim_condition(&request, &request.conditions[i]);
-}
-
-void fuzz_route(const uint8_t *data, size_t size, Arena *arena)
-{
-    Error err = {0};
-    Route route;
-    if (route_read(fuzz_file("route", data, size, arena), arena, &route, &err))
-        claim_route(&route);
-    else
-        fuzz_claim_refusal(&err);
 }

@@ -14,7 +14,6 @@ const FuzzTarget fuzz_targets[] = {
     {"recipe", fuzz_recipe, fuzz_mutate_json, 2048, NULL},
     {"declaration", fuzz_declaration, fuzz_mutate_json, 2048, NULL},
     {"review", fuzz_review, fuzz_mutate_json, 4096, NULL},
-    {"route", fuzz_route, NULL, 1024, NULL},
     {"table", fuzz_table, NULL, 1024, NULL},
     {"primaries", fuzz_primaries, NULL, 1024, NULL},
     {"curve", fuzz_curve, NULL, 1024, NULL},

@@ -5,6 +5,7 @@ moments, and nothing depends on the threads. --all: thirty of those hours, which
 two more of those suns, and eyes at one place.
 """
 import csv
+import datetime
 import json
 import math
 import os
@@ -335,61 +336,61 @@ def check_twins(report, reviewer):
     report.claim(tables["all"]["beside"] != tables["all"]["point"], "all eyes are one")
 
 
-def weather_hours(count):
-    """Hours of a year in its order: month, day, label, W/m2 direct and diffuse, heading."""
-    draw = random.Random(9)
-    hours = []
-    for i in range(count):
-        cloud = draw.random()
-        hours.append((1 + 12 * i // count, 1 + i % 28, 11 + i % 4,
-                      round(max(0, 900 * (1 - 1.5 * cloud))), round(60 + 250 * cloud),
-                      draw.randrange(360)))
-    return hours
-
-
 def weather_row(month, day, label, direct, diffuse, _):
     return (f"2011,{month},{day},{label},60,x,20,12,79,100100,0,1415,288,0,{direct},{diffuse},"
             "0,0,0,0\n")
 
 
+def weather_hours():
+    """Hours of a year: (the row's instant, W/m2 direct and diffuse). The sun shines about noon."""
+    draw = random.Random(9)
+    instant = datetime.datetime(2026, 1, 1, 0, 30)
+    while instant.year == 2026:
+        cloud = draw.random()
+        direct = round(max(0, 900 * (1 - 1.5 * cloud))) if 9 < instant.hour < 15 else 0
+        yield instant, direct, round(60 + 250 * cloud)
+        instant += datetime.timedelta(hours=1)
+
+
 def check_weather(report, reviewer, count):
-    """Hours of a weather file along a route, and each as a moment of its own, traced in full:
-    within three standard errors (of paths and response) or 2 % of what a moment's worst part
-    reflects, or between that and the symbol's mean, as which a step counts all but the sun. The
-    file has no other hours; each instant lies half an hour before its label."""
-    hours = weather_hours(count)
-    times = [f"2026-{h[0]:02}-{h[1]:02}T{h[2] - 1:02}:30:00+01:00" for h in hours]
+    """Hours of a year by a weather file, and some, the worst among them, each as a moment of its
+    own, traced in full: within three standard errors (of paths and response) or 2 % of what a
+    moment's worst part reflects, or between that and the symbol's mean, as which a step counts
+    all but the sun. Each instant lies half an hour before its label."""
+    hours = {instant: light for instant, *light in weather_hours()}
     with open(os.path.join(reviewer.folder, "w.epw"), "w", encoding="utf-8") as file:
-        file.write(EPW + "".join(weather_row(*hour) for hour in hours))
-    with open(os.path.join(reviewer.folder, "w.csv"), "w", encoding="utf-8") as file:
-        file.write("time,lat,lon,altitude_m,heading\n" + "".join(
-            f"{time},48.14,11.58,520,{hour[5]}\n" for time, hour in zip(times, hours)))
-    document = request(precision={"contrast": 0.01}, conditions=[
-        {"name": "drive", "route": "w.csv", "weather": "w.epw"}] + [
-        {**moment(time, type="perez", direct_normal_w_m2=hour[3], when=time,
-                  diffuse_horizontal_w_m2=hour[4], where=[48.14, 11.58, 520]),
-         "heading_deg": hour[5]} for time, hour in zip(times, hours)])
-    _, review = reviewer.review(document, "weather")
-    with open(os.path.join(reviewer.folder, "weather", review["sweeps"][0]["table"]),
+        file.write(EPW + "".join(
+            weather_row(at.month, at.day, at.hour + 1, *light, 0) for at, light in hours.items()))
+    sweep = {"year": 2026, "weather": "w.epw", "headings_deg": [0, 50, 130, 200, 290]}
+    _, review = reviewer.review(request(conditions=[{"name": "year", "sweep": sweep}]), "year")
+    with open(os.path.join(reviewer.folder, "year", review["sweeps"][0]["table"]),
               encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    report.claim(len(rows) == count == len(review["cases"]), f"{len(rows)} hours")
-    for row, case, hour in zip(rows, review["cases"], hours):
-        found, wanted = float(row["reflected_cd_m2"]), case["luminance_cd_m2"]["reflected"]
+    report.claim(len(rows) == review["sweeps"][0]["cases"] > 5 * 4000, f"{len(rows)} steps")
+    worst = min(rows, key=lambda row: float(row["contrast_ratio"]))
+    asked = [worst] + random.Random(3).sample(rows, count)
+    at = [datetime.datetime(2026, 1, 1) + datetime.timedelta(
+        days=int(row["day_of_year"]) - 1, hours=float(row["hour_utc"])) for row in asked]
+    lit = [hours[instant + datetime.timedelta(hours=1)] for instant in at]  # of the file's zone
+    _, found = reviewer.review(request(precision={"contrast": 0.01}, conditions=[
+        {**moment(str(number), type="perez", direct_normal_w_m2=light[0],
+                  diffuse_horizontal_w_m2=light[1], when=f"{instant.isoformat()}Z",
+                  where=[48.14, 11.58, 520]), "heading_deg": float(row["heading_deg"])}
+        for number, (row, instant, light) in enumerate(zip(asked, at, lit))]), "weather")
+    for row, case, instant in zip(asked, found["cases"], at):
+        reflected, wanted = float(row["reflected_cd_m2"]), case["luminance_cd_m2"]["reflected"]
         low, high = case["contrast_interval"]
         sigma = math.hypot((high - low) / 4 / case["contrast_ratio"],
                            review["responses"][0]["relative_error"])
         mean, share = case["symbol_mean"]["reflected"], max(0.02, 3 * sigma)
-        report.claim((1 - share) * min(mean, wanted) <= found <= (1 + share) * wanted,
-                     f"hour {hour}: {found:.5g} in the sweep, {wanted:.5g} by itself "
-                     f"({found / wanted - 1:+.4f}, sigma {sigma:.4f})")
-    worst = review["sweeps"][0]["worst"]
-    place = [case["contrast_ratio"] for case in review["cases"]].index(
-        min(case["contrast_ratio"] for case in review["cases"]))
-    report.claim(close(worst["contrast_ratio"], review["cases"][place]["contrast_ratio"], 0.03)
-                 and times[place][:10] in worst["when"] and
-                 f"{hours[place][3]} W/m2 direct, {hours[place][4]} diffuse" in worst["when"],
-                 f"worst {worst['when']}, the moments' {times[place]}")
+        report.claim((1 - share) * min(mean, wanted) <= reflected <= (1 + share) * wanted,
+                     f"{instant}: {reflected:.5g} in the sweep, {wanted:.5g} by itself "
+                     f"({reflected / wanted - 1:+.4f}, sigma {sigma:.4f})")
+    told = review["sweeps"][0]["worst"]
+    report.claim(close(told["contrast_ratio"], found["cases"][0]["contrast_ratio"], 0.03) and
+                 f"{at[0]:%Y-%m-%d %H:%M} UTC" in told["when"] and
+                 f"{lit[0][0]} W/m2 direct, {lit[0][1]} diffuse" in told["when"],
+                 f"worst {told['when']}, the table's {at[0]}")
 
 
 def check_refusals(report, reviewer):

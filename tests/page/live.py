@@ -24,8 +24,6 @@ from review import PANEL, Reviewer, close, dashboard, moment, request  # noqa: E
 import browser  # noqa: E402
 
 VERDICTS = ["pass", "fail", "too close", "cannot be judged"]
-WAY = "time,lat,lon,heading\n" + "".join(
-    f"2026-06-21T{hour:02d}:00:00Z,48.{hour},11,{20 * hour}\n" for hour in range(8, 13))
 LAYER_ERROR = 0.0043  # as review_live.h says
 
 
@@ -41,7 +39,6 @@ def document():
             {**moment("grey", type="constant", luminance=3000), "level": "dim"},
             {"name": "suns", "level": "auto", "sweep": {"sun": {
                 "azimuth_deg": [90, 270, 15], "elevation_deg": [10, 40, 10]}, "sky": "sky"}},
-            {"name": "way", "level": "auto", "route": "way.csv", "weather": "clear"},
             {"name": "year", "level": "auto", "sweep": {
                 "year": 2026, "where": [48, 11, 500], "step_minutes": 240,
                 "headings_deg": [0, 90], "weather": "clear"}}])
@@ -168,17 +165,6 @@ def check_year(report, sweep):
     sweep.page.mouse("Pressed", box["x"] + box["width"] * 0.5, box["y"] + box["height"] * 0.7)
     sweep.page.mouse("Released", box["x"], box["y"])
     check_reading(report, sweep, "map of a year")
-
-
-def check_route(report, sweep):
-    sweep.page.run(f"{sweep.section}.querySelector('.live').scrollIntoView()")
-    for point in (0, 3, 1):
-        sweep.slide("Along the route", point)
-        row = check_reading(report, sweep, f"point {point}")
-        report.claim(row is sweep.rows[point], f"point {point}: {row}")
-    sweep.find(".live-sun", ".focus()")
-    sweep.page.key("ArrowRight")
-    report.claim(sweep.said()[0] is sweep.rows[2], "a key along the route")
 
 
 def open_card(page, card):
@@ -399,7 +385,7 @@ def shots(program, address, folder):
             for i in range(page.run("document.querySelectorAll('.area,figure.frame').length")):
                 page.run(f"document.querySelectorAll('.area,figure.frame')[{i}]"
                          ".scrollIntoView();new Promise(done=>setTimeout(done,500))")
-            page.wait("document.querySelectorAll('.live').length==6")
+            page.wait("document.querySelectorAll('.live').length==4")
             page.wait("document.querySelectorAll('.look canvas[data-drawn]').length>1")
             page.shot(os.path.join(folder, f"live_{name}.png"), whole=True)
             if name == "light":
@@ -471,9 +457,8 @@ def check(report, program, reviewer, folder_of_shots):
     report.claim(len(cards) >= 2, f"{len(cards)} cases have frames")
     with browser.Browser(program, address) as page:
         # the second of two symbols: what belongs to its display stands with the first
-        suns, way, year = (Sweep(page, folder, review, i) for i in (1, 3, 5))
+        suns, year = (Sweep(page, folder, review, i) for i in (1, 3))
         check_year(report, year)
-        check_route(report, way)
         suns.find(".area", ".scrollIntoView({block:'center'})")
         check_drag(report, suns)
         check_keys(report, suns)
@@ -501,8 +486,6 @@ def main(program, folder_of_shots=None):
         reviewer = Reviewer(program, folder)
         shutil.copy(PANEL, os.path.join(folder, "ips.panel"))
         dashboard().write(os.path.join(folder, "dash.gltf"))
-        with open(os.path.join(folder, "way.csv"), "w", encoding="utf-8") as file:
-            file.write(WAY)
         check(report, found, reviewer, folder_of_shots)
     return report.finish()
 

@@ -4,11 +4,6 @@
 #include "fixture.h"
 #include "review/request/request_read.h"
 
-/* Of a GPX and a CSV alike: three points eastward on the equator, a second each. */
-#define REVIEW_ROUTE                                                                           \
-    "time,lat,lon,heading\n2026-06-21T08:30:00Z,0,10,\n2026-06-21T08:30:01Z,0,10.001,\n"       \
-    "2026-06-21T08:30:02Z,0,10.002,\n"
-
 /* ' stands for ". */
 static const char review_good[] =
     "{'title':'All of it','scene':['a.gltf','b%20c.gltf'],'forward':[0,0,-2],"
@@ -31,7 +26,6 @@ static const char review_good[] =
     "'contents':{'cluster':'p.png'}},"
     "{'name':'night','lights':['b%20c.gltf'],'level':'night','heading_deg':-20,"
     "'polarity':{'text':'dark-on-light'}},"
-    "{'name':'drive','route':'r.csv','when':'2028-02-28T23:59:59+01:00','weather':'clear'},"
     "{'name':'any sun','sweep':{'sun':{'azimuth_deg':[0,360,90],'elevation_deg':[5,5,1]},"
     "'sky':'sky'}},"
     "{'name':'a year','environment':{'type':'sky','turbidity':4,"
@@ -43,7 +37,6 @@ static inline void review_files(void)
 {
     static const char *const empty[] = {"a.gltf", "b c.gltf", "p.png"};
     for (int i = 0; i < 3; i++) write_text(in_folder(empty[i]), "");
-    write_text(in_folder("r.csv"), REVIEW_ROUTE);
 }
 
 /* The text with its first `from` (NULL: none) replaced. */

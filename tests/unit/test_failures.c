@@ -104,18 +104,4 @@ TEST(what_fails_by_its_figure_alone_does_not_count)
     assert_near(found.longest_minutes, 0, 0);
 }
 
-/* Four points, of which the middle two fail: each stands for the time to the next. */
-ARENA_TEST(a_route_fails_for_the_time_of_its_points)
-{
-    SweepSun  list[4];
-    const double minutes[] = {4, 7, 2, 0};
-    const unsigned char states[] = {STEP_PASSES, STEP_FAILS_SURELY, STEP_FAILS, STEP_PASSES};
-    ReviewCondition route = {.kind = CONDITION_ROUTE};
-    for (int i = 0; i < 4; i++) list[i] = (SweepSun){.minutes = minutes[i], .step = i};
-    SweepSuns suns = {.list = list, .count = 4, .has_time = true};
-    Failures  found = sweep_failures(&route, &suns, states, NULL, arena);
-    assert_near(found.share, 9.0 / 13, 1e-12);
-    assert_near(found.longest_minutes, 9, 1e-12);
-}
-
 TEST_PROGRAM(make_arena, drop_arena)

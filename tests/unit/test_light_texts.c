@@ -512,7 +512,6 @@ ARENA_TEST(a_declared_encoding_is_read_or_refused_by_name)
         if (ok != !cases[i].message) fail_msg("%zu: %s", i, ok ? "is read" : line);
         if (ok) assert_text_has(text, ">M\xC3\xBCller<");
         else assert_text_has(line, cases[i].message);
-        assert_true(xml_text_is(&bytes));
         assert_true(importer_window.recognises("x.xml", (const char *)bytes.data, bytes.size));
     }
     FileBytes euro = bytes_of("<?xml version='1.0' encoding='CP1252'?><a>\x80</a>");

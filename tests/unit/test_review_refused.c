@@ -8,7 +8,6 @@ static int start(void **state)
     if (make_folder(state)) return -1;
     review_files();
     write_text(in_folder("empty.epw"), "");
-    write_text(in_folder("bad.csv"), "time,lat\n");
     return 0;
 }
 
@@ -47,12 +46,12 @@ TEST(unknown_keys_are_refused_with_the_nearest_known_one)
         {"'contrast'", "'contrasts'", "/precision/contrasts", "'contrast'"},
         {"'worst'", "'wurst'", "/frames/wurst", "'worst'"},
         {"'lights'", "'light'", "/conditions/1/light", "'lights'"},
-        {"'azimuth_deg':[", "'azimut_deg':[", "/conditions/3/sweep/sun/azimut_deg",
+        {"'azimuth_deg':[", "'azimut_deg':[", "/conditions/2/sweep/sun/azimut_deg",
          "'azimuth_deg'"},
-        {"'sky':'sky'", "'skies':'sky'", "/conditions/3/sweep/skies", "'sky'"},
-        {"'step_minutes'", "'step_minute'", "/conditions/4/sweep/step_minute",
+        {"'sky':'sky'", "'skies':'sky'", "/conditions/2/sweep/skies", "'sky'"},
+        {"'step_minutes'", "'step_minute'", "/conditions/3/sweep/step_minute",
          "'step_minutes'"},
-        {"'turbidity'", "'turbidty'", "/conditions/4/environment/turbidty",
+        {"'turbidity'", "'turbidty'", "/conditions/3/environment/turbidty",
          "nearest known one is 'turbidity'"},
     };
     CHECK_ALL(wrong);
@@ -70,8 +69,8 @@ TEST(what_must_be_there_is_asked_for)
          "key 'table_lx' is missing"},
         {"'sensor':{'position_m':[0,1,2],'normal':[0,3,4]},", "", "/levels/auto",
          "key 'sensor' is missing"},
-        {"'where':[48,11],", "", "/conditions/4/sweep", "key 'where' is missing"},
-        {",'elevation_deg':[5,5,1]", "", "/conditions/3/sweep/sun",
+        {"'where':[48,11],", "", "/conditions/3/sweep", "key 'where' is missing"},
+        {",'elevation_deg':[5,5,1]", "", "/conditions/2/sweep/sun",
          "key 'elevation_deg' is missing"},
         {"'half_size_m':[0.1,0.2,0],", "", "/eyes/box", "key 'half_size_m' is missing"},
     };
@@ -170,8 +169,6 @@ TEST(files_are_checked)
         {"'a.gltf','b", "'../../a.gltf','b", "/scene/0", "leaves the parent of the folder"},
         {"'a.gltf','b", "'a%2.gltf','b", "/scene/0", "%2"},
         {"'somebody':['a.gltf']", "'somebody':[]", "/with/somebody", "has 0 values"},
-        {"'route':'r.csv'", "'route':'none.csv'", "/conditions/2/route", "cannot be read"},
-        {"'route':'r.csv'", "'route':'bad.csv'", "line 1", "has no column 'lon', required:"},
     };
     CHECK_ALL(wrong);
 }
@@ -243,20 +240,9 @@ TEST(conditions_are_checked)
         "required:"},
         {"'contents':{'cluster':'p.png'}", "'contents':{'cluster':'q.png'}",
          "/conditions/0/contents/cluster", "cannot be read"},
-        {"'route':'r.csv',", "", "/conditions/2/when", "stands without 'route', required: "
-         "beside a route or in 'environment'"},
-        {"'route':'r.csv','when':'2028-02-28T23:59:59+01:00',", "", "/conditions/2/weather",
-         "stands without 'route'"},
-        {"'route':'r.csv'", "'route':'r.csv','heading_deg':7", "/conditions/2/heading_deg",
-         "stands beside 'route', required: the route's own headings alone"},
-        {"'route':'r.csv'", "'route':'r.csv','sweep':{'year':2026,'where':[0,0]}",
-         "/conditions/2",
-         "has both 'route' and 'sweep', required: one of them"},
-        {"2028-02-28T23:59:59+01:00", "2028-02-28T23:59:59", "/conditions/2/when",
-         "is no moment, required: a date, time and zone"},
-        {"'weather':'clear'}", "'weather':'rain'}", "/conditions/2/weather",
+        {"'weather':'clear'", "'weather':'rain'", "/conditions/3/sweep/weather",
          "is 'rain', required: 'clear' or a weather file .epw"},
-        {"{'name':'drive'", "7,{'name':'drive'", "/conditions/2",
+        {"{'name':'any sun'", "7,{'name':'any sun'", "/conditions/2",
          "is a number, required: an object"},
     };
     CHECK_ALL(wrong);
@@ -270,18 +256,18 @@ TEST(environments_are_checked_as_in_a_scene)
         {"'when':'2026-06-21T12:00+02:00',", "", "/conditions/0/environment", "has no sun"},
         {"'where':[48.14,11.58,520],", "'where':[148,11],", "/conditions/0/environment/where/0",
          "is 148, a latitude"},
-        {"'turbidity':4", "'turbidity':99", "/conditions/4/environment/turbidity",
+        {"'turbidity':4", "'turbidity':99", "/conditions/3/environment/turbidity",
          "is 99, a number from 1 to 30 is required"},
         {"'type':'sky','when':'2026-06-21T12:00+02:00','where':[48.14,11.58,520],",
          "'type':'hdri','uri':'none.exr',", "/conditions/0/environment/uri", "none.exr"},
         {"'type':'sky','turbidity':4", "'type':'constant','luminance':1",
-         "/conditions/4/environment/type", "is not 'sky', which is required"},
+         "/conditions/3/environment/type", "is not 'sky', which is required"},
         {"'heading_deg':30}", "'heading_deg':30},'heading_deg':4", "/conditions/0/heading_deg",
          "stands in 'environment' as well, required: once"},
         {"'heading_deg':30}", "'forward':[0,0,1]}", "/conditions/0/environment/forward",
          "stands in a condition, required: at the top of the file"},
         {"'turbidity':4", "'turbidity':4,'heading_deg':7",
-         "/conditions/4/environment/heading_deg", "headings of its own, required: none"},
+         "/conditions/3/environment/heading_deg", "headings of its own, required: none"},
     };
     CHECK_ALL(wrong);
 }
@@ -289,43 +275,43 @@ TEST(environments_are_checked_as_in_a_scene)
 TEST(sweeps_are_checked)
 {
     static const Wrong wrong[] = {
-        {"[0,360,90]", "[0,360]", "/conditions/3/sweep/sun/azimuth_deg",
+        {"[0,360,90]", "[0,360]", "/conditions/2/sweep/sun/azimuth_deg",
          "has 2 values, required: 3"},
-        {"[0,360,90]", "[0,360,0]", "/conditions/3/sweep/sun/azimuth_deg",
+        {"[0,360,90]", "[0,360,0]", "/conditions/2/sweep/sun/azimuth_deg",
          "has a step of 0, required: at least 0.0001"},
-        {"[0,360,90]", "[90,0,10]", "/conditions/3/sweep/sun/azimuth_deg",
+        {"[0,360,90]", "[90,0,10]", "/conditions/2/sweep/sun/azimuth_deg",
          "goes from 90 to 0, which is empty; required: [first, last, step]"},
-        {"[0,360,90]", "[0,360,7]", "/conditions/3/sweep/sun/azimuth_deg",
+        {"[0,360,90]", "[0,360,7]", "/conditions/2/sweep/sun/azimuth_deg",
          "does not come from 0 to 360 in steps of 7, required: a step such as 7.05882"},
-        {"[0,360,90]", "[0,360,500]", "/conditions/3/sweep/sun/azimuth_deg", "such as 360"},
-        {"[0,360,90]", "[-100,300,90]", "/conditions/3/sweep/sun/azimuth_deg", "such as 100"},
-        {"[0,360,90]", "[-100,300,100]", "/conditions/3/sweep/sun/azimuth_deg",
+        {"[0,360,90]", "[0,360,500]", "/conditions/2/sweep/sun/azimuth_deg", "such as 360"},
+        {"[0,360,90]", "[-100,300,90]", "/conditions/2/sweep/sun/azimuth_deg", "such as 100"},
+        {"[0,360,90]", "[-100,300,100]", "/conditions/2/sweep/sun/azimuth_deg",
          "spans 400 degrees, required: at most 360"},
-        {"[0,360,90]", "[0,360,0.001]", "/conditions/3/sweep/sun/azimuth_deg",
+        {"[0,360,90]", "[0,360,0.001]", "/conditions/2/sweep/sun/azimuth_deg",
          "has 360001 values, required: at most 100000"},
         {"[0,360,90],'elevation_deg':[5,5,1]", "[0,360,0.01],'elevation_deg':[0,80,0.01]",
-         "/conditions/3/sweep/sun", "suns, required: at most 10000000"},
-        {"[5,5,1]", "[-60,5,1]", "/conditions/3/sweep/sun/elevation_deg",
+         "/conditions/2/sweep/sun", "suns, required: at most 10000000"},
+        {"[5,5,1]", "[-60,5,1]", "/conditions/2/sweep/sun/elevation_deg",
          "is -60, required: a number from -18 to 90"},
-        {"'sky':'sky'", "'sky':'cie'", "/conditions/3/sweep/sky", "is 'cie', required:"},
-        {"'sky':'sky'", "'year':2026", "/conditions/3/sweep",
+        {"'sky':'sky'", "'sky':'cie'", "/conditions/2/sweep/sky", "is 'cie', required:"},
+        {"'sky':'sky'", "'year':2026", "/conditions/2/sweep",
          "has both, required: one of 'sun' and 'year'"},
-        {"'year':2026,", "", "/conditions/4/sweep", "has neither, required: one of"},
-        {"'year':2026", "'year':2026.5", "/conditions/4/sweep/year", "required: a whole "
+        {"'year':2026,", "", "/conditions/3/sweep", "has neither, required: one of"},
+        {"'year':2026", "'year':2026.5", "/conditions/3/sweep/year", "required: a whole "
         "number"},
-        {"'year':2026", "'year':26", "/conditions/4/sweep/year", "is 26, required:"},
-        {"'where':[48,11]", "'where':[480,11]", "/conditions/4/sweep/where", "is no place"},
-        {"'where':[48,11]", "'where':[48]", "/conditions/4/sweep/where",
+        {"'year':2026", "'year':26", "/conditions/3/sweep/year", "is 26, required:"},
+        {"'where':[48,11]", "'where':[480,11]", "/conditions/3/sweep/where", "is no place"},
+        {"'where':[48,11]", "'where':[48]", "/conditions/3/sweep/where",
          "has 1 values, required: 2 to 3"},
-        {"'step_minutes':30", "'step_minutes':0", "/conditions/4/sweep/step_minutes",
+        {"'step_minutes':30", "'step_minutes':0", "/conditions/3/sweep/step_minutes",
          "is 0, required: a number from 0.5 to 1440"},
-        {"[0,90],'weather'", "[0,360],'weather'", "/conditions/4/sweep/headings_deg",
+        {"[0,90],'weather'", "[0,360],'weather'", "/conditions/3/sweep/headings_deg",
          "holds 0 and 360, required: each heading once"},
-        {"[0,90],'weather'", "[],'weather'", "/conditions/4/sweep/headings_deg",
+        {"[0,90],'weather'", "[],'weather'", "/conditions/3/sweep/headings_deg",
          "has 0 values, required: 1"},
-        {"'night':true", "'night':1", "/conditions/4/sweep/night",
+        {"'night':true", "'night':1", "/conditions/3/sweep/night",
          "is a number, required: true or false"},
-        {"'sweep':{'year'", "'heading_deg':1,'sweep':{'year'", "/conditions/4/heading_deg",
+        {"'sweep':{'year'", "'heading_deg':1,'sweep':{'year'", "/conditions/3/heading_deg",
          "stands beside the sweep of a year, required: 'headings_deg' in it"},
     };
     CHECK_ALL(wrong);
@@ -337,7 +323,7 @@ TEST(a_weather_file_is_there)
 {
     static const Wrong wrong[] = {
         {"'weather':'clear','night'", "'weather':'none.epw','night'",
-         "/conditions/4/sweep/weather", "none.epw', which cannot be read"},
+         "/conditions/3/sweep/weather", "none.epw', which cannot be read"},
         {"'weather':'clear','night'", "'weather':'empty.epw','night'", "",
          "is empty, required: an EPW weather file"},
     };
@@ -360,15 +346,15 @@ ARENA_TEST(a_weather_year_brings_its_place)
                           "'weather':'year.epw','night'", &arena);
     assert_fails_as(review_read(text, &arena, &r, &err), ERROR_INPUT,
                     "stands beside a weather file, required: one of them");
-    assert_string_equal(why()->path, "/conditions/4/environment");
+    assert_string_equal(why()->path, "/conditions/3/environment");
     text = review_changed(text,
                           "\"environment\":{\"type\":\"sky\",\"turbidity\":4,"
                           "\"sun\":{\"azimuth_deg\":0,\"elevation_deg\":9,"
                           "\"illuminance_lx\":1}},", "", &arena);
     assert_done(review_read(text, &arena, &r, &err));
     assert_int_equal(r.weather_count, 1);
-    assert_int_equal(r.conditions[4].weather_id, 0);
-    assert_near(r.conditions[4].where.latitude_deg, 52.3, 1e-9);
+    assert_int_equal(r.conditions[3].weather_id, 0);
+    assert_near(r.conditions[3].where.latitude_deg, 52.3, 1e-9);
     assert_int_equal(r.weathers[0].weather.count, 8760);
     assert_true(r.weathers[0].clock.rows > 1000);
 }

@@ -60,16 +60,15 @@ ARENA_TEST(symbols_levels_and_the_rest_arrive)
     assert_true(r.precision_clear == 0.05 && r.precision_paths == 10000);
     assert_true(r.seed == 7 && review_seed(&r, 3) != 3 && review_seed(&r, 4) != 3);
     assert_true(r.precision_contrast == 0.02 && r.frames.width == 640 && r.frames.worst == 2);
-    assert_int_equal(r.input_count, 2); /* the file and the route */
+    assert_int_equal(r.input_count, 1); /* the file */
     assert_string_equal(r.inputs[0].path, r.file);
-    assert_true(r.inputs[0].hash != r.inputs[1].hash);
 }
 
 ARENA_TEST(conditions_arrive)
 {
     ReviewRequest r = good(&arena);
     const ReviewCondition *noon = &r.conditions[0], *night = &r.conditions[1];
-    assert_int_equal(r.condition_count, 5);
+    assert_int_equal(r.condition_count, 4);
     assert_true(noon->kind == CONDITION_MOMENT && noon->has_environment);
     assert_int_equal(noon->environment.kind, ENVIRONMENT_SKY);
     assert_true(noon->environment.daylight.has_time);
@@ -98,15 +97,11 @@ ARENA_TEST(a_clouds_relief_is_nothing_to_judge_by)
     assert_true(r.conditions[0].environment.daylight.cloud_relief_m == 0);
 }
 
-ARENA_TEST(routes_and_sweeps_arrive)
+ARENA_TEST(sweeps_arrive)
 {
     ReviewRequest r = good(&arena);
-    const ReviewCondition *drive = &r.conditions[2], *suns = &r.conditions[3];
-    const ReviewCondition *year = &r.conditions[4];
-    assert_true(drive->kind == CONDITION_ROUTE && drive->route.count == 3);
-    SkyTime last = drive->route.points[2].when;
-    assert_true(last.month == 2 && last.day == 29);
-    assert_int_equal(drive->weather_id, NO_ID);
+    const ReviewCondition *suns = &r.conditions[2], *year = &r.conditions[3];
+    assert_int_equal(year->weather_id, NO_ID);
     assert_int_equal(suns->kind, CONDITION_SUN_SWEEP);
     assert_int_equal(suns->azimuth_deg.count, 5); /* both ends in */
     assert_int_equal(suns->elevation_deg.count, 1);

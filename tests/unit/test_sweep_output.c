@@ -128,23 +128,4 @@ TEST(a_years_map_has_no_holes_and_no_answers_of_its_own)
     }
 }
 
-/* A drive's points are no steps of a year: nothing is known between them. */
-TEST(a_route_is_not_filled)
-{
-    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 28);
-    RoutePoint points[2] = {{.when = {2026, 6, 21, 8, 0, 0, 0}, .where = {50, 8, 100}},
-                            {.when = {2026, 6, 21, 11, 0, 0, 0}, .seconds = 10800,
-                             .where = {50, 8, 100}}};
-    ReviewCondition route = {.kind = CONDITION_ROUTE, .route = {"r", points, 2},
-                             .weather_id = NO_ID, .level_id = NO_ID, .with_id = NO_ID};
-    SweepSuns  suns = sweep_suns(&route, 2, &arena);
-    SweepTable table = table_of(&suns, &arena);
-    ReviewMap  map = sweep_map(&table, NULL, CELL_DEG, &arena);
-    int        answers = 0;
-    for (int i = 0; i < map.azimuth_deg.count * map.elevation_deg.count; i++)
-        answers += !isnan(map.contrast[i]);
-    assert_int_equal(answers, 2);
-    assert_false(map.is_between_steps);
-}
-
 TEST_PROGRAM(NULL, NULL)

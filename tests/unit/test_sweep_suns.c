@@ -100,26 +100,6 @@ TEST(suns_about_one_are_a_tenth_of_a_degree_apart)
     assert_int_equal(sweep_suns_about(&grid, &one, 2, &arena).count, 1);
 }
 
-/* Points of a drive at noon in summer: each stands for the time to the next. */
-TEST(a_route_gives_each_point_its_time)
-{
-    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 24);
-    RoutePoint points[3];
-    for (int i = 0; i < 3; i++)
-        points[i] = (RoutePoint){.when = {2026, 6, 21, 12, 10 * i, 0, 1}, .seconds = 600 * i,
-                                 .where = {50 + 0.1 * i, 8, 100}, .heading_deg = 30 * i};
-    ReviewCondition condition = {.kind = CONDITION_ROUTE, .route = {"r", points, 3}};
-    SweepSuns suns = suns_of(condition, &arena);
-    assert_int_equal(suns.count, 3);
-    assert_near(suns.list[0].minutes, 10, 1e-9);
-    assert_near(suns.list[2].minutes, 0, 1e-9);
-    for (int i = 0; i < 3; i++) {
-        assert_true(suns.list[i].elevation_deg > 60);
-        assert_near(suns.list[i].heading_deg, 30 * i, 1e-9);
-        assert_true(suns.list[i].step == i);
-    }
-}
-
 /* Each is found with its own reading, and no other is, however many there are. */
 TEST(kept_readings_are_found_by_their_suns)
 {

@@ -8,12 +8,12 @@
 #include "review/run/sweep_weather.h"
 
 #define DAY 24
+#define DAYS_BEFORE 171 /* 21 June */
 
 /* 21 June of another year, UTC: sun from 5 to 19 h; each row gives its label. */
 typedef struct Fixture {
     WeatherHour     hours[DAY];
     ReviewWeather   weather;
-    RoutePoint      points[4 * DAY];
     ReviewRequest   request;
     ReviewCondition condition;
     Arena           arena;
@@ -24,10 +24,11 @@ static bool is_day(int label)
     return label > 5 && label < 20;
 }
 
-/* A drive through the day, `steps` points an hour. */
-static Fixture *drive(int steps)
+/* A year with `steps` of them an hour. */
+static Fixture *year_of(int steps)
 {
-    static Fixture f;
+    static Fixture      f;
+    static const double north[1];
     f = (Fixture){.arena = *test_memory()};
     for (int i = 0; i < DAY; i++)
         f.hours[i] = (WeatherHour){.line = 9 + i, .year = 1999, .month = 6, .day = 21,
@@ -39,27 +40,41 @@ static Fixture *drive(int steps)
                                 .weather = {.file = "w.epw", .city = "Here", .rows_per_hour = 1,
                                             .hour = f.hours, .count = DAY},
                                 .clock = {.offset_h = -0.5}};
-    for (int i = 0; i < steps * DAY; i++)
-        f.points[i] = (RoutePoint){.when = {2026, 6, 21, i / steps,
-                                            (i % steps + 0.5) * 60 / steps, 0, 0},
-                                   .where = {50, 0, 0}};
     f.request = (ReviewRequest){.weathers = &f.weather, .weather_count = 1};
-    f.condition = (ReviewCondition){.name = "drive", .kind = CONDITION_ROUTE,
-                                    .route = {"r", f.points, steps * DAY}};
+    f.condition = (ReviewCondition){.name = "year", .kind = CONDITION_YEAR_SWEEP, .year = 2026,
+                                    .where = {50, 0, 0}, .step_minutes = 60.0 / steps,
+                                    .headings_deg = north, .heading_count = 1};
     return &f;
+}
+
+static int first_of_day(const Fixture *f)
+{
+    return (int)(DAYS_BEFORE * DAY * 60 / f->condition.step_minutes);
+}
+
+/* Those of the day that the file has. */
+static SweepSuns day_of(Fixture *f)
+{
+    SweepSuns day = sweep_suns(&f->condition, 2, &f->arena);
+    int       first = first_of_day(f), end = first + (int)(DAY * 60 / f->condition.step_minutes);
+    const SweepSun *last = day.list + day.count;
+    while (day.list->step < first) day.list++;
+    for (day.count = 0; day.list + day.count < last && day.list[day.count].step < end;)
+        day.count++;
+    return day;
 }
 
 TEST(each_step_has_the_light_of_its_row)
 {
     for (int steps = 1; steps <= 4; steps += 3) {
-        Fixture  *f = drive(steps);
-        SweepSuns suns = sweep_suns(&f->condition, 2, &f->arena);
+        Fixture  *f = year_of(steps);
+        SweepSuns suns = day_of(f);
         assert_true(suns.count > 15 * steps);
         assert_done(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, &err));
         for (int i = 0; i < suns.count; i++) {
             const SweepSun *sun = &suns.list[i];
             DaylightInput   light;
-            int  label = sun->step / steps + 1;
+            int  label = (sun->step - first_of_day(f)) / steps + 1;
             bool is_lit = sweep_weather_light(&f->request, &f->condition, sun, &light);
             assert_int_equal(is_lit, is_day(label));
             if (!is_lit) continue;
@@ -76,19 +91,16 @@ TEST(each_step_has_the_light_of_its_row)
 /* All headings of an hour share its sky; dark ones have none. */
 TEST(skies_are_made_once_an_hour)
 {
-    Fixture  *f = drive(1);
+    Fixture  *f = year_of(1);
     double    headings[3] = {0, 10, 200};
     HourSkies skies;
-    f->condition = (ReviewCondition){.name = "year", .kind = CONDITION_YEAR_SWEEP, .year = 2026,
-                                     .where = {50, 0, 0}, .step_minutes = 60,
-                                     .headings_deg = headings, .heading_count = 3};
+    f->condition.headings_deg = headings;
+    f->condition.heading_count = 3;
     Setup     setup = {.request = &f->request, .condition = &f->condition, .tools.threads = 2};
-    SweepSuns suns = sweep_suns(&f->condition, 2, &f->arena), day = suns;
-    while (day.list->step < 171 * 24) day.list++;
-    day.count = 3 * 15;
+    SweepSuns day = day_of(f);
     assert_done(sweep_weather_skies(&setup, &day, &f->arena, &skies, &err));
     for (int i = 0; i < day.count; i++) {
-        int label = day.list[i].step - 171 * 24 + 1;
+        int label = day.list[i].step - first_of_day(f) + 1;
         assert_int_equal(skies.of_sun[i] >= 0, is_day(label));
         assert_int_equal(skies.of_sun[i], skies.of_sun[i - i % 3]);
         if (i >= 3 && skies.of_sun[i] >= 0) assert_true(skies.of_sun[i] >= skies.of_sun[i - 3]);
@@ -99,10 +111,12 @@ TEST(skies_are_made_once_an_hour)
  * that belongs to no hour. */
 TEST(a_sun_is_traced_under_its_hour)
 {
-    Fixture *f = drive(1);
+    Fixture *f = year_of(1);
+    int      first = first_of_day(f);
     Setup    setup = {.request = &f->request, .condition = &f->condition};
-    SweepSun noon = {.elevation_deg = 60, .heading_deg = 90, .step = 11};
-    SweepSun dusk = {.elevation_deg = 2, .step = 20}, any = {.elevation_deg = 30, .step = -1};
+    SweepSun noon = {.elevation_deg = 60, .heading_deg = 90, .step = first + 11};
+    SweepSun dusk = {.elevation_deg = 2, .step = first + 20};
+    SweepSun any = {.elevation_deg = 30, .step = -1};
     f->request.forward[2] = -1;
     Environment sky = sweep_environment(&setup, &noon);
     assert_int_equal(sky.kind, ENVIRONMENT_PEREZ);
@@ -140,21 +154,21 @@ TEST(gaps_by_day_are_told)
         Harm       *harm;
         const char *path, *words;
     } wrong[] = {
-        {lose_a_row, "", "has no row within half an hour, where 'drive' needs one "
-                         "(2026-06-21 11:30, 1 of its 16 steps alike)"},
-        {lose_values, "line 20", "has no direct or no diffuse radiation, where 'drive' needs"},
+        {lose_a_row, "", "has no row within half an hour, where 'year' needs one "
+                         "(2026-06-21 11:30 UTC, 1 of its 16 steps alike)"},
+        {lose_values, "line 20", "has no direct or no diffuse radiation, where 'year' needs"},
         {lose_diffuse, "line 20", "has 112 W/m2 of direct light and no diffuse, where"},
         {lose_lux, "line 20", "has 10640 lx direct and no lx diffuse beside 112 and 62 W/m2, "
-                              "where 'drive' needs one (2026-06-21 11:30, 1 of its 16"},
+                              "where 'year' needs one (2026-06-21 11:30 UTC, 1 of its 16"},
         {add_a_spike, "line 20", "has 2500 W/m2 of direct and 62 of diffuse light, more than "
-                                 "the sun's own 1410, where 'drive' needs one"},
-        {lose_noon, "line 20", "is dark while the sun stands 63 degrees high, where 'drive' "
-                               "needs one (2026-06-21 11:30, 2 of its"},
+                                 "the sun's own 1410, where 'year' needs one"},
+        {lose_noon, "line 20", "is dark while the sun stands 63 degrees high, where 'year' "
+                               "needs one (2026-06-21 11:30 UTC, 2 of its"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        Fixture *f = drive(1);
+        Fixture *f = year_of(1);
         wrong[i].harm(f);
-        SweepSuns suns = sweep_suns(&f->condition, 2, &f->arena);
+        SweepSuns suns = day_of(f);
         assert_false(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, why()));
         assert_told(ERROR_INPUT, wrong[i].path, wrong[i].words);
     }
@@ -162,13 +176,13 @@ TEST(gaps_by_day_are_told)
 
 TEST(gaps_by_night_matter_to_none)
 {
-    Fixture *f = drive(1);
+    Fixture *f = year_of(1);
     f->hours[0].has_light = f->hours[23].has_light = false;
-    SweepSuns suns = sweep_suns(&f->condition, 2, &f->arena);
+    SweepSuns suns = day_of(f);
     assert_done(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, &err));
     f->condition.with_night = true;
-    for (int i = 0; i < DAY; i++) f->points[i].where.latitude_deg = 62; /* no deep night */
-    suns = sweep_suns(&f->condition, 2, &f->arena);
+    f->condition.where.latitude_deg = 62; /* no deep night */
+    suns = day_of(f);
     assert_false(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, why()));
 }
 

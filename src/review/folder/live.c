@@ -326,8 +326,7 @@ static const LiveSky *make_sky(const SweepSuns *suns, const ReviewCondition *con
         list[i] = (LiveSun){sun->azimuth_deg, sun->elevation_deg, sun->step, sun->heading_id};
     }
     bool is_year = condition && condition->kind == CONDITION_YEAR_SWEEP;
-    *sky = (LiveSky){.suns = list, .count = suns->count,
-                     .is_route = condition && condition->kind == CONDITION_ROUTE};
+    *sky = (LiveSky){.suns = list, .count = suns->count};
     if (is_year) {
         sky->year = condition->year;
         sky->step_minutes = suns->step_minutes;
@@ -380,17 +379,12 @@ static void add_time(Text *text, const SweepTable *table, const ReviewCondition 
         double minutes = (sun->step + 0.5) * table->suns->step_minutes;
         text_format(text, "%d,%d,%.4g,", (int)(minutes / MINUTES_A_DAY) + 1, c->year,
                  fmod(minutes, MINUTES_A_DAY) / 60);
-    } else if (c->kind == CONDITION_ROUTE) {
-        const SkyTime *when = &c->route.points[sun->step].when;
-        text_format(text, "%04d-%02d-%02dT%02d:%02d:%02.0f,", when->year, when->month,
-                    when->day, when->hour, when->minute, when->second);
     }
 }
 
 static const char *head_of(const ReviewCondition *c)
 {
-    if (c->kind == CONDITION_YEAR_SWEEP) return "day_of_year,year,hour_utc,";
-    return c->kind == CONDITION_ROUTE ? "time," : "";
+    return c->kind == CONDITION_YEAR_SWEEP ? "day_of_year,year,hour_utc," : "";
 }
 
 bool sweep_table_write(const SweepTable *table, const ReviewCondition *condition,

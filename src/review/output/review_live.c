@@ -106,8 +106,7 @@ static json_t *sky_json(Packer *to, const LiveSky *sky)
         codes[2 * count + i] = (uint32_t)sun->step;
         codes[3 * count + i] = (uint32_t)sun->heading_id;
     }
-    json_t *sky_of = json_pack("{s:i, s:b, s:i, s:f, s:o}", "count", count, "route",
-                               sky->is_route, "year", sky->year, "minutes", sky->step_minutes,
+    json_t *sky_of = json_pack("{s:i, s:i, s:f, s:o}", "count", count, "year", sky->year, "minutes", sky->step_minutes,
                                "headings", headings);
     set_codes(&own, sky_of, "azimuth", codes, count, 2);
     set_codes(&own, sky_of, "elevation", codes + count, count, 2);

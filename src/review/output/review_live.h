@@ -33,7 +33,6 @@ typedef struct LiveSun {
 typedef struct LiveSky {
     const LiveSun *suns;
     int            count;
-    bool           is_route;     /* in its order of time */
     int            year;         /* 0: its suns have no date */
     double         step_minutes; /* a year's, from 1 January 0:00 UTC on */
     const double  *headings_deg;

@@ -94,7 +94,6 @@ WorkPlan work_of_moment(const ReviewRequest *request, int symbols, bool is_bare)
 /* About: of a year half are up. */
 static double suns_of(const ReviewCondition *c)
 {
-    if (c->kind == CONDITION_ROUTE) return c->route.count;
     if (c->kind == CONDITION_SUN_SWEEP)
         return (double)c->azimuth_deg.count * c->elevation_deg.count;
     return 0.5 * MINUTES_A_YEAR / c->step_minutes * c->heading_count;

@@ -15,7 +15,6 @@
 #include <stdbool.h>
 
 #include "base/lines.h"
-#include "review/route/route.h"
 #include "scene/scene.h"
 #include "sky/epw.h"
 #include "sky/weather_clock.h"
@@ -121,8 +120,8 @@ typedef struct ReviewRoad {
     const double *dimming;         /* cd m^-2, rising: roads of the table of levels */
     int           dimming_count;   /* 0: the program's own (ROAD_DIMMING) */
     const char *const *conditions; /* names of those in which it is evaluated */
-    int           condition_count; /* 0: all moments without the sun. Sweeps and routes that
-                                      are named: without sun and sky */
+    int           condition_count; /* 0: all moments without the sun. Sweeps that are
+                                      named: without sun and sky */
 } ReviewRoad;
 
 #define ROAD_AGES_MOST 6
@@ -177,7 +176,6 @@ typedef struct ReviewWith {
 
 typedef enum ReviewConditionKind {
     CONDITION_MOMENT,    /* the environment as it stands */
-    CONDITION_ROUTE,
     CONDITION_SUN_SWEEP,
     CONDITION_YEAR_SWEEP
 } ReviewConditionKind;
@@ -208,7 +206,7 @@ typedef struct ReviewCondition {
     const char         *name;
     const ReviewGlasses *glasses; /* NULL: none */
     ReviewConditionKind kind;
-    bool        has_environment; /* moment without: as in the scene's files. Route and sweeps:
+    bool        has_environment; /* moment without: as in the scene's files. Sweeps:
                                     air and ground of a clear sky, whose sun is replaced */
     Environment environment;     /* its heading as below, forward as the request's */
     const char **lights;         /* more files of the scene */
@@ -221,14 +219,12 @@ typedef struct ReviewCondition {
     ReviewPolarity *polarity;    /* [symbol_count]: the symbol's own where none is given */
     ReviewContent  *contents;    /* shown instead of the symbols' and the scene's */
     int             content_count;
-    /* route */
-    Route        route;          /* its times as `when` moves them */
-    int          weather_id;     /* route, year: into weathers; NO_ID: clear */
-    WeatherLux   weather_lux;    /* by what its lux are known */
     /* sweep over the sun's direction, in a clear sky */
     ReviewRange  azimuth_deg, elevation_deg;
     /* sweep over a year, UTC: steps from 1 January 00:00 to the year's end */
     int          year;
+    int          weather_id;     /* into weathers; NO_ID: clear */
+    WeatherLux   weather_lux;    /* by what its lux are known */
     SkyPlace     where;          /* year; the weather file's where none is given */
     double       step_minutes;
     const double *headings_deg;
@@ -401,7 +397,7 @@ typedef struct ReviewRequest {
                                      is one of them: read from more paths (run/cases.c) */
     const ReviewChange *change;  /* this variant's; NULL: the review itself */
     bool             is_relevelled; /* it changes levels of displays and nothing else */
-    ReviewInput     *inputs;     /* the file itself, routes, weathers, skies' pictures */
+    ReviewInput     *inputs;     /* the file itself, weathers, skies' pictures */
     int              input_count;
 } ReviewRequest;
 

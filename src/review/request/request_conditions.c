@@ -60,14 +60,6 @@ static bool check_weather(const JsonView *view, const ReviewCondition *condition
 static const char *const LUX[] = {[WEATHER_LUX_PEREZ] = "perez", [WEATHER_LUX_FILE] = "file",
                                   NULL};
 
-#define WEATHER_ROWS                                                                           \
-    {"weather", RECORD_FILE, .read = read_weather,                                             \
-     .doc = "clear, or a weather file with a row for every step that counts; excludes "        \
-            "environment unless clear."},                                                      \
-    CHOICE("weather_lux", 0, weather_lux, LUX,                                                 \
-           "A weather file's lux: its irradiances times Perez 1990's luminous efficacies "     \
-           "with water by the dew point, or the file's own columns.")
-
 /* ---- over the sun's direction ------------------------------------------------------------ */
 
 #define RANGE_MAX 100000 /* values of one range */
@@ -197,7 +189,12 @@ static const RecordRow SWEEP[] = {
     NUMBER("step_minutes", 0, step_minutes, 0.5, 1440, "Default: 60."),
     FIGURES("headings_deg", 0, headings_deg, heading_count, 1, 3600, -360, 360,
             "None twice; default: north."),
-    WEATHER_ROWS,
+    {"weather", RECORD_FILE, .read = read_weather,
+     .doc = "clear, or a weather file with a row for every step that counts; excludes "
+            "environment unless clear."},
+    CHOICE("weather_lux", 0, weather_lux, LUX,
+           "A weather file's lux: its irradiances times Perez 1990's luminous efficacies "
+           "with water by the dew point, or the file's own columns."),
     FLAG("night", 0, with_night, "Whether hours without sun count too."),
     {0}};
 #define OF_SUN 2 /* rows */
@@ -223,33 +220,6 @@ static const RecordFormat sweep_format = {
              "'dependentRequired': {'sky': ['sun'], 'weather_lux': ['weather'], "
              "'weather': ['year'], 'night': ['year']}}"};
 
-/* ---- a route ----------------------------------------------------------------------------- */
-
-static bool read_route(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    const char      *path;
-    ReviewCondition *condition = item;
-    condition->kind = CONDITION_ROUTE;
-    return record_read_kind(view, row, &path, err) &&
-           route_read(path, view->arena, &condition->route, err) &&
-           request_note_file(view, path, err);
-}
-
-static bool read_when(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    Error       why;
-    SkyTime     when;
-    const char *text;
-    if (!record_has(view, "route"))
-        return record_fails(view, row->key, err, "stands without 'route', required: beside a "
-                                                 "route or in 'environment'");
-    if (!record_read_kind(view, row, &text, err)) return false;
-    if (!sky_time_parse(text, "", &when, &why))
-        return record_fails(view, row->key, err, "%s", why.text);
-    route_start_at(&((ReviewCondition *)item)->route, &when);
-    return true;
-}
-
 /* ---- light ------------------------------------------------------------------------------- */
 
 /* `forward` stands once at the top of the file, a heading once in the condition. */
@@ -263,13 +233,12 @@ static bool check_directions(const JsonView *view, const JsonView *environment,
     if (has_heading && record_has(view, "heading_deg"))
         return record_fails(view, "heading_deg", err,
                             "stands in 'environment' as well, required: once");
-    return !has_heading || (condition->kind != CONDITION_ROUTE &&
-                            condition->kind != CONDITION_YEAR_SWEEP) ||
+    return !has_heading || condition->kind != CONDITION_YEAR_SWEEP ||
            record_fails(environment, "heading_deg", err,
                         "stands in a condition that has headings of its own, required: none");
 }
 
-/* Beside a route or a sweep the environment gives a clear sky's air. */
+/* Beside a sweep the environment gives a clear sky's air. */
 static bool check_kind(const JsonView *environment, const ReviewCondition *condition,
                        Error *err)
 {
@@ -278,8 +247,8 @@ static bool check_kind(const JsonView *environment, const ReviewCondition *condi
         return error_at(err, ERROR_INPUT, environment->file, environment->path,
                         "stands beside a weather file, required: one of them");
     return condition->environment.kind == ENVIRONMENT_SKY ||
-           record_fails(environment, "type", err, "is not 'sky', which is required: a route "
-                        "and a sweep move the sun of a clear sky");
+           record_fails(environment, "type", err,
+                        "is not 'sky', which is required: a sweep moves the sun of a clear sky");
 }
 
 /* As in a scene; the condition's time and heading are read already. */
@@ -337,11 +306,6 @@ static const RecordRow CONDITION[] = {
         "What displays show instead."),
     NUMBER("heading_deg", RECORD_OPEN, heading_deg, -360, 360,
            "Where the vehicle heads to, from north over east."),
-    {"route", RECORD_FILE, .read = read_route,
-     .doc = "A drive or flight: .gpx, or .csv with time,lat,lon,heading."},
-    {"when", RECORD_TEXT, .read = read_when,
-     .doc = "When the route begins, with its zone; default: as its file says."},
-    WEATHER_ROWS,
     {"sweep", RECORD_OBJECT, .of = &sweep_format},
     OBJECT("sunglasses", RECORD_APART, glasses, review_glasses_format,
            "What the observer wears; default: none."),
@@ -358,25 +322,14 @@ static void start_condition(void *item)
 /* Keys that mean nothing beside others are errors, not skipped. */
 static bool check_together(const JsonView *view, const ReviewCondition *condition, Error *err)
 {
-    static const char *const of_routes[] = {"weather", "weather_lux"};
     const ReviewGlasses     *glasses = condition->glasses;
-    if (record_has(view, "route") && record_has(view, "sweep"))
-        return error_at(err, ERROR_INPUT, view->file, view->path,
-                        "has both 'route' and 'sweep', required: one of them");
-    for (int i = 0; i < 2 && !record_has(view, "route"); i++)
-        if (record_has(view, of_routes[i]))
-            return record_fails(view, of_routes[i], err, "stands without 'route', required: "
-                                "beside a route or in the year of a sweep");
-    if (record_has(view, "heading_deg") && record_has(view, "route"))
-        return record_fails(view, "heading_deg", err, "stands beside 'route', required: the "
-                            "route's own headings alone");
     if (record_has(view, "heading_deg") && condition->kind == CONDITION_YEAR_SWEEP)
         return record_fails(view, "heading_deg", err, "stands beside the sweep of a year, "
                             "required: 'headings_deg' in it");
     if (glasses && (glasses->curve || glasses->is_polarising) &&
         condition->kind != CONDITION_MOMENT)
-        return record_fails(view, "sunglasses", err, "is coloured or polarising beside a sweep "
-                            "or a route, required: a grey one, or a moment");
+        return record_fails(view, "sunglasses", err, "is coloured or polarising beside a sweep, "
+                            "required: a grey one, or a moment");
     return true;
 }
 
@@ -391,12 +344,8 @@ static bool check_condition(const JsonView *view, void *item, Error *err)
                                 (int)(before - request->conditions));
     condition->has_heading |= record_has(view, "heading_deg");
     if (!condition->polarity) read_polarity(view, NULL, condition, err);
-    return check_together(view, condition, err) &&
-           (!record_has(view, "route") || check_weather(view, condition, err));
+    return check_together(view, condition, err);
 }
 
 const RecordFormat review_condition_format = {
-    "condition", sizeof(OWNER), CONDITION, .start = start_condition, .check = check_condition,
-    .rules = "{'dependentRequired': {'when': ['route'], 'weather': ['route'], "
-             "'weather_lux': ['route', 'weather']}, 'not': {'anyOf': [{'required': "
-             "['route', 'sweep']}, {'required': ['route', 'heading_deg']}]}}"};
+    "condition", sizeof(OWNER), CONDITION, .start = start_condition, .check = check_condition};

@@ -110,7 +110,7 @@ static const RecordRow ROAD[] = {
     {"conditions", RECORD_TEXTS, RECORD_MANY(OWNER, conditions, condition_count),
      RECORD_COUNT(1, 1000),
      .doc = "Names of those in which it is evaluated: moments, where no sun stands above the "
-            "horizon; sweeps and routes, as after dark, without sun and sky. Default: all "
+            "horizon; sweeps, as after dark, without sun and sky. Default: all "
             "such moments."},
     {0}};
 

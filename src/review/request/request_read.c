@@ -251,8 +251,8 @@ static bool check_road(const JsonView *view, const ReviewRequest *request,
         is_any |= request->conditions[i].kind == CONDITION_MOMENT;
     return is_any || record_fails(view, "gaze", err,
                                   "'%.60s' has a road, which is evaluated in moments, and "
-                                  "there is none; required: one, or the names of sweeps and "
-                                  "routes in its 'conditions'", gaze->name);
+                                  "there is none; required: one, or the names of sweeps in "
+                                  "its 'conditions'", gaze->name);
 }
 
 static bool check_roads(const JsonView *view, const ReviewRequest *request, Error *err)

@@ -2,7 +2,7 @@
 /* request_read.h -- REVIEW.json becomes a ReviewRequest.
  *
  * Everything that can be known without the scene is checked: keys, kinds, ranges, the files of
- * routes, weathers and skies, and that names meet.
+ * weathers and skies, and that names meet.
  *
  * Memory   the arena's. Threads: one at a time.
  * Fails    with the file, the JSON path (/conditions/2/sweep/sun), what was found and what was

@@ -2,8 +2,8 @@
 /* false_sun_times.h -- when in a sweep a mirror throws the sun into an eye.
  *
  * The sun moves its own width in two minutes: a sweep of hours would miss most of what it does
- * in a mirror. Here it is tested minute by minute (a route: point by point; a sweep without
- * times: every quarter of a degree), which costs a look into a table (eye/false_suns.h).
+ * in a mirror. Here it is tested minute by minute (a sweep without times: every quarter of a
+ * degree), which costs a look into a table (eye/false_suns.h).
  *
  * What counts  images that lay a veil of FALSE_SUN_VEIL_CD_M2 at least over what the eye looks
  *              at: the symbols, and the request's gazes.

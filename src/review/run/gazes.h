@@ -28,7 +28,7 @@ typedef struct GazesArgs {
  * Fails where an eye's camera is missing. */
 bool setup_gazes(const GazesArgs *gazes, Arena *arena, GazeFinding *out, Error *err);
 
-/* How many roads the request has evaluated in that sweep or route: gazes times eyes. */
+/* How many roads the request has evaluated in that sweep: gazes times eyes. */
 int roads_of_sweep(const ReviewRequest *request, const ReviewCondition *condition);
 
 /* Of a moment that is lit, likewise. */

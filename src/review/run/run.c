@@ -117,7 +117,7 @@ static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena
            setup_pane_images(setup, arena, review, err);
 }
 
-/* The roads of a sweep or route, as it is after dark: with its lamps, displays and levels, but
+/* The roads of a sweep, as it is after dark: with its lamps, displays and levels, but
  * without sun and sky. The merge answers what is needed once. */
 static bool run_after_dark(const ReviewRun *run, const ReviewCondition *condition, Arena *arena,
                            ReviewOutcome *out, Error *err)
@@ -479,7 +479,7 @@ static void add_notes(const ReviewRun *run, Review *review, Arena *arena)
             add_note(review, &notes, "Sweeps: an eye box or ellipse counts by its middle.");
         if (review_look_count(request))
             add_note(review, &notes,
-                     "Sweeps and routes: of gazes that do not go to symbols only the sun in "
+                     "Sweeps: of gazes that do not go to symbols only the sun in "
                      "mirrors is read; all else of them is in moments.");
     }
     for (int i = 0; i < request->weather_count; i++)

@@ -32,7 +32,6 @@ static DaylightInput air_of(const ReviewCondition *condition)
                                                    : daylight_input_default(DAYLIGHT_CLEAR);
     air.kind = DAYLIGHT_CLEAR;
     if (condition->kind == CONDITION_YEAR_SWEEP) air.where = condition->where;
-    if (condition->kind == CONDITION_ROUTE) air.where = condition->route.points[0].where;
     return air;
 }
 
@@ -164,7 +163,7 @@ static void states_between(void *user, const SweepSuns *suns, unsigned char *sta
     sun_figures_states(&figures, suns->count, states);
 }
 
-/* The skies of a weather file stand for their steps alone, a route's points for themselves. */
+/* The skies of a weather file stand for their steps alone. */
 static void set_failures(const SweepReport *to, const Sight *sight, const SunFigures *figures,
                          ReviewSweep *out)
 {

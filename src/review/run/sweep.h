@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* sweep.h -- a condition that stands for many suns: all directions, the hours of a year, a
- * route.
+/* sweep.h -- a condition that stands for many suns: all directions, or the hours of a
+ * year.
  *
  * Each symbol, as each eye sees it, is a probe whose response is traced once (distant_probe.h);
  * its face and the sensor of the level are luxmeters. The worst case of each is read again as a

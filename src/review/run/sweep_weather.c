@@ -52,8 +52,7 @@ bool sweep_weather_light(const ReviewRequest *request, const ReviewCondition *co
     *out = daylight_input_default(DAYLIGHT_PEREZ);
     out->has_time = true;
     out->when = when;
-    out->where = condition->kind == CONDITION_ROUTE ? condition->route.points[sun->step].where
-                                                    : condition->where;
+    out->where = condition->where;
     weather_light_take(row, condition->weather_lux, out);
     return true;
 }
@@ -126,12 +125,11 @@ bool sweep_weather_check(const ReviewRequest *request, const ReviewCondition *co
     if (!gaps.count) return true;
     SkyTime     when = step_time(condition, gaps.sun);
     const char *place = gaps.row ? arena_format(&scratch, "line %d", gaps.row->line) : "";
-    const char *zone = condition->kind == CONDITION_YEAR_SWEEP ? " UTC" : "";
     return error_at(err, ERROR_INPUT, weather_of(request, condition)->path, place,
-                    "%s, where '%.60s' needs one (%d-%02d-%02d %02d:%02d%s, %d of its %d steps "
-                    "alike); required direct and diffuse daylight for each",
+                    "%s, where '%.60s' needs one (%d-%02d-%02d %02d:%02d UTC, %d of its %d "
+                    "steps alike); required direct and diffuse daylight for each",
                     gap_text(&gaps, condition->weather_lux, &scratch), condition->name,
-                    when.year, when.month, when.day, when.hour, when.minute, zone, gaps.count,
+                    when.year, when.month, when.day, when.hour, when.minute, gaps.count,
                     gaps.steps);
 }
 

@@ -11,7 +11,6 @@
 SkyTime sweep_time(const ReviewCondition *condition, double step_minutes, double step)
 {
     SkyTime start = {.year = condition->year, .month = 1, .day = 1};
-    if (condition->kind == CONDITION_ROUTE) return condition->route.points[(int)step].when;
     return sky_time_later(start, (step + 0.5) * step_minutes * 60);
 }
 
@@ -83,17 +82,6 @@ static void year_suns(const ReviewCondition *c, int threads, SunList *to, Arena 
                                                   .step = step});
 }
 
-static void route_suns(const ReviewCondition *c, SunList *to)
-{
-    const Route *route = &c->route;
-    for (int i = 0; i < route->count; i++) {
-        const RoutePoint *p = &route->points[i];
-        double seconds = i + 1 < route->count ? route->points[i + 1].seconds - p->seconds : 0;
-        add_sun(to, sun_at(sky_julian_day(&p->when), &p->where),
-                (SweepSun){.heading_deg = p->heading_deg, .minutes = seconds / 60, .step = i});
-    }
-}
-
 static void grid_suns(const ReviewCondition *c, SunList *to)
 {
     for (int e = 0; e < c->elevation_deg.count; e++)
@@ -121,7 +109,6 @@ static SweepSuns suns_of(const SunList *list, Arena *arena)
 
 static int most_suns(const ReviewCondition *c)
 {
-    if (c->kind == CONDITION_ROUTE) return c->route.count;
     if (c->kind == CONDITION_SUN_SWEEP) return c->azimuth_deg.count * c->elevation_deg.count;
     return c->heading_count * (int)ceil(366 * 1440 / c->step_minutes + 1);
 }
@@ -129,8 +116,7 @@ static int most_suns(const ReviewCondition *c)
 SweepSuns sweep_suns(const ReviewCondition *c, int threads, Arena *arena)
 {
     SunList list = {ARENA_NEW(arena, SweepSun, most_suns(c)), 0, c->with_night};
-    if (c->kind == CONDITION_ROUTE) route_suns(c, &list);
-    else if (c->kind == CONDITION_SUN_SWEEP) grid_suns(c, &list);
+    if (c->kind == CONDITION_SUN_SWEEP) grid_suns(c, &list);
     else year_suns(c, threads, &list, *arena);
     SweepSuns suns = suns_of(&list, arena);
     suns.has_time = c->kind != CONDITION_SUN_SWEEP;
@@ -225,23 +211,19 @@ double sweep_suns_apart_deg(const SweepSun *a, const SweepSun *b)
 const char *sweep_suns_when(const ReviewCondition *condition, const SweepSuns *suns,
                             const SweepSun *sun, Arena *arena)
 {
-    bool is_year = condition->kind == CONDITION_YEAR_SWEEP;
-    if (!is_year && condition->kind != CONDITION_ROUTE) return NULL;
-    double  later = is_year ? sun->later_minutes / suns->step_minutes : 0;
+    if (condition->kind != CONDITION_YEAR_SWEEP) return NULL;
+    double  later = sun->later_minutes / suns->step_minutes;
     SkyTime when = sweep_time(condition, suns->step_minutes, sun->step + later);
-    return arena_format(arena, "%d-%02d-%02d %02d:%02d%s, heading %g degrees", when.year,
-                        when.month, when.day, when.hour, when.minute, is_year ? " UTC" : "",
-                        is_year ? sun->heading_deg : round(sun->heading_deg));
+    return arena_format(arena, "%d-%02d-%02d %02d:%02d UTC, heading %g degrees", when.year,
+                        when.month, when.day, when.hour, when.minute, sun->heading_deg);
 }
-
-/* ---- x ----------------------------------------------------------------------------------- */
 
 #define CLOSE_MINUTES 1.0
 #define CLOSE_SHARE 0.001 /* of all failures: where their sum is known so well, it will do */
 #define CLOSE_PART 8      /* of a step: what is coarser never does, wherever changes gather */
 
-/* A change between a step and the next of its heading, minutes after the first one's middle (of
- * a route after the point itself): it lies between low and high. */
+/* A change between a step and the next of its heading, minutes after the first one's middle: it
+ * lies between low and high. */
 typedef struct Edge {
     int    before, after; /* suns */
     double low, high;
@@ -255,15 +237,10 @@ typedef struct Steps {
     double *change; /* [sun] if its state is another than before: how long after that */
 } Steps;
 
-/* A year's steps reach as far to either side, a route's points to the next one. */
-static double begins_before(const Steps *steps, int sun)
+/* A step reaches as far to either side of its middle. */
+static double half_step(const Steps *steps, int sun)
 {
-    return steps->condition->kind == CONDITION_ROUTE ? 0 : steps->suns->list[sun].minutes / 2;
-}
-
-static double ends_after(const Steps *steps, int sun)
-{
-    return steps->suns->list[sun].minutes - begins_before(steps, sun);
+    return steps->suns->list[sun].minutes / 2;
 }
 
 static bool fails(const Steps *steps, int sun)
@@ -291,7 +268,7 @@ static Steps steps_of(const ReviewCondition *condition, const SweepSuns *suns,
         int other = last[sun->heading_id];
         bool follows = other != NO_ID && suns->list[other].step + 1 == sun->step;
         steps.before[i] = follows ? other : NO_ID;
-        if (follows) steps.change[i] = ends_after(&steps, other);
+        if (follows) steps.change[i] = half_step(&steps, other);
         last[sun->heading_id] = i;
     }
     return steps;
@@ -356,7 +333,7 @@ static void meet(const Steps *steps, int sun, int last, Stretch *stretch, Stretc
     bool follows = steps->before[sun] != NO_ID, was_open = stretch->is_open;
     if (was_open && !(follows && fails(steps, sun))) {
         stretch->end = follows ? sun : NO_ID;
-        end_stretch(stretch, follows ? steps->change[sun] : ends_after(steps, last),
+        end_stretch(stretch, follows ? steps->change[sun] : half_step(steps, last),
                     steps->suns->list[last].minutes, to);
     }
     if (!fails(steps, sun)) return;
@@ -364,7 +341,7 @@ static void meet(const Steps *steps, int sun, int last, Stretch *stretch, Stretc
     if (stretch->is_open) stretch->minutes += since;
     else {
         stretch->first = follows ? sun : NO_ID;
-        stretch->minutes = follows ? since - steps->change[sun] : begins_before(steps, sun);
+        stretch->minutes = follows ? since - steps->change[sun] : half_step(steps, sun);
     }
     stretch->is_open = true;
     stretch->is_sure |= steps->states[sun] == STEP_FAILS_SURELY;
@@ -386,7 +363,7 @@ static Stretches find_stretches(const Steps *steps, Arena *arena)
     for (int h = 0; h < headings; h++) {
         if (!open[h].is_open) continue;
         open[h].end = NO_ID;
-        end_stretch(&open[h], ends_after(steps, last[h]), steps->suns->list[last[h]].minutes,
+        end_stretch(&open[h], half_step(steps, last[h]), steps->suns->list[last[h]].minutes,
                     &out);
     }
     return out;

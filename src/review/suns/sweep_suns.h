@@ -14,7 +14,7 @@ typedef struct SweepSun {
     double compass_deg;  /* azimuth from north; of a sun sweep that of the vehicle */
     double heading_deg;
     double minutes;      /* that it stands for; sun sweep: 0 */
-    int    step;         /* of time: year, route; -1 */
+    int    step;         /* of time: year; -1 */
     int    heading_id;   /* year; 0 */
     double later_minutes; /* than the middle of its step */
     double light;        /* over that at 1 au, by the earth's distance; sun sweep: 1 */
@@ -30,11 +30,10 @@ typedef struct SweepSuns {
                                                    then of the next */
 } SweepSuns;
 
-/* The time of a step: of a year (UTC; the condition's steps or others) or of a route. */
+/* The time of a step of a year, UTC; the condition's steps or others. */
 SkyTime sweep_time(const ReviewCondition *condition, double step_minutes, double step);
 
-/* Those that are up, and with `with_night` all. A route's places differ; the air is that of the
- * first. */
+/* Those that are up, and with `with_night` all. */
 SweepSuns sweep_suns(const ReviewCondition *condition, int threads, Arena *arena);
 
 /* Suns about one of them, closer than the sweep's own: SWEEP_CLOSE_DEG apart and as far as its
