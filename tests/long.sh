@@ -196,7 +196,6 @@ run 'symbols half in the sun, twenty edges' worst-part-long \
 run 'years recounted, every hour' year-long python3 tests/image/year.py --all $program
 run 'all variants of a review, slopes, mends' variants-long \
     python3 tests/image/variants.py --all $program
-run 'open cases decided by what they name' decide python3 tests/image/decide.py --all $program
 run 'doors, mirrored vehicles, mirrored light' changed-long \
     python3 tests/image/changed.py --all $program
 run "another maker's car" other-maker python3 tests/image/other_maker.py $program
@@ -226,8 +225,6 @@ of "$review scenes tests/hostile tests/image"
 run 'reviews killed, stopped and starved' review-resume-long \
     python3 tests/hostile/review_resume.py --all --kills 40 $program
 run 'models of others equipped' equip-models python3 tests/hostile/equip.py $program
-run 'a review that watches its files' review-watch \
-    python3 tests/hostile/review_watch.py --all $program
 of "$review scenes tests/page tests/image"
 run 'what moves in a page' live python3 tests/page/live.py $program
 run 'a model equipped by clicks' equip python3 tests/page/equip.py $program

@@ -57,27 +57,11 @@ static double skewness_of(const BatchSums *sums)
     return third / (variance * sqrt(variance));
 }
 
-static double student_from_normal(double z, double freedom)
-{
-    double s = z * z, v = freedom;
-    return z * (1 + (s + 1) / (4 * v) + ((5 * s + 16) * s + 3) / (96 * v * v) +
-                (((3 * s + 19) * s + 17) * s - 15) / (384 * v * v * v));
-}
-
 double student_quantile(double freedom)
 {
-    return student_from_normal(NORMAL_QUANTILE, freedom);
-}
-
-double student_quantile_missing(double freedom, double miss)
-{
-    double low = 0, high = 8;
-    while (high - low > 1e-13) {
-        double z = 0.5 * (low + high);
-        if (erfc_d(z * 0.70710678118654752) > miss) low = z;
-        else high = z;
-    }
-    return student_from_normal(low, freedom);
+    double z = NORMAL_QUANTILE, s = z * z, v = freedom;
+    return z * (1 + (s + 1) / (4 * v) + ((5 * s + 16) * s + 3) / (96 * v * v) +
+                (((3 * s + 19) * s + 17) * s - 15) / (384 * v * v * v));
 }
 
 /* The same bits on every processor. */

@@ -28,9 +28,6 @@ double batch_error(const BatchSums *sums);
 /* Exceeded by a variable of Student's distribution, either side, with CONFIDENCE_MISS. */
 double student_quantile(double freedom);
 
-/* The same for another chance than CONFIDENCE_MISS, 1e-12 to 0.5. */
-double student_quantile_missing(double freedom, double miss);
-
 typedef struct MeanInterval {
     double low, high;
 } MeanInterval;

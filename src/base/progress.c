@@ -23,16 +23,6 @@ double monotonic_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-double thread_waited_seconds(void)
-{
-    double ran, waited; /* ns: proc(5), schedstat */
-    FILE  *file = fopen("/proc/thread-self/schedstat", "r");
-    if (!file) return 0;
-    bool is_told = fscanf(file, "%lf %lf", &ran, &waited) == 2;
-    fclose(file);
-    return is_told ? 1e-9 * waited : 0;
-}
-
 /* A line on stderr can be written anew. */
 static bool has_live_terminal(void)
 {
@@ -89,11 +79,7 @@ static ProgressState state_of(const Progress *progress, double done, double now)
     double elapsed = now - progress->begun_s;
     double rate = elapsed > 0 ? (done - progress->first) / elapsed : 0;
     double left = progress->total > done ? progress->total - done : 0;
-    double known = progress->total - progress->left_from; /* that left_s is for */
-    double left_s = progress->left_s > 0 && known > 0
-                        ? fmax(progress->left_s * left / known + progress->more_s, 0)
-                    : rate > 0                        ? left / rate
-                                                      : INFINITY;
+    double left_s = rate > 0 ? left / rate : INFINITY;
     double share = progress->total > 0 ? fmin(1, done / progress->total) : 1;
     return (ProgressState){.fraction = share, .rate = rate, .elapsed_s = elapsed,
                            .remaining_s = left == 0 ? 0 : left_s};
@@ -158,22 +144,9 @@ Progress progress_part(Progress *outer, double weight, double total)
                       .outer = outer, .outer_from = outer->done, .outer_weight = weight};
 }
 
-/* How much longer a part takes than its weight says, by its own pace: of which more is known
- * the more of it is done. */
-static double more_of(const Progress *progress, double share)
-{
-    const Progress *outer = progress->outer;
-    double known = outer->total - outer->left_from, left = 1 - share;
-    if (!(outer->left_s > 0 && known > 0 && share > 0)) return 0;
-    double planned_s = outer->left_s * progress->outer_weight / known * left;
-    double own_s = (monotonic_seconds() - progress->begun_s) / share * left;
-    return share * (own_s - planned_s);
-}
-
 static void update_outer(const Progress *progress, double share)
 {
     double inside = fmin(fmax(share, 0), 1);
-    progress->outer->more_s = more_of(progress, inside);
     progress_update(progress->outer, fmax(progress->outer->done,
                                           progress->outer_from +
                                               progress->outer_weight * inside));

@@ -25,9 +25,6 @@ struct Progress {
     double       total;  /* how much there is to do; may be changed between updates */
     double       done;   /* as of the last update */
     double       first;  /* done before it began: counts for the share, not for the rate */
-    double       left_s;     /* what is left, by who knows better than the rate so far, */
-    double       left_from;  /* as of so much done; left_s 0: nobody does */
-    double       more_s;     /* that the part in hand takes beyond that, by its own pace */
     double       begun_s, shown_s; /* seconds of the monotonic clock */
     double       interval_s;       /* requested between two lines */
     bool         has_colour;
@@ -53,10 +50,6 @@ void progress_clear(const Progress *progress);
 
 /* Seconds of the monotonic clock. */
 double monotonic_seconds(void);
-
-/* Seconds that the calling thread has been ready to run while others ran; 0 where the system
- * does not report. */
-double thread_waited_seconds(void);
 
 /* A rate with three digits, ready for its unit: "950 ", "12.3 k", "4.56 M". */
 void rate_text(double rate, char *buffer, int size);

@@ -60,7 +60,6 @@ bool page_set_head(json_t *values, const PageHead *head, Error *err)
     page_set(values, "style", NULL);
     page_set(values, "version", PARHELION_VERSION);
     page_set_flag(values, "is_dark", head->is_dark);
-    page_set_count(values, "renewed_s", head->renewed_s);
     return !style || !*style || set_style(values, style, err);
 }
 

@@ -23,8 +23,6 @@ typedef struct PageHead {
     const char *title;     /* of the window */
     const char *command;   /* that made the page */
     bool        is_dark;   /* for every reader */
-    int         renewed_s; /* the file is written anew: the page reloads it after so long; 0:
-                              not */
 } PageHead;
 
 /* The file of a firm's own style, behind that of every page: CSS. */

@@ -10,11 +10,9 @@
 #include "review/visibility_figure.h"
 
 #define ROOT_HALF 0.70710678118654752
-#define UNDECIDED_SHARE 0.1
 #define UNDECIDABLE_SHARE 0.5 /* of what may be true: more is reported as what no paths
                                  decide */
-#define CLEAR_ERRORS 3.9 /* between figure and limit: 2.9 of a third round's interval, and one
-                            by which the figure may be nearer */
+
 
 /* A figure with its 95 % interval. */
 typedef struct Figure {
@@ -214,17 +212,6 @@ static double share_within(double at, double distance)
     return 0.5 * (erfc_d((at - distance) * ROOT_HALF) - erfc_d((at + distance) * ROOT_HALF));
 }
 
-/* The distance from 0 within which so much of them lies. */
-static double near_distance(double at, double wanted)
-{
-    double low = 0, high = at + 4;
-    for (int i = 0; i < 60; i++) {
-        double middle = 0.5 * (low + high);
-        *(share_within(at, middle) < wanted ? &low : &high) = middle;
-    }
-    return low;
-}
-
 /* What a limit leaves open. The three parts of the half of the interval towards it: what
  * paths lessen, in standard errors; what is known of the sun's image, which adds to that as it
  * is; what the panel leaves in doubt, which adds as squares. */
@@ -245,18 +232,13 @@ static OpenLimit open_limit(const ReviewCase *c, const LimitVerdict *limit, doub
                        .panel = half * sqrt(fmax(1 - share * share, 0))};
 }
 
-/* Times its paths until the limit lies clear of the figure, or this within what no paths
+/* Would more paths decide it? Not where it lies, more likely than not, within what none
  * lessen. */
-static double times_to_decide(const OpenLimit *open)
+static bool is_decidable(const OpenLimit *open)
 {
-    double fixed = hypot_d(open->sun, open->panel), at = open->away / open->error;
-    if (!(open->error > 0)) return (double)INFINITY;
-    double never = share_within(at, fixed / open->error);
-    if (!(never <= UNDECIDABLE_SHARE)) return (double)INFINITY;
-    double apart = near_distance(at, never + UNDECIDED_SHARE) * open->error;
-    double room = sqrt(apart * apart - open->panel * open->panel) - open->sun;
-    double ratio = CLEAR_ERRORS * open->error / room;
-    return fmax(ratio * ratio, 1);
+    double fixed = hypot_d(open->sun, open->panel);
+    return open->error > 0 && share_within(open->away / open->error, fixed / open->error) <=
+                                  UNDECIDABLE_SHARE;
 }
 
 /* Is most of what paths do not lessen the veil's? */
@@ -267,25 +249,18 @@ static bool is_veils(const ReviewCase *c, const LimitVerdict *limit)
                             limit->found > limit->value).is_veils;
 }
 
-void judge_paths(ReviewCase *review_case, double fixed)
+/* The first limit that no paths decide says why. */
+void judge_open(ReviewCase *review_case, double fixed)
 {
     ReviewCase *c = review_case;
-    c->paths_to_decide = NAN;
     c->open_by = OPEN_NOT;
     if (c->verdict != VERDICT_TOO_CLOSE) return;
-    for (int i = 0; i < c->limit_count; i++) {
+    for (int i = 0; i < c->limit_count && !case_is_undecidable(c); i++) {
         const LimitVerdict *limit = &c->limits[i];
         if (!limit_is_open(limit)) continue;
-        if (limit->by_pane) {
-            c->paths_to_decide = (double)INFINITY;
-            c->open_by = OPEN_BY_IMAGE;
-            return;
-        }
         OpenLimit open = open_limit(c, limit, fixed);
-        double    paths = (double)c->paths * times_to_decide(&open);
-        if (paths <= c->paths_to_decide) continue;
-        c->paths_to_decide = paths;
-        c->open_by = isfinite(paths)         ? OPEN_BY_PATHS
+        c->open_by = limit->by_pane          ? OPEN_BY_IMAGE
+                     : is_decidable(&open)   ? OPEN_BY_PATHS
                      : open.panel < open.sun ? OPEN_BY_SUN
                      : is_veils(c, limit)    ? OPEN_BY_VEIL
                                              : OPEN_BY_PANEL;
@@ -385,8 +360,5 @@ void judge_case(ReviewCase *review_case, const Profile *profile, Arena *arena)
     if (c->image_count) hold_images(&to, c, arena);
     if (!is_hidden && (!to.counted || is_unjudged(c, false))) c->verdict = VERDICT_UNJUDGED;
     c->unjudged = why_unjudged(c, to.counted);
-    if (c->verdict != VERDICT_TOO_CLOSE) {
-        c->open_by = OPEN_NOT;
-        c->paths_to_decide = c->decide_times = c->minutes_to_decide = NAN;
-    }
+    if (c->verdict != VERDICT_TOO_CLOSE) c->open_by = OPEN_NOT;
 }

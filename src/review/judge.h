@@ -39,18 +39,16 @@ void judge_ambient(ReviewCase *review_case, const Profile *profile, bool sun_on_
  * of what it reflects, and of each of the two luminances. */
 void judge_contrasts(ReviewCase *review_case, MeanInterval reflected);
 
-/* Sets open_by and paths_to_decide of a case that was judged. Errors fall as the root of the
- * paths, but for a share `fixed` of what sampling leaves in doubt, and for the panel's own.
- * How far the true figure lies from the limit is known as well as the figure is (normal, as
- * wide as the interval says). Where it more likely than not lies so near that those errors
- * alone reach the limit, no paths decide it: infinite. Else by a reading of so many paths nine
- * in ten are settled: decided, or shown to lie that near. Without such errors all these are
- * decided. */
-void judge_paths(ReviewCase *review_case, double fixed);
+/* Sets open_by of a case that was judged. Errors fall as the root of the paths, but for a share
+ * `fixed` of what sampling leaves in doubt, and for the panel's own. How far the true figure
+ * lies from the limit is known as well as the figure is (normal, as wide as the interval says).
+ * Where it more likely than not lies so near that those errors alone reach the limit, no paths
+ * decide it. */
+void judge_open(ReviewCase *review_case, double fixed);
 
 /* From the case's ambient, contrasts and their interval, height, stroke_ratio, visible_share,
  * panel and without_data_share: sets limits, limit_count, limit_id, margin, verdict and
- * unjudged; of one that is not too close it clears what would decide it. limit_id is, among the
+ * unjudged; of one that is not too close it clears open_by. limit_id is, among the
  * contrast limits that count, the one that requires the greatest ratio; margin is its margin.
  *
  * The levels of `visibilities` are made anew of the case's luminances (visibility_figure.h); a

@@ -57,7 +57,6 @@ ReviewCase review_case_unknown(void)
         (double)NAN;
     c.reflected_range = (MeanInterval){(double)NAN, (double)NAN};
     c.eye_failed_share = c.precision_asked = c.precision_reached = (double)NAN;
-    c.paths_to_decide = c.decide_times = c.minutes_to_decide = (double)NAN;
     c.glasses_transmittance = 1;
     c.own_reflected = (double)NAN;
     c.glare = review_glare_unknown();

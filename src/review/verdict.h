@@ -242,8 +242,6 @@ typedef struct CasePlace {
 
 #define CASE_BATCHES 32
 
-#define DECIDE_TIMES 64 /* --decide's budget: so many times the paths of the precision */
-
 typedef struct ReviewCase {
     const char *condition, *eye, *symbol, *display;
     Ambient ambient;
@@ -277,10 +275,6 @@ typedef struct ReviewCase {
                                     clear; NaN: nothing is visible */
     double  precision_reached;   /* its standard error, relative; NaN likewise */
     OpenBy  open_by;             /* what keeps a case open that is too close */
-    double  paths_to_decide;     /* of it: nine of ten such are settled by fewer (judge_paths,
-                                    read_on.h); infinite: by none; NaN */
-    double  decide_times;        /* the same over the request's precision_paths, rounded up */
-    double  minutes_to_decide;   /* as fast as its reading went, here; NaN: not known */
     double  visible_share;       /* of the box about its foreground, 0..1 */
     const CaseHider *hiders;     /* of all else, greatest first: with it they add up to 1 */
     int     hider_count;
@@ -563,8 +557,6 @@ struct Review {
                                      strict: nor is anything too close, or of a material
                                      without data */
     bool            is_strict;
-    const char     *to_come;      /* of one that is not finished: what is missing; or NULL */
-    bool            is_partial;   /* conditions are: nobody may take it for one that passes */
     bool            has_summaries; /* beside its page, one a symbol */
     int             main_cards;   /* of its page: so many of the worst cases and sweeps have
                                      their cards there, the others on a page beside; 0: all */

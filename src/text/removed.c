@@ -19,6 +19,9 @@ const RemovedWord removed_words[] = {
     {"condition", "when", "state it in 'environment'"},
     {"condition", "weather", "state it in 'sweep' of a year"},
     {"condition", "weather_lux", "state it in 'sweep' of a year"},
+    {"review", "--decide", "lower \"contrast\" and raise \"paths\" of the request's \"precision\""},
+    {"review", "--decide-times", "raise \"paths\" of the request's \"precision\""},
+    {"review", "--watch", "run the same command again: responses of its sweeps are kept"},
     {NULL, NULL, NULL},
 };
 

@@ -79,9 +79,8 @@ class Reviewer:
         assert done.returncode in (0, 1), done.stderr
         with open(os.path.join(self.folder, out, "review.json"), encoding="utf-8") as file:
             found = json.load(file)
-        most = document.get("precision", {}).get("paths", review_laws.MOST)
         folder = os.path.join(self.folder, out)
-        for said in review_laws.broken_laws(found, folder, done, most):
+        for said in review_laws.broken_laws(found, folder, done):
             raise AssertionError(f"{out}: {said}")
         return done.returncode, found
 

@@ -14,7 +14,6 @@ import subprocess
 import sys
 import tempfile
 
-MOST = 262144  # paths, where a request names no other number
 
 
 def contrast(light, reflected):
@@ -59,20 +58,15 @@ def share_within(away, error, distance):
     return normal.cdf(distance) - normal.cdf(-distance)
 
 
-def broken_decision_laws(case, most):
-    """Paths decide what is too close, and that alone; none do where the limit lies, more likely
-    than not, within what the panel itself leaves in doubt (or the sun in its mirror, of which
-    a case does not say how surely that is known)."""
-    paths, times, limit = case["paths_to_decide"], case["decide_times"], case["judged"]
-    if case["verdict"] != "too close":
-        if paths is not None or times is not None:
-            yield f"{case['verdict']}: {paths} paths would decide it"
+def broken_decision_laws(case):
+    """Something keeps open what is too close, and that alone; paths do not where the limit lies,
+    more likely than not, within what the panel itself leaves in doubt (or the sun in its mirror,
+    of which a case does not say how surely that is known)."""
+    by, limit = case["open_by"], case["judged"]
+    if (by is not None) != (case["verdict"] == "too close"):
+        yield f"{case['verdict']}, open by {by}"
+    if by is None:
         return
-    if (paths is None) != (times is None):
-        yield f"{paths} paths, {times} times as many as asked"
-    elif paths is not None and (paths < case["paths"] or
-                                not paths / most <= times < 1.0001 * paths / most + 1):
-        yield f"{paths} paths of {case['paths']} would decide it, {times} times {most}"
     if limit["kind"] != "contrast_ratio" or limit["found"] != case["contrast_ratio"]:
         return
     is_above = limit["found"] > limit["value"]
@@ -85,11 +79,11 @@ def broken_decision_laws(case, most):
     panel = math.sqrt(max(half ** 2 - (1.959964 * error) ** 2, 0))
     never = share_within(abs(limit["found"] - limit["value"]), error, panel)
     is_known = case["luminance_cd_m2"]["mirror"] < 0.01 * case["luminance_cd_m2"]["reflected"]
-    if paths is not None and never > 0.52 or paths is None and is_known and never < 0.48:
-        yield f"{paths} paths would decide it: by {never} it lies within the panel's error"
+    if by == "paths" and never > 0.52 or by == "panel error" and is_known and never < 0.48:
+        yield f"open by {by}: by {never} it lies within the panel's error"
 
 
-def broken_case_laws(case, most):
+def broken_case_laws(case):
     """Numbers of a case that belong together and do not agree."""
     light, ratio = case["luminance_cd_m2"], case["contrast_ratio"]
     hidden = sum(hider["share"] for hider in case["hidden_by"])
@@ -127,11 +121,7 @@ def broken_case_laws(case, most):
             yield f"margin {limit['margin']} of {limit['found']} by {limit['value']}"
     if case["precision_asked"] is None or case["precision_reached"] is None:
         yield "no precision"
-    yield from broken_decision_laws(case, most)
-    paths, by = case["paths_to_decide"], case["open_by"]
-    if (by is not None) != (case["verdict"] == "too close") or \
-            (paths is not None) != (by == "paths"):
-        yield f"{case['verdict']}, open by {by}: {paths} paths would decide it"
+    yield from broken_decision_laws(case)
 
 
 def broken_variant_laws(review):
@@ -169,10 +159,10 @@ def broken_step_laws(sweep, row):
         yield f"a step's contrast {ratio} of luminances that give {wanted}: {row}"
 
 
-def broken_laws(review, folder, done, most):
+def broken_laws(review, folder, done):
     cases = review["cases"] + [sweep["worst"] for sweep in review["sweeps"]]
     for case in cases:
-        yield from broken_case_laws(case, most)
+        yield from broken_case_laws(case)
     yield from broken_variant_laws(review)
     with open(os.path.join(folder, "cases.csv"), encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
@@ -207,7 +197,7 @@ def broken_laws(review, folder, done, most):
         yield f"the last line is {done.stdout.splitlines()[-1]}"
 
 
-def review(program, request, folder, responses, most):
+def review(program, request, folder, responses):
     """What is wrong, and its cases."""
     done = subprocess.run([program, "review", request, "-o", folder, "--quiet",
                            "--responses", responses],
@@ -220,7 +210,7 @@ def review(program, request, folder, responses, most):
         page = file.read()
     words = {"pass": "Passes", "fail": "Fails", "too close": "Too close to call",
              "cannot be judged": "Cannot be judged"}
-    wrong = list(broken_laws(found, folder, done, most))
+    wrong = list(broken_laws(found, folder, done))
     if f"<h1><b>{words[found['verdict']]}</b>" not in page:
         wrong.append(f"the page's headline does not say {found['verdict']}")
     return wrong, found["cases"] + [sweep["worst"] for sweep in found["sweeps"]]
@@ -240,7 +230,6 @@ def main(program, request, *words):
     name, values = levels_of(words) if words else (None, [None])
     for key in ("variants", "sensitivity") if name else ():
         document.pop(key, None)
-    most = document.get("precision", {}).get("paths", MOST)
     cases, broken = [], 0
     kept = tempfile.TemporaryDirectory()
     for value in values:
@@ -251,17 +240,17 @@ def main(program, request, *words):
             try:
                 with open(beside, "w", encoding="utf-8") as file:
                     json.dump(document, file)
-                wrong, found = review(program, beside, os.path.join(folder, "out"),
-                                      kept.name, most)
+                wrong, found = review(program, beside, os.path.join(folder, "out"), kept.name)
             finally:
                 os.remove(beside)
         cases, broken = cases + found, broken + len(wrong)
         for said in wrong:
             print(f"{os.path.basename(request)}, {name} {value}: {said}", flush=True)
     kept.cleanup()
-    close = [case["paths_to_decide"] for case in cases if case["verdict"] == "too close"]
+    close = [case["open_by"] for case in cases if case["verdict"] == "too close"]
     print(f"{len(cases)} cases of {len(values)} reviews, {len(close)} too close, "
-          f"{close.count(None)} of them for any number of paths; {broken} broken laws")
+          f"{sum(by != 'paths' for by in close)} of them for any number of paths; "
+          f"{broken} broken laws")
     return broken > 0 or not cases
 
 

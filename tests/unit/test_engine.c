@@ -24,36 +24,15 @@ static const char request_text[] =
     "{'name':'bright','environment':{'type':'constant','luminance':90000}}]}";
 
 typedef struct Heard {
-    int  conditions, scenes, steps;
-    bool is_complete, refuses;
+    int  scenes;
+    bool refuses;
 } Heard;
-
-static bool hear_condition(void *user, const ReviewOutcome *so_far, int done, Error *err)
-{
-    Heard *heard = user;
-    (void)err;
-    heard->conditions++;
-    assert_int_equal(done, heard->conditions);
-    assert_int_equal(so_far->review.case_count, done);
-    return true;
-}
 
 static bool hear_scene(void *user, const Scene *scene, Error *err)
 {
     Heard *heard = user;
-    (void)err;
     assert_int_equal(scene->display_count, 1);
     heard->scenes++;
-    return true;
-}
-
-static bool hear_step(void *user, ReviewOutcome *outcome, Error *err)
-{
-    Heard *heard = user;
-    if (!heard->steps++)
-        assert_string_equal(outcome->review.to_come,
-                            "every verdict is there; to come: variants");
-    heard->is_complete = !outcome->review.to_come;
     return !heard->refuses || error_set(err, ERROR_OUTPUT, "the disk is full");
 }
 
@@ -67,13 +46,12 @@ static bool run_request(Heard *heard, Journal *journal, Arena *arena, ReviewOutc
     if (!review_request_read(in_folder("r.json"), NULL, arena, &problems, &request, &fault) ||
         !profile_load(request.profile, arena, &profile, &fault))
         fail_msg("%s: %s", fault.path, fault.text);
-    WorkPlan  all = work_of_review(&request, NULL);
-    Work      work = work_start(PROGRESS_NONE, &all);
+    Progress  progress = progress_start(PROGRESS_NONE, "review", "steps", 1);
     ReviewRun run = {.request = &request, .profile = profile,
                      .means = {.threads = 2, .journal = journal},
-                     .problems = &problems, .work = &work,
-                     .news = {hear_condition, hear_scene, heard}};
-    ReviewSteps steps = {.with_sensitivities = true, .on_step = hear_step, .user = heard};
+                     .problems = &problems, .progress = &progress,
+                     .news = {hear_scene, heard}};
+    ReviewSteps steps = {.with_sensitivities = true};
     return review_run(&run, &steps, arena, out, err);
 }
 
@@ -84,10 +62,7 @@ ARENA_TEST(a_review_is_a_call)
     wall_write_files(request_text, arena);
     assert_done(run_request(&heard, NULL, &arena, &outcome, &err));
     const Review *review = &outcome.review;
-    assert_int_equal(heard.conditions, 2);
     assert_true(heard.scenes >= 2);
-    assert_int_equal(heard.steps, 2);
-    assert_true(heard.is_complete);
     assert_int_equal(review->case_count, 2);
     assert_int_equal(review->variant_count, 1);
     const ReviewCase *grey = review_case_named(review, "grey", "driver", "speed");
@@ -105,7 +80,7 @@ ARENA_TEST(a_listener_ends_it)
     wall_write_files(request_text, arena);
     assert_fails_as(run_request(&heard, NULL, &arena, &outcome, &err), ERROR_OUTPUT,
                     "the disk is full");
-    assert_int_equal(heard.steps, 1);
+    assert_int_equal(heard.scenes, 1);
 }
 
 /* ---- what was kept ----------------------------------------------------------------------- */

@@ -281,7 +281,7 @@ ARENA_TEST(a_case_is_as_bad_as_its_worst_image)
         c.luminance_cd_m2.reflected = 1000;
         if (is_seen) judge_contrasts(&c, (MeanInterval){999, 1001});
         judge_case(&c, &profile, &arena);
-        judge_paths(&c, 0);
+        judge_open(&c, 0);
         assert_int_equal(c.verdict, wanted[k / 2]);
         assert_int_equal(c.limit_count, 2 + is_seen);
         assert_int_equal(c.images[0].verdict, wanted[k / 2]);

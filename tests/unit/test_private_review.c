@@ -44,10 +44,9 @@ static Review run_request(Arena *arena)
         fail_msg("%s: %s", why()->path, why()->text);
     assert_true(request.privacy.is_given);
     profile = profile_with_security(profile, request.privacy.security_min, arena);
-    WorkPlan    all = work_of_review(&request, NULL);
-    Work        work = work_start(PROGRESS_NONE, &all);
+    Progress    progress = progress_start(PROGRESS_NONE, "review", "steps", 1);
     ReviewRun   run = {.request = &request, .profile = profile, .means = {.threads = 2},
-                       .problems = &problems, .work = &work};
+                       .problems = &problems, .progress = &progress};
     ReviewSteps steps = {.with_sensitivities = false};
     if (!review_run(&run, &steps, arena, &outcome, why())) fail_msg("%s", why()->text);
     return outcome.review;

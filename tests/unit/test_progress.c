@@ -46,21 +46,4 @@ TEST(a_part_that_grows_does_not_run_back)
     assert_near(all.done, 10, 1e-12);
 }
 
-/* Of 100 s that are left a part has 20 s; a quarter of it took 15 s: it is to take 45 s more,
- * as far as a quarter is believed, instead of 15. */
-TEST(a_part_goes_by_its_own_pace_the_more_of_it_is_done)
-{
-    Progress all = shown(10);
-    all.left_s = 100;
-    Progress part = progress_part(&all, 2, 8);
-    part.begun_s -= 15;
-    progress_update(&part, 2);
-    assert_near(all.more_s, 0.25 * (45 - 15), 0.1);
-    part.begun_s -= 30;
-    progress_update(&part, 6);
-    assert_near(all.more_s, 0.75 * (15 - 5), 0.1);
-    progress_end(&part, 8);
-    assert_near(all.more_s, 0, 1e-9);
-}
-
 TEST_PROGRAM(NULL, NULL)

@@ -239,7 +239,7 @@ TEST(json_has_the_promised_keys)
 {
     static const char *const KEYS[] = {
         "condition", "eye", "symbol", "display", "ambient", "sun", "luminance_cd_m2",
-        "contrast_ratio", "contrast_interval", "reflected_interval", "paths_to_decide",
+        "contrast_ratio", "contrast_interval", "reflected_interval",
         "precision_asked", "precision_reached",
         "paths", "contrast_with_veil", "height_arcmin",
         "jnd", "visibility", "dgp", "ugr", "when", "visible_share", "hidden_by",
@@ -305,7 +305,7 @@ TEST(a_foreign_json_is_refused_in_one_line)
 static bool is_optional(const char *key, const json_t *object)
 {
     static const char *const ADDED[] = {"reflected_interval", "precision_asked",
-                                        "precision_reached", "paths_to_decide", "cause_groups",
+                                        "precision_reached", "cause_groups",
                                         "without_data_share", "without_data", "hidden_by",
                                         "without_data_share_most", "eye_places", "then",
                                         "judged", "reason", "optional", "panel", "panels",
@@ -315,7 +315,7 @@ static bool is_optional(const char *key, const json_t *object)
                                         "extrapolated_share", "spectra_assumed", "state",
                                         "empty_seat", "empty_seat_share",
                                         "symbol_mean", "lit_share", "judged_part_uv",
-                                        "decide_times", "open_by", "glasses_transmittance",
+                                        "open_by", "glasses_transmittance",
                                         "middle_eye_contrast_ratio", "glasses",
                                         "glasses_display_loss", "visibility_levels",
                                         "age_years", "must_not_be_read"};

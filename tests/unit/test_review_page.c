@@ -213,7 +213,6 @@ static json_t *all_values(json_t *own)
     pane_judge(&panes[0], "road", 0.1);
     review->pane_images = panes;
     review->pane_image_count = 2;
-    review->to_come = "more";
     review->gazes[2].road = fixture_road(&arena, 30, 1);
     fixture_dimming(review->gazes[2].road);
     assert_done(picture_write(file, &picture, (PictureFile){.bits = 8}, arena, &err));

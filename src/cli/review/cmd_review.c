@@ -1,118 +1,26 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "cli/review/cmd_review.h"
-
-#include <string.h>
-#include <sys/stat.h>
-#include <time.h>
-
-#include "base/arena.h"
-#include "base/error.h"
-#include "render/signals.h"
-
-/* ---- x ----------------------------------------------------------------------------------- */
-
-/* The files that a review was made of, and when one of them is another.
- *
- * Files are looked at twice a second: when they were written, and how long they are. Editors
- * write a file anew in several steps: it counts when nothing has changed for half a second.
- *
- * Memory   its own, until review_watch_end.
- * Threads  one at a time. */
-
-typedef struct WatchedFile WatchedFile;
-
-typedef struct ReviewWatch {
-    Arena        arena;
-    WatchedFile *files;
-    int          count, room;
-} ReviewWatch;
-
-#define WATCH_BYTES ((size_t)1 << 30) /* address space: what is not touched costs nothing */
-#define ROUND_NS 500000000L
-
-struct WatchedFile {
-    const char     *path;
-    struct timespec written;
-    off_t           size; /* -1: it is not there */
-};
-
-static ReviewWatch review_watch_start(void)
-{
-    return (ReviewWatch){.arena = arena_reserve(WATCH_BYTES)};
-}
-
-static void review_watch_end(ReviewWatch *watch)
-{
-    arena_release(&watch->arena);
-}
-
-static void look(WatchedFile *file)
-{
-    struct stat info;
-    bool is_there = stat(file->path, &info) == 0;
-    file->size = is_there ? info.st_size : -1;
-    file->written = is_there ? info.st_mtim : (struct timespec){0, 0};
-}
-
-/* A file that is known already is not looked at again. */
-static void review_watch_add(ReviewWatch *watch, const char *path)
-{
-    for (int i = 0; i < watch->count; i++)
-        if (!strcmp(watch->files[i].path, path)) return;
-    if (watch->count == watch->room) {
-        watch->files = ARENA_GROW(&watch->arena, WatchedFile, watch->files, watch->count,
-                                  2 * watch->room + 64);
-        watch->room = 2 * watch->room + 64;
-    }
-    WatchedFile *file = &watch->files[watch->count++];
-    file->path = arena_string(&watch->arena, path, strlen(path));
-    look(file);
-}
-
-static bool is_other(WatchedFile *file)
-{
-    WatchedFile before = *file;
-    look(file);
-    return file->size != before.size || file->written.tv_sec != before.written.tv_sec ||
-           file->written.tv_nsec != before.written.tv_nsec;
-}
-
-/* Waits until a file was written, made or removed; *changed: the first of them. False: the user
- * requested to stop (signals.h). */
-static bool review_watch_wait(ReviewWatch *watch, const char **changed)
-{
-    *changed = NULL;
-    for (;;) {
-        const struct timespec round = {0, ROUND_NS};
-        const char *now = NULL;
-        nanosleep(&round, NULL);
-        if (signals_stop_requested()) return false;
-        for (int i = 0; i < watch->count; i++)
-            if (is_other(&watch->files[i]) && !now) now = watch->files[i].path;
-        if (!*changed) *changed = now;
-        if (*changed && !now) return true;
-    }
-}
-
 /* parhelion review: from REVIEW.json to verdicts, with tables and a page for a meeting. */
+#include "cli/review/cmd_review.h"
 
 #include <stdio.h>
 #include <string.h>
 
+#include "base/arena.h"
 #include "base/count.h"
+#include "base/error.h"
 #include "base/file.h"
 #include "base/machine.h"
-#include "print/print.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/options/outputs.h"
 #include "cli/options/scene_options.h"
 #include "cli/review/review_job.h"
 #include "cli/review/review_print.h"
+#include "print/print.h"
+#include "render/signals.h"
 #include "review/engine/engine.h"
 #include "review/folder/review_files.h"
 #include "review/folder/review_folder.h"
-#include "review/pace/work.h"
 #include "review/request/request_start.h"
 #include "review/request/request_read.h"
 #include "review/review_decide.h"
@@ -122,17 +30,16 @@ static bool review_watch_wait(ReviewWatch *watch, const char **changed)
 #include "text/nearest_word.h"
 #include "text/text.h"
 
+#define FILES_BYTES ((size_t)1 << 32) /* address space: what is not touched costs nothing */
+
 typedef struct ReviewWords {
     ShareRequest share;
     const char *folder, *profile, *root, *isa, *diff, *init, *responses, *mend, *summary;
-    bool        is_strict, dry_run, decides, is_self_contained, is_alone;
-    long        decide_times;
+    bool        is_strict, dry_run, is_self_contained, is_alone;
     StateWords  state_words;
     SceneState  state;
     Cli         cli;
     const ReviewTask *task; /* NULL: the user's own command */
-    bool        watches;  /* --watch */
-    ReviewWatch *watch;   /* gets the files to watch; NULL: nobody watches */
 } ReviewWords;
 
 /* That the words go together. */
@@ -142,9 +49,6 @@ static bool check(ReviewWords *out, Error *err)
     if (!state_options_read(&out->state_words, &out->state, err) ||
         !review_share_check(&out->share, not_traced, err))
         return false;
-    if (out->watches && (not_traced || out->share.parts))
-        return error_set(err, ERROR_USAGE, "--watch does not go with %s",
-                         not_traced ? not_traced : "a job's parts");
     if (out->init) return true;
     if (out->cli.argument_count > 1)
         return error_set(err, ERROR_USAGE, "%s: one request at a time is reviewed",
@@ -167,12 +71,6 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
         {"--strict", OPTION_FLAG, NULL, "too close to call and any material without optical "
          "data fail, too",
          &out->is_strict},
-        {"--decide", OPTION_FLAG, NULL,
-         "reads on where it is too close to call, until it is not or each such case has had "
-         "64 times the paths", &out->decides},
-        {"--decide-times", OPTION_INTEGER, "N",
-         "the same with another number than 64", &out->decide_times, .low = 2,
-         .high = 1000000},
         {"--self-contained", OPTION_FLAG, NULL,
          "pictures in the page itself, not in files beside it: to send it by mail",
          &out->is_self_contained},
@@ -183,9 +81,6 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
          "the review by itself, whatever variants and sensitivities it has", &out->is_alone},
         {"--summary", OPTION_TEXT, "SYMBOL",
          "one page of paper about this symbol, instead of one about each", &out->summary},
-        {"--watch", OPTION_FLAG, NULL,
-         "reviews again what changed whenever one of its files is saved, until Ctrl-C",
-         &out->watches},
         {"--diff", OPTION_TEXT, "DIR", "an earlier review to hold this one against",
          &out->diff},
         {"--responses", OPTION_TEXT, "DIR",
@@ -296,71 +191,28 @@ static Outcome tell_kept(const ReviewFolder *folder, Error *err)
     return OUTCOME_FAILED;
 }
 
-/* ---- what is known so far ---------------------------------------------------------------- */
-
-#define SO_FAR_S 55 /* from one such page to the next: the first stands after a minute */
-
-typedef struct SoFar {
-    const ReviewFolder *folder;
-    Arena              *arena; /* what is behind its end is scratch */
-    ReviewWatch        *watch; /* NULL: nobody watches */
-    const Problems     *problems;
-    double              shown_s;
-    bool                has_tables; /* every condition is reviewed, and its tables written */
-} SoFar;
-
-static bool note_files(void *user, const Scene *scene, Error *err)
-{
-    SoFar              *so_far = user;
-    const ReviewFolder *folder = so_far->folder;
-    const Lines         files = {.list = scene->inputs, .count = scene->input_count};
-    for (int i = 0; i < files.count && so_far->watch; i++)
-        review_watch_add(so_far->watch, files.list[i]);
-    return review_files_spare(folder->target, folder->request, &files, *so_far->arena, err);
-}
-
-static bool write_so_far(void *user, const ReviewOutcome *outcome, int done, Error *err)
-{
-    SoFar               *so_far = user;
-    const ReviewRequest *request = so_far->folder->request;
-    Arena                scratch = *so_far->arena;
-    double               now = monotonic_seconds();
-    if (now - so_far->shown_s < SO_FAR_S || done == request->condition_count) return true;
-    so_far->shown_s = now;
-    const char *to_come = arena_format(&scratch, "%d of %d conditions are reviewed", done,
-                                       request->condition_count);
-    return review_folder_write_so_far(so_far->folder, outcome, to_come, scratch, err);
-}
-
 /* ---- all of it --------------------------------------------------------------------------- */
 
-/* Each step is written as soon as it is known: where frames take long all else is safe. */
-static bool write_step(void *user, ReviewOutcome *outcome, Error *err)
+static bool spare_files(void *user, const Scene *scene, Error *err)
 {
-    SoFar              *so_far = user;
-    const ReviewFolder *folder = so_far->folder;
-    if (!so_far->has_tables) {
-        progress_clear(&folder->work->progress);
-        cli_print_warnings(so_far->problems);
-        if (!review_folder_write_tables(folder, outcome, so_far->arena, err)) return false;
-        so_far->has_tables = true;
-    }
-    return review_folder_write(folder, outcome, so_far->arena, err);
+    const ReviewFolder *folder = user;
+    const Lines         files = {.list = scene->inputs, .count = scene->input_count};
+    Arena               scratch = arena_reserve(FILES_BYTES);
+    bool ok = review_files_spare(folder->target, folder->request, &files, scratch, err);
+    arena_release(&scratch);
+    return ok;
 }
 
 static bool make_all(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
                      ReviewOutcome *outcome, Arena *arena, Error *err)
 {
-    SoFar so_far = {.folder = folder, .arena = arena, .watch = words->watch,
-                    .problems = run->problems, .shown_s = monotonic_seconds()};
     const ReviewSteps steps = {.is_strict = words->is_strict,
-                               .with_sensitivities = !words->is_alone,
-                               .on_step = write_step, .user = &so_far};
-    run->news = (ReviewNews){write_so_far, note_files, &so_far};
+                               .with_sensitivities = !words->is_alone};
+    run->news = (ReviewNews){spare_files, folder};
     bool ok = review_run(run, &steps, arena, outcome, err);
-    progress_clear(&run->work->progress);
-    if (!so_far.has_tables) cli_print_warnings(run->problems);
-    return ok;
+    progress_clear(run->progress);
+    cli_print_warnings(run->problems);
+    return ok && review_folder_write(folder, outcome, arena, err);
 }
 
 /* For a job that is merged: takes its parts' findings. */
@@ -381,7 +233,6 @@ static Outcome make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *r
     if (!review_variants_check(run, err) ||
         !review_folder_open(folder, arena, run->problems, err))
         return OUTCOME_FAILED;
-    folder->work = run->work;
     run->folder = folder->name;
     run->unfinished = folder->draft.unfinished;
     run->responses = folder->responses;
@@ -394,9 +245,8 @@ static Outcome make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *r
         review_folder_close(folder);
         return outcome;
     }
-    work_end(run->work);
-    if (words->watch) review_folder_close(folder); /* answers are looked up again */
-    else review_folder_finish(folder);
+    progress_end(run->progress, run->progress->total);
+    review_folder_finish(folder);
     if (!review_print(&words->cli, &found.review, *arena, err)) return OUTCOME_FAILED;
     return found.review.pass ? OUTCOME_DONE : OUTCOME_NO;
 }
@@ -455,15 +305,10 @@ static Outcome review(const ReviewWords *words, Arena *arena, Error *err)
     if (!review_request_read(file, words->root, arena, &problems, &request, err))
         return OUTCOME_FAILED;
     const Lines files = review_request_files(&request, arena);
-    for (int i = 0; i < files.count && words->watch; i++)
-        review_watch_add(words->watch, files.list[i]);
     if (!profile_load(words->profile ? words->profile : request.profile, arena, &profile, err))
         return words->profile ? OUTCOME_FAILED : error_in_file(err, request.file);
     if (request.privacy.is_given)
         profile = profile_with_security(profile, request.privacy.security_min, arena);
-    request.decide_times = words->decide_times ? words->decide_times
-                           : words->decides    ? DECIDE_TIMES
-                                               : 0;
     if (words->mend && !find_parameter(&request, words->mend, *arena, &folder.mend, err))
         return OUTCOME_FAILED;
     if (words->is_alone) {
@@ -476,12 +321,12 @@ static Outcome review(const ReviewWords *words, Arena *arena, Error *err)
         (folder.target && (!review_files_check(folder.target, &request, *arena, err) ||
                            !review_files_spare(folder.target, &request, &files, *arena, err))))
         return OUTCOME_FAILED;
-    WorkPlan all = work_of_review(&request, folder.mend);
-    Work     work = work_start(words->cli.progress, &all);
+    Progress  progress = progress_start(words->cli.progress, "review", "steps",
+                                        review_steps(&request));
     ReviewRun run = {.request = &request, .profile = profile, .mend = folder.mend,
                      .means = {.root = words->root, .state = words->state,
                                .threads = words->cli.threads, .isa = words->isa},
-                     .problems = &problems, .work = &work};
+                     .problems = &problems, .progress = &progress};
     if (words->task) {
         run.identity = words->task->identity;
         run.means.guides = words->task->responses;
@@ -495,53 +340,6 @@ static Outcome review(const ReviewWords *words, Arena *arena, Error *err)
                           : make(words, &folder, &run, arena, err);
 }
 
-/* ---- again and again --------------------------------------------------------------------- */
-
-/* A review that fails is reported, and its files are watched: the next save may correct it. */
-static bool review_once(const ReviewWords *words, Error *err)
-{
-    Arena once = arena_reserve(machine_memory_bytes());
-    *err = (Error){0};
-    Outcome outcome = review(words, &once, err);
-    if (outcome == OUTCOME_FAILED) cli_report_error(err, words->cli.json);
-    fflush(stdout);
-    arena_release(&once);
-    return outcome != OUTCOME_STOPPED;
-}
-
-/* The answers that were kept for the next time go with the last. */
-static void forget_answers(const ReviewWords *words)
-{
-    Arena       scratch = arena_reserve(machine_memory_bytes());
-    Problems    ignored = problems_start(&scratch);
-    ReviewDraft draft;
-    Error       err;
-    if (review_draft_open(words->folder, &scratch, &ignored, &draft, &err))
-        review_draft_finish(&draft);
-    arena_release(&scratch);
-}
-
-static Outcome watch(ReviewWords *words, Error *err)
-{
-    ReviewWatch files = review_watch_start();
-    const char *changed = words->cli.arguments[0];
-    words->watch = &files;
-    review_watch_add(&files, changed);
-    bool goes_on = review_once(words, err);
-    signals_watch();
-    while (goes_on) {
-        print_to(stderr, "parhelion: files that are watched: %d — Ctrl-C ends\n", files.count);
-        if (!review_watch_wait(&files, &changed)) break;
-        print_to(stderr, "parhelion: %s was saved: what it changes is reviewed again\n",
-                 changed);
-        goes_on = review_once(words, err);
-    }
-    review_watch_end(&files);
-    if (!goes_on) return OUTCOME_STOPPED;
-    forget_answers(words);
-    return OUTCOME_DONE;
-}
-
 Outcome cmd_review_run(int argc, char **argv, const ReviewTask *task, Arena *arena,
                        Error *err)
 {
@@ -551,7 +349,6 @@ Outcome cmd_review_run(int argc, char **argv, const ReviewTask *task, Arena *are
     if (task && !words.isa) words.isa = task->isa;
     if (words.share.parts)
         review_share_set(&words.share, argc, argv, words.folder, &words.cli, arena);
-    if (words.watches) return watch(&words, err);
     return words.init ? outcome_of(start(&words, arena, err)) : review(&words, arena, err);
 }
 

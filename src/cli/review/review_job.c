@@ -14,7 +14,6 @@
 #include "job/job_isa.h"
 #include "print/print.h"
 #include "render/signals.h"
-#include "review/pace/work.h"
 #include "review/run/run.h"
 
 void review_take_answers(Journal *journal, const ReviewTask *task)
@@ -77,11 +76,8 @@ Outcome review_part(ReviewRun *run, const ReviewTask *task, const char *response
     if (!folder_make(run->responses, err) || !folder_make(run->means.guides, err) ||
         !journal_open(task->answers, arena, run->problems, &run->means.journal, err))
         return OUTCOME_FAILED;
-    WorkPlan all = work_of_conditions(run->request, false), part = {{0}};
-    work_plan_add(&part, &all, 1.0 / run->share.count);
-    run->work->planned = part;
     bool ok = answer(run, task, arena, err);
-    if (ok) work_end(run->work);
+    if (ok) progress_end(run->progress, run->progress->total);
     journal_close(run->means.journal);
     return ok || err->code ? outcome_of(ok) : report_stopped(task);
 }

@@ -7,28 +7,12 @@
 #include "review/run/run.h"
 #include "review/run/frames.h"
 #include "review/vary/variants.h"
-#include "text/text.h"
 
 /* A step after all conditions are reviewed; they run in turn. */
 typedef struct LaterStep {
     bool (*make)(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Error *err);
-    const char *what;
     bool        is_wanted;
 } LaterStep;
-
-/* NULL: nothing. */
-static const char *still_to_come(const LaterStep *steps, int first, int count, Arena *arena)
-{
-    Text words = {.arena = arena};
-    bool any = false;
-    text_add(&words, "every verdict is there; to come: ");
-    for (int i = first; i < count; i++) {
-        if (!steps[i].is_wanted) continue;
-        text_format(&words, "%s%s", any ? ", " : "", steps[i].what);
-        any = true;
-    }
-    return any ? words.data : NULL;
-}
 
 /* Frames take long: they come last. */
 static bool run_steps(const ReviewRun *run, const ReviewSteps *steps, ReviewOutcome *outcome,
@@ -36,17 +20,15 @@ static bool run_steps(const ReviewRun *run, const ReviewSteps *steps, ReviewOutc
 {
     const ReviewRequest *request = run->request;
     const LaterStep later[] = {
-        {review_variants, "variants", request->variant_count > 0},
-        {review_sensitivities, "sensitivity",
+        {review_variants, request->variant_count > 0},
+        {review_sensitivities,
          request->parameter_count > 0 && steps->with_sensitivities},
-        {review_mend, "remedy", run->mend != NULL},
-        {review_frames, "pictures", request->frames.worst > 0}};
-    for (int i = -1; i < COUNT_OF(later); i++) {
-        if (i >= 0 && !later[i].is_wanted) continue;
-        if (i >= 0 && !later[i].make(run, outcome, arena, err)) return false;
+        {review_mend, run->mend != NULL},
+        {review_frames, request->frames.worst > 0}};
+    for (int i = 0; i < COUNT_OF(later); i++) {
+        if (!later[i].is_wanted) continue;
+        if (!later[i].make(run, outcome, arena, err)) return false;
         if (!review_goes_on(run->means.journal, err)) return false;
-        outcome->review.to_come = still_to_come(later, i + 1, COUNT_OF(later), arena);
-        if (steps->on_step && !steps->on_step(steps->user, outcome, err)) return false;
     }
     return true;
 }

@@ -2,8 +2,7 @@
 /* engine.h -- a whole review, in order: every moment and sweep, then variants, sensitivities, a
  * remedy, and pictures of the worst cases.
  *
- * Who listens gets each condition and each scene (ReviewRun.news), and the review after every
- * step: all verdicts are there from the first on, what takes long comes later.
+ * Who listens gets each scene (ReviewRun.news).
  *
  * Memory   the review lives in the arena.
  * Threads  starts its own, by run->means.threads; the same review for any count.
@@ -16,10 +15,6 @@
 typedef struct ReviewSteps {
     bool is_strict;          /* as in review_decide */
     bool with_sensitivities; /* the request's; else its parameters serve the remedy alone */
-    /* After all conditions, and after each later step: outcome->review.to_come names those that
-     * are missing, NULL after the last. NULL: nobody listens. */
-    bool (*on_step)(void *user, ReviewOutcome *outcome, Error *err);
-    void  *user;
 } ReviewSteps;
 
 /* Pictures and checkpoints are written into the run's folders; nothing else is written here. */

@@ -13,7 +13,6 @@
 #include "image/develop.h"
 #include "image/exposure.h"
 #include "image/false_colour.h"
-#include "review/pace/work.h"
 #include "review/review_decide.h"
 #include "text/base64.h"
 #include "text/text.h"
@@ -294,7 +293,6 @@ static bool make_pictures(const LiveArgs *args, Arena *arena, ReviewLive *out, E
         if (!c->frame || !is_new(pictures, made, c->frame)) continue;
         if (!make_picture(args, c->frame, &pictures[made], arena, err)) return false;
         size += packed_size(&pictures[made++]);
-        work_add(args->work, WORK_LAYERS, work_of_frame(args->request, WORK_LAYERS));
     }
     out->pictures = pictures;
     out->picture_count = made;

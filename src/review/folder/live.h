@@ -17,7 +17,6 @@
 #include "image/frame.h"
 #include "review/output/review_live.h"
 #include "review/output/review_page.h"
-#include "review/pace/work.h"
 #include "review/run/job.h"
 #include "vision/human_eye.h"
 
@@ -56,7 +55,6 @@ typedef struct LiveArgs {
     const ReviewOutcome *outcome;
     const char          *folder; /* of the frames */
     int                  threads;
-    Work                *work;
 } LiveArgs;
 
 bool live_make(const LiveArgs *args, Arena *arena, ReviewLive *out, Error *err);

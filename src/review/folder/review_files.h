@@ -34,8 +34,7 @@ bool review_files_spare(const char *dir, const ReviewRequest *request, const Lin
  *     DIR/unfinished/HASH.checkpoint of the frame in hand
  *     DIR/unfinished/new/            files as they will stand in DIR
  *
- * So what stands in DIR is always of one review: the earlier one until the new one is whole, or
- * has worked for a minute and shows what it knows so far, marked as such.
+ * So what stands in DIR is always of one review: the earlier one until the new one is whole.
  * The files then move one by one, within milliseconds, review.json last; a kill in between is
  * replaced by the same command.
  *

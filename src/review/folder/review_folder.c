@@ -32,10 +32,7 @@ static bool read_earlier(ReviewFolder *folder, Arena *arena, Error *err)
 {
     if (!folder->diff) return true;
     const char *path = arena_format(arena, "%s/review.json", folder->diff);
-    return review_json_read(path, arena, &folder->before, err) &&
-           (!folder->before.is_partial ||
-            error_at(err, ERROR_INPUT, path, "/provisional", "is of a review that was not "
-                     "finished, required: a whole one — the command that made it goes on"));
+    return review_json_read(path, arena, &folder->before, err);
 }
 
 void review_folder_responses(ReviewFolder *folder, Arena *arena)
@@ -104,8 +101,8 @@ static bool write_table(void *context, int i, Error *err)
     return ok;
 }
 
-bool review_folder_write_tables(const ReviewFolder *folder, ReviewOutcome *outcome,
-                                Arena *arena, Error *err)
+static bool write_tables(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
+                         Error *err)
 {
     int          count = outcome->table_count;
     FolderTables work = {folder, outcome};
@@ -322,8 +319,7 @@ static bool fill_page(const ReviewFolder *folder, const ReviewOutcome *outcome,
                       ReviewPage *page, Arena *arena, Error *err)
 {
     ReviewLive *live = ARENA_NEW(arena, ReviewLive, 1);
-    LiveArgs     args = {folder->request, outcome, folder->name, folder->threads,
-                       folder->work};
+    LiveArgs     args = {folder->request, outcome, folder->name, folder->threads};
     if (!live_make(&args, arena, live, err) ||
         (!folder->is_self_contained && !put_layers_beside(folder, live, arena, err)))
         return false;
@@ -411,7 +407,8 @@ bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Are
                          Error *err)
 {
     const Review *review = &outcome->review;
-    return review_csv_write(review, arena_format(arena, "%s/cases.csv", folder->name), err) &&
+    return write_tables(folder, outcome, arena, err) &&
+           review_csv_write(review, arena_format(arena, "%s/cases.csv", folder->name), err) &&
            (!review->false_sun_count ||
             review_csv_write_false_suns(
                 review, arena_format(arena, "%s/false_suns.csv", folder->name), err)) &&
@@ -428,20 +425,4 @@ bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Are
                              arena_format(arena, "%s/review.json", folder->name), err) &&
            write_page(folder, outcome, arena, err) && write_run(folder, outcome, arena, err) &&
            review_draft_publish(&folder->draft, review, *arena, err);
-}
-
-bool review_folder_write_so_far(const ReviewFolder *folder, const ReviewOutcome *so_far,
-                                const char *to_come, Arena scratch, Error *err)
-{
-    ReviewOutcome known = *so_far;
-    Review       *review = &known.review;
-    review->to_come = to_come;
-    review->is_partial = true;
-    review->is_strict = folder->is_strict;
-    review_decide(review);
-    return review_folder_write_tables(folder, &known, &scratch, err) &&
-           review_json_write(review_json(review),
-                             arena_format(&scratch, "%s/review.json", folder->name), err) &&
-           write_page(folder, &known, &scratch, err) &&
-           review_draft_publish(&folder->draft, review, scratch, err);
 }

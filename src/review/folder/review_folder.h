@@ -14,7 +14,6 @@
 #pragma once
 #include "review/folder/review_files.h"
 #include "review/folder/live.h"
-#include "review/pace/work.h"
 
 typedef struct ReviewFolder {
     const char          *target; /* as on the command line */
@@ -35,7 +34,6 @@ typedef struct ReviewFolder {
     ReviewDraft          draft;
     const char          *name; /* where its files are written: the draft's folder */
     const char          *responses_shown;   /* as review.json names the folder */
-    Work                *work; /* of the review, of which its files are a part */
     bool                 has_own_responses; /* DIR/responses */
 } ReviewFolder;
 
@@ -57,16 +55,6 @@ void review_folder_finish(ReviewFolder *folder);
 /* The command that makes it. */
 const char *review_folder_command(const ReviewFolder *folder, Arena *arena);
 
-/* The same of what is known so far: page, review.json and tables, marked as such, so that
- * nobody takes them for the whole. to_come: for people. */
-bool review_folder_write_so_far(const ReviewFolder *folder, const ReviewOutcome *so_far,
-                                const char *to_come, Arena scratch, Error *err);
-
-/* Tables of the sweeps, whose names it sets: once, before review_folder_write. Nothing that
- * comes later changes them. */
-bool review_folder_write_tables(const ReviewFolder *folder, ReviewOutcome *outcome,
-                                Arena *arena, Error *err);
-
-/* All other files; they take the places of an earlier review's. */
+/* All files; they take the places of an earlier review's. Sets the names of sweeps' tables. */
 bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
                          Error *err);

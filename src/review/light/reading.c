@@ -9,7 +9,6 @@
 
 #include "base/count.h"
 #include "base/parallel.h"
-#include "base/progress.h"
 #include "base/sampler.h"
 #include "estimate/estimate.h"
 #include "estimate/estimate_plan.h"
@@ -327,10 +326,8 @@ static Reading take_planned(const ProbeAim *aim, const ReadingGoal *goal,
 static Reading take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
                     Arena scratch)
 {
-    double  start = monotonic_seconds();
     Reading reading = take_planned(aim, goal, tools, scratch);
     reading.reached = uncertainty(&reading, goal);
-    reading.seconds = monotonic_seconds() - start;
     return reading;
 }
 

@@ -90,7 +90,6 @@ typedef struct Reading {
     double batches[READING_BATCHES]; /* of each batch by itself; their mean is `reflected` */
     double reached;        /* by how much of itself one standard error moves what counts */
     long   paths;          /* that it was read from; a pilot's do not count */
-    double seconds;        /* that it took when it was taken, the pilot's too */
 } Reading;
 
 #define READING_LEAST 1024       /* paths of a reading that a pilot decides; twice its pilot's,

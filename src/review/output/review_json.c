@@ -331,29 +331,15 @@ static json_t *write_data_share(const void *review)
     return json_real(UNJUDGED_DATA_SHARE);
 }
 
-/* Nobody may take one that is not finished for one that passes. */
-static bool is_provisional(const Review *review)
-{
-    return review->is_partial && review->pass;
-}
-
-static json_t *write_pass(const void *review)
-{
-    return json_boolean(((const Review *)review)->pass && !is_provisional(review));
-}
-
 static json_t *write_verdict(const void *review)
 {
-    return json_string(is_provisional(review) ? "provisional"
-                                              : verdict_names[review_verdict(review)]);
+    return json_string(verdict_names[review_verdict(review)]);
 }
 
 TABLE(whole_json, Review,
-    {"pass", RECORD_FLAG, MUST, RECORD_AT(Review, pass), .write = write_pass},
+    OWN(FLAG, Review, pass),
     TOLD("verdict", 0, write_verdict), AS("strict", FLAG, Review, is_strict),
     OWN(TEXT, Review, title), OWN(TEXT, Review, profile),
-    AS_FLAG("provisional", RECORD_BRIEF, Review, is_partial),
-    AS_TEXT("to_come", RECORD_WRITTEN | RECORD_BRIEF, Review, to_come),
     LIST("cases", MUST, Review, cases, case_count, case_json),
     LIST("sweeps", MUST, Review, sweeps, sweep_count, sweep_json),
     LIST("gazes", MUST, Review, gazes, gaze_count, gaze_json),

@@ -308,7 +308,7 @@ static void values_add_diff(const PageValues *v)
 
 #define WORDS_BYTES ((size_t)1 << 34) /* address space */
 #define OPEN_SWEEPS 1
-#define RENEWED_S 15 /* a page to which something is to come */
+
 #define SUMMARY_ROWS 5 /* verdicts that fit on one page of paper */
 
 static const char *size_words(double bytes, Arena *arena)
@@ -336,7 +336,6 @@ static bool set_head(const PageValues *v, Error *err)
     const Review *review = v->review;
     const char   *symbol = only_symbol(review);
     const char   *title = review->title && *review->title ? review->title : "Glare review";
-    bool          is_renewed = review->to_come && !review->is_beside;
     json_t       *elsewhere = values_object(v->doc, "elsewhere");
     page_set(v->doc, "title", title);
     page_set_flag(v->doc, "is_beside", review->is_beside);
@@ -344,8 +343,7 @@ static bool set_head(const PageValues *v, Error *err)
     page_set(elsewhere, "what", review->is_beside ? "the worst" : "a page of their own");
     return page_set_head(v->doc, &(PageHead){.title = symbol ? symbol : title,
                                              .command = "review",
-                                             .is_dark = v->page->is_dark,
-                                             .renewed_s = is_renewed ? RENEWED_S : 0}, err);
+                                             .is_dark = v->page->is_dark}, err);
 }
 
 /* ---- cards ------------------------------------------------------------------------------ */

@@ -343,15 +343,8 @@ static const char *words_undecidable(const ReviewCase *c, Arena *arena)
 const char *words_decide(const ReviewCase *c, Arena *arena)
 {
     if (case_is_undecidable(c)) return words_undecidable(c, arena);
-    if (!(c->minutes_to_decide > 0)) return "";
-    const char *option = c->decide_times <= DECIDE_TIMES
-                             ? "--decide"
-                             : arena_format(arena, "--decide-times %.0f", c->decide_times);
-    bool has_error = c->panel.emission_error > 0 || c->panel.reflection_error > 0;
-    return arena_format(arena, "; %s calls it%s within %s, nine times in ten", option,
-                        has_error ? ", or shows that only the panel's own error keeps it open,"
-                                  : "",
-                        words_minutes(fmax(c->minutes_to_decide, 1), arena));
+    if (c->open_by != OPEN_BY_PATHS) return "";
+    return "; more paths decide it: a lower \"contrast\" and more \"paths\" of \"precision\"";
 }
 
 #define HIDERS_LISTED 3

@@ -248,22 +248,6 @@ static void mirror_all(ReviewRequest *of, const ReviewMirror *mirror, Arena *are
     of->levels = levels;
 }
 
-ReviewRequest review_request_variant(const ReviewRequest *request, const ReviewVariant *variant,
-                                     Arena *arena)
-{
-    ReviewRequest of = *request;
-    of.variants = NULL;
-    of.variant_count = 0;
-    of.parameter_count = 0;
-    of.change = &variant->change;
-    of.is_relevelled = review_variant_is_of_levels(request, variant);
-    if (variant->level_count) set_levels(&of, variant, arena);
-    set_scenes(&of, variant, arena);
-    if (variant->eye_moves) move_eyes(&of, variant, arena);
-    if (variant->change.mirror) mirror_all(&of, variant->change.mirror, arena);
-    return of;
-}
-
 /* A fixed level is one wherever it looks from. */
 static bool looks_alike(const ReviewLevel *level, const ReviewLevel *before)
 {
@@ -283,7 +267,9 @@ static bool has_same_sensors(const ReviewRequest *request, const ReviewVariant *
     return true;
 }
 
-bool review_variant_is_of_levels(const ReviewRequest *request, const ReviewVariant *variant)
+/* Does it change levels of displays and nothing else, so that they are all in which its light
+ * differs from the request's? A curve whose sensor is elsewhere changes more. */
+static bool is_of_levels(const ReviewRequest *request, const ReviewVariant *variant)
 {
     const ReviewChange *c = &variant->change;
     return !c->scene_count && !c->panel_count && !c->state_count && !c->content_count &&
@@ -291,10 +277,26 @@ bool review_variant_is_of_levels(const ReviewRequest *request, const ReviewVaria
            has_same_sensors(request, variant);
 }
 
+ReviewRequest review_request_variant(const ReviewRequest *request, const ReviewVariant *variant,
+                                     Arena *arena)
+{
+    ReviewRequest of = *request;
+    of.variants = NULL;
+    of.variant_count = 0;
+    of.parameter_count = 0;
+    of.change = &variant->change;
+    of.is_relevelled = is_of_levels(request, variant);
+    if (variant->level_count) set_levels(&of, variant, arena);
+    set_scenes(&of, variant, arena);
+    if (variant->eye_moves) move_eyes(&of, variant, arena);
+    if (variant->change.mirror) mirror_all(&of, variant->change.mirror, arena);
+    return of;
+}
+
 bool review_is_compared(const ReviewRequest *request)
 {
     for (int i = 0; i < request->variant_count; i++)
-        if (!review_variant_is_of_levels(request, &request->variants[i])) return true;
+        if (!is_of_levels(request, &request->variants[i])) return true;
     for (int i = 0; i < request->parameter_count; i++)
         if (request->parameters[i].kind != PARAMETER_BRIGHTNESS) return true;
     return false;
@@ -307,4 +309,21 @@ double review_brightness(const ReviewRequest *request, ReviewDisplayName display
     ReviewLevel level = {.fixed = (ReviewFixedLevel *)change->brightness,
                          .fixed_count = change->brightness_count};
     return review_level_at(&level, display, 1, 0);
+}
+
+int review_condition_steps(const ReviewRequest *request, const ReviewCondition *condition)
+{
+    int  sights = request->eye_count * request->symbol_count;
+    bool is_variant = request->change != NULL; /* whose gazes are not read */
+    if (condition->kind != CONDITION_MOMENT) return 2 * sights;
+    return sights + (is_variant ? 0 : review_look_count(request));
+}
+
+int review_steps(const ReviewRequest *request)
+{
+    int steps = 0;
+    for (int i = 0; i < request->condition_count; i++)
+        steps += review_condition_steps(request, &request->conditions[i]) *
+                 (1 + request->variant_count);
+    return steps + (request->frames.worst ? request->frames.worst + request->variant_count : 0);
 }

@@ -381,8 +381,6 @@ typedef struct ReviewRequest {
     int              weather_count;
     double           precision_contrast; /* relative standard error required */
     double           precision_clear;    /* enough where the verdict is clear; at least that */
-    long             decide_times; /* reads on where too close to call, until a case has had
-                                      so many times precision_paths; 0: does not */
     int              precision_paths;    /* at most for one reading; one that is not sure then
                                             has a wider interval */
     uint32_t         seed;    /* random seed: another one takes other paths of the same light;
@@ -412,12 +410,14 @@ uint32_t review_seed(const ReviewRequest *request, uint32_t base);
 ReviewRequest review_request_variant(const ReviewRequest *request, const ReviewVariant *variant,
                                      Arena *arena);
 
-/* Does it change levels of displays and nothing else, so that they are all in which its light
- * differs from the request's? A curve whose sensor is elsewhere changes more. */
-bool review_variant_is_of_levels(const ReviewRequest *request, const ReviewVariant *variant);
-
 /* Whether anything that is to be compared changes more than levels. */
 bool review_is_compared(const ReviewRequest *request);
+
+/* What progress counts: a step a symbol and eye, and a gaze, of a moment; of a sweep one for
+ * the response and one for its suns; a frame. As many as the request names: where a symbol is
+ * text to be found there may be more of it. */
+int review_condition_steps(const ReviewRequest *request, const ReviewCondition *condition);
+int review_steps(const ReviewRequest *request);
 
 /* The factor on a display's level; 1 where no change sets it. */
 double review_brightness(const ReviewRequest *request, ReviewDisplayName display);

@@ -9,10 +9,8 @@
 #include "review/eye/eye_reading.h"
 #include "review/judge.h"
 #include "review/keep/frame_kept.h"
-#include "review/light/read_on.h"
 #include "review/light/setup.h"
 #include "review/light/response_suns.h"
-#include "review/pace/work.h"
 #include "review/review_decide.h"
 #include "review/run/case_visibility.h"
 #include "review/run/private_images.h"
@@ -155,17 +153,6 @@ static double known_share(DirectSun direct, MeanInterval reflected)
     return range > 0 ? fmin(4 * RESPONSE_MIRROR_ERROR * direct.mirror / range, 1) : 0;
 }
 
-/* Would more paths call it? A case that fails by one limit is called, whatever the others. */
-static bool is_worth_paths(void *user, const Reading *reading, Arena scratch)
-{
-    const VerdictArgs *args = user;
-    ReviewCase        c;
-    if (!judge_with(args, reading->reflected, reading->interval, &c, &scratch)) return true;
-    c.paths = reading->paths;
-    judge_paths(&c, known_share(args->direct, reading->interval));
-    return isfinite(c.paths_to_decide);
-}
-
 /* All that decides whether it is, besides the light: whose case it is, and the limits. */
 static const char *name_of(const VerdictArgs *args, Arena *arena)
 {
@@ -233,9 +220,7 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictArg
         goal.least = 0;
         goal.question = NULL;
     }
-    ReadOn from = {reading_take(&rest, &goal, &setup->tools, scratch),
-                   request->decide_times * request->precision_paths, is_worth_paths};
-    return goal.question ? setup_read_on(setup, &rest, &goal, &from, scratch) : from.reading;
+    return reading_take(&rest, &goal, &setup->tools, scratch);
 }
 
 /* The panel's emission dimmed by what the eye looks through. */
@@ -294,7 +279,6 @@ static void start_look(const CaseTools *tools, const CaseLook *look, ReviewCase 
     const Setup         *setup = tools->setup;
     const SymbolSurface *surface = &look->symbol->surface;
     c->luminance_cd_m2 = (CaseLuminances){nan, nan, nan, nan, nan, nan};
-    c->minutes_to_decide = c->decide_times = nan;
     c->glasses_transmittance = 1;
     c->precision_asked = c->precision_reached = nan;
     c->reflected_range = (MeanInterval){nan, nan};
@@ -343,7 +327,6 @@ static void keep_reading(const Reading *reading, const CaseLook *look, ReviewCas
     c->paths = reading->paths;
     c->batches = look->is_coarse ? NULL : keep_batches(reading, arena);
     c->precision_reached = reading->reached;
-    c->minutes_to_decide = reading->seconds / 60 / (double)reading->paths; /* of one path */
     l->reflected = reading->reflected;
     l->mirror = reading->mirror;
     l->scattered = reading->reflected - reading->mirror;
@@ -425,15 +408,6 @@ typedef struct CaseArgs {
     bool               is_bare; /* its light and verdict alone */
 } CaseArgs;
 
-/* By what is known of its reading: how much more of it decides. */
-static void set_to_decide(const ReviewRequest *request, DirectSun direct, ReviewCase *c)
-{
-    judge_paths(c, known_share(direct, c->reflected_range));
-    c->paths_to_decide *= READ_ON_BUDGET;
-    c->minutes_to_decide *= c->paths_to_decide;
-    c->decide_times = ceil(c->paths_to_decide / request->precision_paths);
-}
-
 /* A variant has no causes, and its light may come by other materials than the review's:
  * its own paths show, where any of them has no data. Of one whose levels alone differ, and to
  * find the worst of many points, the review's share counts. */
@@ -462,7 +436,7 @@ static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewC
                   aim.target_count && is_in_sun(direct, c->luminance_cd_m2.reflected));
     c->without_data_share = data_share_of(tools, look, &aim, c, *arena);
     judge_case(c, tools->profile, arena);
-    set_to_decide(tools->setup->request, direct, c);
+    judge_open(c, known_share(direct, c->reflected_range));
     return aim;
 }
 
@@ -587,8 +561,7 @@ bool setup_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *e
         CaseArgs args = {&request->eyes[i / symbols], &tools->symbols[s], faces[s],
                        tools->base != NULL};
         if (!case_of(tools, &args, arena, &out[i], err)) return false;
-        if (tools->work) work_add(tools->work, args.is_bare ? WORK_BARE_CASE : WORK_CASE,
-                                  work_of_case(request, args.eye, args.is_bare));
+        if (tools->progress) progress_update(tools->progress, tools->progress->done + 1);
     }
     return true;
 }

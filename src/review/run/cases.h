@@ -9,7 +9,6 @@
  */
 #pragma once
 #include "review/eye/eye_reading.h"
-#include "review/pace/work.h"
 #include "review/profile.h"
 #include "review/run/symbols.h"
 #include "review/run/job.h"
@@ -22,7 +21,7 @@ typedef struct CaseTools {
     int                symbol_count;
     long               cause_paths; /* by which causes are found; 0: CAUSE_PATHS */
     int                cause_rays;  /* that are kept of each; 0: CAUSE_RAYS */
-    Work              *work;        /* of setup_cases; or NULL */
+    Progress          *progress;    /* of setup_cases, in cases; or NULL */
     MomentShare        share;       /* of setup_cases: others' are left alone */
     const Review      *base;        /* of a variant: the review itself. Cases are bare then
                                        (setup_verdict), and read from no fewer paths than its

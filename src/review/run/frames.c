@@ -18,7 +18,6 @@
 #include "review/chain/outlook.h"
 #include "review/keep/frame_kept.h"
 #include "review/light/setup.h"
-#include "review/pace/work.h"
 #include "review/request/request_check.h"
 #include "review/review_decide.h"
 #include "review/run/cases.h"
@@ -49,11 +48,6 @@ static bool frame_camera(const FrameArgs *args, SceneCamera *out, Arena scratch,
     return true;
 }
 
-static WorkKind kind_of(const FrameArgs *args)
-{
-    return args->exposure ? WORK_PAIR : WORK_FRAME;
-}
-
 /* What the pictures, and the page's scripts, need of a frame. */
 static unsigned layers_of(const FrameArgs *args)
 {
@@ -77,9 +71,7 @@ static RenderOptions options_of(const FrameArgs *args)
         .noise_area = {all, FILM_ALL_PIXELS},
         .layers = layers_of(args),
         .threads = args->setup->tools.threads, .stops_at_once = true,
-        .within = &args->work->progress,
-        .within_weight = work_share(args->work, kind_of(args),
-                                    work_of_frame(request, kind_of(args)))};
+        .within = args->progress, .within_weight = 1};
 }
 
 /* The attributes of a rendered frame, as far as they are known here. */
@@ -273,7 +265,6 @@ static bool frame_make(const FrameArgs *args, Arena *arena, const char **out, Er
         (!render(args, &kept, &camera, &options, &result, err) ||
          !write_frame(args, &camera, &result, scratch, err) || !frame_kept_end(&kept, err)))
         return false;
-    work_add(args->work, kind_of(args), work_of_frame(args->setup->request, kind_of(args)));
     *out = name;
     return true;
 }
@@ -464,7 +455,7 @@ static bool make_frame(const FrameWork *work, ReviewCase *of, Arena *arena, cons
     if (ok) {
         FrameArgs args = {&setup, review_eye_named(run->request, work->of->of->eye),
                         vec3(0, 0, 0), run->folder, run->unfinished, work->name,
-                        work->exposure, run->work};
+                        work->exposure, run->progress};
         ok = make_lit(work, &setup, &args, &scratch, made, err);
         if (ok) *made = arena_string(arena, *made, strlen(*made));
         ok = ok && (!of || add_sights(&args, of, arena, err));

@@ -17,7 +17,6 @@
  */
 #pragma once
 #include "review/light/setup.h"
-#include "review/pace/work.h"
 #include "review/run/job.h"
 #include "review/verdict.h"
 
@@ -41,7 +40,7 @@ typedef struct FrameArgs {
     const char      *name;    /* without an ending */
     const char      *exposure; /* of a frame to stand beside (frame_exposure): this one is
                                   smaller, and its picture alone is made; NULL: by itself */
-    Work            *work;   /* of which the frame is a part */
+    Progress        *progress; /* of which the frame is a step */
 } FrameArgs;
 
 /* Pictures of a review that is made: of its worst cases, and of the very

@@ -9,7 +9,6 @@ ReviewRun review_run_of(const ReviewRun *run, const ReviewRequest *request, cons
     own.request = request;
     own.base = base;
     own.identity = NULL;
-    own.news.on_condition = NULL;
     own.share = (ReviewShare){0};
     return own;
 }

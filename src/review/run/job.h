@@ -8,10 +8,10 @@
 #include <stdbool.h>
 
 #include "base/problems.h"
+#include "base/progress.h"
 #include "keep/journal.h"
 #include "review/eye/false_suns.h"
 #include "review/light/setup.h"
-#include "review/pace/work.h"
 #include "review/profile.h"
 #include "review/request/request.h"
 #include "review/suns/sweep_suns.h"
@@ -49,11 +49,9 @@ bool review_share_has(const ReviewShare *share, int at);
 
 typedef struct ReviewOutcome ReviewOutcome;
 
-/* Callbacks of a running review; NULL: none. on_condition: after each condition, with how many
- * are done; it must change nothing. read: gets each scene, whose files are known then. The
- * failure of either ends the review. */
+/* Who listens to a running review; NULL: nobody. read: gets each scene, whose files are known
+ * then. Its failure ends the review. */
 typedef struct ReviewNews {
-    bool (*on_condition)(void *user, const ReviewOutcome *so_far, int done, Error *err);
     bool (*read)(void *user, const Scene *scene, Error *err);
     void  *user;
 } ReviewNews;
@@ -62,8 +60,7 @@ typedef struct ReviewRun {
     const ReviewRequest *request;
     const Profile       *profile;
     SetupMeans           means;
-    Work                *work;
-    WorkPlan            *plan;     /* of the condition in hand: what is planned of it */
+    Progress            *progress; /* in steps (review_steps); of a condition: its own */
     const char          *folder;   /* of the frames, which is there; */
     const char          *unfinished; /* of checkpoints, */
     const char          *responses;  /* and of responses: as it is opened (plan: NULL: none), */

@@ -6,7 +6,6 @@
 #include "keep/journal.h"
 #include "render/identity.h"
 #include "review/keep/frame_kept.h"
-#include "review/pace/work.h"
 #include "review/request/request_check.h"
 #include "review/review_decide.h"
 #include "review/road_verdict.h"
@@ -62,13 +61,6 @@ static MomentShare share_of(const ReviewRun *run, const ReviewCondition *conditi
     return share;
 }
 
-/* What the condition in hand is now known to take. */
-static void replan(const ReviewRun *run, const WorkPlan *now)
-{
-    work_replan(run->work, run->plan, now);
-    *run->plan = *now;
-}
-
 static const MomentShare ALL_OF_IT = {{0, 0}, 0, 1};
 
 /* Of a variant's gazes only the roads' increments: nothing else of them has a limit. */
@@ -84,7 +76,7 @@ static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena
 {
     const ReviewCondition *condition = setup->condition;
     Review   *review = &out->review;
-    CaseTools tools = {.setup = setup, .profile = run->profile, .work = run->work,
+    CaseTools tools = {.setup = setup, .profile = run->profile, .progress = run->progress,
                        .share = share_of(run, condition), .base = run->base,
                        .no_images = run->share.count > 0};
     SetupSymbol *symbols;
@@ -92,16 +84,14 @@ static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena
     if (!setup_light(setup, sky, scratch, err) ||
         !setup_symbols(setup, scratch, &symbols, &tools.symbol_count, err))
         return false;
-    WorkPlan plan = work_of_moment(run->request, tools.symbol_count, run->base != NULL);
     tools.symbols = symbols;
     rests_add_masks(symbols, tools.symbol_count, review, arena);
-    replan(run, &plan);
-    work_add(run->work, WORK_OPEN, plan.of[WORK_OPEN]);
+    int count = tools.symbol_count * run->request->eye_count;
+    int look_count = run->base ? 0 : review_look_count(run->request);
+    run->progress->total = count + look_count;
     if (!setup_learn(setup, symbols, tools.symbol_count, scratch, err)) return false;
-    work_add(run->work, WORK_LEARN, plan.of[WORK_LEARN]);
     ReviewCase *cases = review->cases + review->case_count;
     if (!setup_cases(&tools, arena, cases, err)) return false;
-    int count = tools.symbol_count * run->request->eye_count;
     if (!run->share.count) keep_names(cases, count, arena); /* others' cases have none */
     review->case_count += count;
     GazesArgs roads = {setup, &ALL_OF_IT, run->sun_searches, run->profile, cases, count, true};
@@ -110,8 +100,8 @@ static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena
     GazesArgs looks = {setup, &tools.share, run->sun_searches, run->profile, cases, count,
                       false};
     if (!setup_gazes(&looks, arena, gazes, err)) return false;
-    work_add(run->work, WORK_LOOK, plan.of[WORK_LOOK]);
-    review->gaze_count += review_look_count(run->request);
+    progress_update(run->progress, count + look_count);
+    review->gaze_count += look_count;
     /* The merge looks for images in panes: they are needed once. */
     return !run->request->pane_images || run->share.count > 0 ||
            setup_pane_images(setup, arena, review, err);
@@ -246,31 +236,20 @@ static bool run_condition(const ReviewRun *run, const ReviewCondition *condition
     return ok;
 }
 
-static WorkPlan work_of_group(const ReviewRun *run, const ReviewCondition *condition,
-                              const SweepGroup *group)
-{
-    bool     is_bare = run->base != NULL;
-    WorkPlan all = {{0}};
-    for (int i = 0; i < group->count + !group->count; i++) {
-        WorkPlan one = work_of_condition(run->request,
-                                         group->count ? group->conditions[i] : condition,
-                                         is_bare);
-        work_plan_add(&all, &one, run->share.count ? 1.0 / run->share.count : 1);
-    }
-    return all;
-}
-
-/* group: empty: a moment. What was planned for it and not done is not left. */
-static bool run_watched(const ReviewRun *run, const ReviewCondition *condition,
+/* group: empty: a moment. Progress counts what of it is read. */
+static bool run_counted(const ReviewRun *run, const ReviewCondition *condition,
                         const SweepGroup *group, Arena *arena, ReviewOutcome *out, Error *err)
 {
-    WorkPlan  plan = work_of_group(run, condition, group), done = run->work->done;
+    int steps = 0;
+    for (int i = 0; i < group->count + !group->count; i++)
+        steps += review_condition_steps(run->request,
+                                        group->count ? group->conditions[i] : condition);
+    Progress  part = progress_part(run->progress, steps, steps);
     ReviewRun own = *run;
-    own.plan = &plan;
+    own.progress = &part;
     if (!run_condition(&own, condition, group->count ? group : NULL, arena, out, err))
         return false;
-    work_plan_add(&done, &plan, 1);
-    work_replan(run->work, &done, &run->work->done);
+    progress_end(&part, part.total);
     return true;
 }
 
@@ -286,7 +265,6 @@ static bool run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *ou
 {
     const ReviewRequest *request = run->request;
     bool    *is_done = ARENA_NEW(arena, bool, request->condition_count);
-    int      done = 0;
     for (int i = 0; i < request->condition_count; i++) {
         const ReviewCondition *condition = &request->conditions[i];
         SweepGroup group = {NULL, 0};
@@ -296,13 +274,10 @@ static bool run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *ou
         MomentShare share = share_of(run, condition);
         if (is_moment && !moment_share_has_any(&share)) continue;
         if (!is_moment) group = group_of(request, i, is_done, arena);
-        if (!run_watched(run, condition, &group, arena, out, err) ||
+        if (!run_counted(run, condition, &group, arena, out, err) ||
             !run_roads(run, &group, arena, out, err) ||
             !review_goes_on(run->means.journal, err)) /* else its last reading may be cut off */
             return false;
-        done += is_moment ? 1 : group.count;
-        if (run->news.on_condition && !run->news.on_condition(run->news.user, out, done,
-                                                              err)) return false;
     }
     return true;
 }

@@ -7,7 +7,6 @@
 #include "base/parallel.h"
 #include "base/units.h"
 #include "review/judge.h"
-#include "review/pace/work.h"
 #include "review/chain/causes.h"
 #include "review/keep/frame_kept.h"
 #include "review/run/false_sun_times.h"
@@ -341,8 +340,7 @@ static bool report_sights(SweepReport *to, Arena room, Error *err)
         if (!review_goes_on(sweep->run->means.journal, err)) return false;
         if (sight->twin == NO_ID) asked = sweep_sample_sight(sweep, sight, &of_sight);
         if (!report_sight(to, sight, &asked, err)) return false;
-        work_add(sweep->run->work, sweep->run->base ? WORK_BARE_SIGHT : WORK_SIGHT,
-                 work_of_sight(sweep->suns.count, sweep->run->base != NULL));
+        progress_update(sweep->run->progress, sweep->run->progress->done + 1);
     }
     return true;
 }
@@ -406,28 +404,15 @@ bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, 
            sweep_weather_check(request, condition, &suns, scratch, err);
 }
 
-/* Now that it is known what is kept, and how many suns there are. */
-static void plan_work(const Sweep *sweep, const SweepGroup *group, Arena scratch)
+/* Responses that are to be traced, then sights under each condition. */
+static int steps_of(const Sweep *sweep, const SweepGroup *group)
 {
-    const ReviewRun *run = sweep->run;
-    bool     is_bare = run->base != NULL;
-    WorkPlan plan = {{[WORK_OPEN] = work_of(WORK_OPEN)}};
+    int steps = 0;
     for (int i = 0; i < sweep->call_count; i++)
-        plan.of[responses_kind(&sweep->calls[i])] += responses_work(&sweep->calls[i]);
-    for (int i = 0; i < sweep->call_count; i++)
-        if (responses_work(&sweep->calls[i]) > 0) plan.of[WORK_OWN] += 2 * work_of(WORK_OWN);
-    if (!is_bare && !run->share.count)
-        plan.of[WORK_FALSE_SUNS] = run->request->eye_count * work_of(WORK_FALSE_SUNS);
-    for (int i = 0; i < group->count; i++) {
-        SweepSuns suns = sweep_suns(group->conditions[i], 1, &scratch);
-        plan.of[WORK_SKIES] += work_of(WORK_SKIES);
-        for (int k = 0; k < sweep->sight_count; k++)
-            if (!sweep->sights[k].is_left)
-                plan.of[is_bare ? WORK_BARE_SIGHT : WORK_SIGHT] +=
-                    work_of_sight(suns.count, is_bare);
-    }
-    work_replan(run->work, run->plan, &plan);
-    *run->plan = plan;
+        steps += !sweep->calls[i].is_kept && !sweep->calls[i].is_left;
+    for (int k = 0; k < sweep->sight_count; k++)
+        steps += sweep->sights[k].is_left ? 0 : group->count;
+    return steps;
 }
 
 static void set_level(Sweep *sweep)
@@ -447,7 +432,6 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
     set_level(sweep);
     if (!make_skies(sweep, &scratch, err)) return false;
     if (!sweep_sample_light(sweep, &scratch, err)) return false;
-    work_add(sweep->run->work, WORK_SKIES, work_of(WORK_SKIES));
     DistantTools tools = sweep_tools(sweep);
     SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);
     *suns = sweep->suns;
@@ -469,12 +453,8 @@ static bool sweep_all(Sweep *sweep, const SweepGroup *group, Arena *scratch, Are
 {
     if (!sweep_place_probes(sweep, scratch, err)) return false;
     rests_add_masks(sweep->symbols, sweep->symbol_count, &out->review, arena);
-    plan_work(sweep, group, *scratch);
-    work_add(sweep->run->work, WORK_OPEN, work_of(WORK_OPEN));
+    sweep->run->progress->total = steps_of(sweep, group);
     if (!sweep_make_probes(sweep, scratch, err)) return false;
-    if (!sweep->run->share.count && !sweep->run->base)
-        work_add(sweep->run->work, WORK_FALSE_SUNS,
-                 sweep->run->request->eye_count * work_of(WORK_FALSE_SUNS));
     report_responses(sweep, arena, out);
     PathContext dark = sweep->setup->context;
     for (int i = 0; i < group->count; i++) {

@@ -12,7 +12,6 @@
 #include "review/keep/frame_kept.h"
 #include "review/light/reading.h"
 #include "review/light/setup.h"
-#include "review/pace/work.h"
 #include "review/review_decide.h"
 
 /* ---- x ----------------------------------------------------------------------------------- */
@@ -98,8 +97,8 @@ static double own_reading(const Setup *setup, const ProbeAim *aim, Arena scratch
 
 /* The own light of those that were not there: the scene is dark but for its lamps, or for its
  * lamps and displays at level 1, which is sampled after them. */
-static bool responses_read_own(const ReviewRun *run, const Setup *setup,
-                               const ResponseArgs *calls, int count, bool displays, Error *err)
+static bool responses_read_own(const Setup *setup, const ResponseArgs *calls, int count,
+                               bool displays, Error *err)
 {
     Arena scratch = arena_reserve(OWN_BYTES);
     bool  ok = true;
@@ -110,24 +109,12 @@ static bool responses_read_own(const ReviewRun *run, const Setup *setup,
         double own = own_reading(setup, &calls[i].probe->aim, scratch);
         if (displays) calls[i].own->displays = own - calls[i].own->lamps;
         else calls[i].own->lamps = own;
-        work_add(run->work, WORK_OWN, work_of(WORK_OWN));
     }
     arena_release(&scratch);
     return ok;
 }
 
 /* ---- tracing ----------------------------------------------------------------------------- */
-
-WorkKind responses_kind(const ResponseArgs *args)
-{
-    return args->probe->aim.meter ? WORK_METER : WORK_RESPONSE;
-}
-
-double responses_work(const ResponseArgs *args)
-{
-    if (args->is_kept || args->is_left) return 0;
-    return args->probe->aim.meter ? work_of(WORK_METER) : work_of_response(args->paths);
-}
 
 /* Traces and keeps the rest. */
 static bool responses_trace(const ReviewRun *run, const Setup *setup, ResponseArgs *calls,
@@ -143,7 +130,7 @@ static bool responses_trace(const ReviewRun *run, const Setup *setup, ResponseAr
         distant_probe_respond(args->probe, &tools, arena);
         if (!response_write(&args->file, &args->probe->response, args->own, *arena, err))
             return false;
-        work_add(run->work, responses_kind(args), responses_work(args));
+        progress_update(run->progress, run->progress->done + 1);
     }
     return true;
 }
@@ -577,9 +564,9 @@ bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err)
 {
     Setup *setup = sweep->setup;
     const ReviewRun *run = sweep->run;
-    return responses_read_own(run, setup, sweep->calls, sweep->call_count, false, err) &&
+    return responses_read_own(setup, sweep->calls, sweep->call_count, false, err) &&
            sweep_light_dark(setup, 1, arena, err) &&
-           responses_read_own(run, setup, sweep->calls, sweep->call_count, true, err) &&
+           responses_read_own(setup, sweep->calls, sweep->call_count, true, err) &&
            responses_trace(run, setup, sweep->calls, sweep->call_count, arena, err) &&
            find_suns(sweep, arena, err);
 }

@@ -9,7 +9,6 @@
 #include "review/eye/false_suns.h"
 #include "review/light/distant_probe.h"
 #include "review/light/response_file.h"
-#include "review/pace/work.h"
 #include "review/run/cases.h"
 #include "review/run/job.h"
 
@@ -35,10 +34,6 @@ typedef struct ResponseArgs {
     bool         is_kept;   /* it was read, not traced */
     bool         is_left;   /* to another part: nothing is known of it */
 } ResponseArgs;
-
-/* How long it will take; 0: it is not to be traced. */
-WorkKind responses_kind(const ResponseArgs *args);
-double   responses_work(const ResponseArgs *args);
 
 typedef struct SweepMeter {
     LitPoint head;

@@ -9,7 +9,6 @@
 #include "base/mathd.h"
 #include "review/judge.h"
 #include "review/light/setup.h"
-#include "review/pace/work.h"
 #include "review/request/request_check.h"
 #include "review/request/request_parameters.h"
 #include "review/review_decide.h"
@@ -301,8 +300,6 @@ typedef struct Mending {
     const Review          *base;
     Arena                 *arena;
     double                 scale;
-    WorkPlan               trial;  /* what one takes */
-    int                    to_come; /* of them, as they are planned */
     ReviewMend             out;
 } Mending;
 
@@ -317,16 +314,6 @@ static void note(Mending *m, double value, const Review *review, bool is_fresh)
                       least ? words_case(least, m->arena) : NULL};
 }
 
-/* How many more trials are thought of, now. */
-static void expect(Mending *m, int trials)
-{
-    WorkPlan before = {{0}}, now = {{0}};
-    work_plan_add(&before, &m->trial, m->to_come);
-    work_plan_add(&now, &m->trial, trials);
-    work_replan(m->run->work, &before, &now);
-    m->to_come = trials;
-}
-
 /* Does everything pass there? fresh: by other paths, and no more of them than a review by
  * itself takes; 0: by the review's. */
 static bool try_value(Mending *m, double value, int fresh, bool *passes, Error *err)
@@ -339,9 +326,7 @@ static bool try_value(Mending *m, double value, int fresh, bool *passes, Error *
     request.seed += (uint32_t)fresh * FRESH_SEED;
     request.is_compared = fresh == 0;
     run.request = &request;
-    if (m->to_come < 1) expect(m, 1);
     if (!review_variant(&run, &variant, m->base, m->arena, &found, err)) return false;
-    m->to_come--;
     note(m, value, found.review, fresh > 0);
     *passes = review_verdict(found.review) == VERDICT_PASS;
     return true;
@@ -397,8 +382,6 @@ static bool expand(Mending *m, Side sides[2], Side **side, double *found, Error 
 static bool narrow(Mending *m, Side *side, double *found, Error *err)
 {
     while (*found - side->last > fmax(m->parameter->step / FINE, 0.02 * *found)) {
-        double gap = fmax(m->parameter->step / FINE, 0.02 * *found);
-        expect(m, (int)ceil(log2_d((*found - side->last) / gap)) + FRESH_TIMES);
         double middle = 0.5 * (*found + side->last);
         bool   passes;
         if (!try_value(m, value_at(m->parameter, side->sign, middle), 0, &passes, err))
@@ -412,7 +395,6 @@ static bool narrow(Mending *m, Side *side, double *found, Error *err)
 static bool is_confirmed(Mending *m, double value, bool *out, Error *err)
 {
     *out = true;
-    expect(m, FRESH_TIMES);
     for (int fresh = 1; fresh <= FRESH_TIMES && *out; fresh++)
         if (!try_value(m, value, fresh, out, err)) return false;
     return true;
@@ -477,14 +459,12 @@ bool review_mend(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Err
 {
     const ReviewParameter *parameter = run->mend;
     Review *review = &outcome->review;
-    Mending m = {.run = run, .parameter = parameter, .base = review, .arena = arena,
-                 .trial = work_of_trial(run->request, parameter), .to_come = WORK_TRIALS};
+    Mending m = {.run = run, .parameter = parameter, .base = review, .arena = arena};
     m.out = (ReviewMend){.name = parameter->name,
                          .unit = review_parameter_unit(parameter, &m.scale),
                          .trials = ARENA_NEW(arena, ReviewTrial, TRIALS_MOST)};
     m.out.at = m.scale * parameter->at;
     if (!search(&m, err)) return false;
-    expect(&m, 0);
     ReviewMend *list = ARENA_NEW(arena, ReviewMend, review->mend_count + 1);
     for (int i = 0; i < review->mend_count; i++) list[i] = review->mends[i];
     list[review->mend_count++] = m.out;
