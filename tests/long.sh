@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # long.sh [--list | --changed [COMMIT]] -- what takes too long for run.sh: slow units, what one
-# room alone can break (lamps, pictures as light, outputs, settings, --for, jobs, installing),
+# room alone can break (lamps, pictures as light, outputs, settings, --for, installing),
 # every closed form, guide and fault, two hundred pairs of frames of other noise, a hundred
 # kills, all units and thousands of broken models and panels under the address sanitizer, the
 # thread sanitizer, packages, another Debian, the second compiler, five minutes of fuzzing.
@@ -20,7 +20,7 @@ panels="$base src/record src/hemisphere src/image src/panel src/page src/library
 light="$panels src/import src/sky src/scene src/bvh src/light src/mirror src/keep src/guide
     src/camera src/sunlit src/path src/film src/kernel src/render shaders"
 options="$light src/denoise src/vision src/cli/ src/cli/options"
-render="$options assets src/job src/cli/render"
+render="$options assets src/cli/render"
 tables="$render src/plot src/cli/panel"
 review="$render src/review src/plot src/cli/review src/equip src/cli/explain"
 compare="$render src/measure src/compare"
@@ -122,8 +122,6 @@ start 'settings that cannot be meant' settings python3 tests/hostile/settings.py
 start 'every option given twice' options-long \
     python3 tests/hostile/options.py --all $program
 start 'a render that is watched' live-view python3 tests/hostile/live_view.py $program
-of "$all scenes tests/slurm tests/image"
-start 'a frame shared in a job' job python3 tests/slurm/job.py $program
 of "$all scenes tests/blender tests/image"
 start 'the Blender add-on' blender python3 tests/blender/run.py $program
 of "$all scenes README.md CONTRIBUTING.md tests"
@@ -217,10 +215,8 @@ run 'verdicts on increments' roads claim \
     python3 tests/bench/roads.py .build/release --trials 40 --rooms cabin,street
 run 'verdicts of what must not be read' verdicts-private claim \
     python3 tests/bench/verdicts.py .build/release --rooms open --trials 100 --private
-of "$review scenes tests/slurm tests/image"
-run 'a review shared in a job' review-job python3 tests/slurm/review_job.py $program
 of "$render scenes tests/slurm tests/image"
-run 'frames shared by Slurm' slurm python3 tests/slurm/cluster.py $program
+run 'a frame in parts by Slurm' render-array python3 tests/slurm/render_array.py $program
 of "$review scenes tests/hostile tests/image"
 run 'reviews killed, stopped and starved' review-resume-long \
     python3 tests/hostile/review_resume.py --all --kills 40 $program

@@ -28,7 +28,6 @@ start 'a surface model is known by its own files' models python3 tests/structure
 start 'a long step runs when what it needs changes' steps python3 tests/structure/steps.py
 start 'figures of pages stand on something' figures python3 tests/image/figures.py
 start 'pages and comments point to what is there' pointers python3 tests/structure/pointers.py
-start 'a schedule, simulated' schedule python3 tests/slurm/schedule_laws.py
 gather
 
 run_one 'release build, warnings are errors' build-release build release everyday || finish

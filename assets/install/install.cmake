@@ -29,7 +29,7 @@ install(FILES ${pages}/completions/parhelion COMPONENT parhelion
 # ---- scenes, and what the guides' commands and pages name ----
 set(share ${CMAKE_INSTALL_DATADIR}/parhelion)
 install(DIRECTORY assets/schemas assets/profiles assets/coatings assets/spectra assets/ci
-    assets/denoise
+    assets/slurm assets/denoise
   DESTINATION ${share}/assets COMPONENT parhelion PATTERN "*.py" EXCLUDE)
 install(DIRECTORY assets/content assets/panels
   DESTINATION ${share}/assets COMPONENT parhelion-scenes)

@@ -1,25 +1,21 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* parhelion merge: parts of a frame become the frame, with the bits of one run; the parts of a
- * review the review (job_run.h). */
+/* parhelion merge: parts of a frame become the frame, with the bits of one run. */
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
 #include "cli/commands.h"
-#include "cli/job_run.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/options/outputs.h"
 #include "cli/render/command_line.h"
+#include "cli/render/dealt_part.h"
 #include "cli/render/render_answer.h"
 #include "film/film_frame.h"
 #include "film/film_merge.h"
 #include "image/frame_view.h"
-#include "job/job_manifest.h"
-#include "job/job_state.h"
 #include "print/print.h"
 #include "render/identity.h"
 #include "text/json_text.h"
@@ -30,12 +26,10 @@ typedef struct MergeRun {
     const char *output;
     bool        keeps_sums;   /* --part */
     Arena      *arena;
-    bool        is_job;       /* the argument was a job's folder, */
-    bool        by_manifest;  /* and that alone says where the frame goes */
-    SharedJob   job;
     const char **files;       /* the parts' */
     int         count;
     FilmPart   *parts;        /* one a file */
+    DealtPart  *dealt;        /* the same: what --part said of it */
     FilmPart    whole;        /* what they make */
     const char **lines;       /* their command lines */
     const char *identity;     /* of the first; the others have the same */
@@ -45,112 +39,31 @@ typedef struct MergeRun {
     double      seconds;
 } MergeRun;
 
-/* ---- whose parts ------------------------------------------------------------------------- */
-
-/* One line, with as many commands as go into it. */
-static bool report_missing(const MergeRun *work, const int *missing, int count, Error *err)
-{
-    const SharedJob *job = &work->job;
-    Arena scratch = *work->arena;
-    Text  commands = {.arena = &scratch};
-    int   listed = 0;
-    while (listed < count && listed < 4) {
-        text_format(&commands, "%s%s", listed ? "; " : "",
-                    job_part_command(job, missing[listed], &scratch));
-        listed++;
-    }
-    return error_at(err, ERROR_INPUT, work->cli.arguments[0], "",
-                    "%d of %d parts are not done — %.700s%s (`parhelion status %.150s` tells "
-                    "why)",
-                    count, job->part_count, commands.data, listed < count ? "; and so on" : "",
-                    work->cli.arguments[0]);
-}
-
-static bool take_job(MergeRun *work, Error *err)
-{
-    SharedJob *job = &work->job;
-    Error      ignored;
-    if (!job_manifest_read(work->cli.arguments[0], work->arena, job, err)) return false;
-    int *missing = ARENA_NEW(work->arena, int, job->part_count), count = 0;
-    work->is_job = true;
-    work->count = job->part_count;
-    work->files = ARENA_NEW(work->arena, const char *, job->part_count);
-    for (int i = 0; i < job->part_count; i++) {
-        work->files[i] = job_part_file(job, i, job_part_ending(job), work->arena);
-        if (!job_part_is_done(job, i, false, *work->arena, &ignored)) missing[count++] = i;
-    }
-    if (count) return report_missing(work, missing, count, err);
-    if (job->kind == JOB_REVIEW)
-        return !work->keeps_sums || error_set(err, ERROR_USAGE, "--part: a review has no sums");
-    work->by_manifest = !work->output;
-    if (!work->output) work->output = job_output_file(job, work->arena);
-    work->keeps_sums = work->keeps_sums || job->keeps_sums;
-    return true;
-}
-
-static bool take_files(MergeRun *work, Error *err)
-{
-    struct stat info;
-    work->files = work->cli.arguments;
-    work->count = work->cli.argument_count;
-    for (int i = 0; i < work->count; i++) {
-        if (stat(work->files[i], &info) != 0 || !S_ISDIR(info.st_mode)) continue;
-        return work->count == 1 ? take_job(work, err)
-                                : error_at(err, ERROR_USAGE, work->files[i], "",
-                                           "is a folder: a job is merged alone");
-    }
-    return true;
-}
-
-static bool is_review(const MergeRun *work)
-{
-    return work->is_job && work->job.kind == JOB_REVIEW;
-}
-
-/* Who wrote a manifest is not known: where it alone names the output, only the job's own frame
- * is written over, or what stood there when the job was planned. */
-static bool check_own_frame(const MergeRun *work, Error *err)
-{
-    ExrReader *there;
-    Error      why;
-    if (!work->by_manifest || !file_exists(work->output)) return true;
-    const char *wanted = work->job.identity, *found = NULL;
-    bool        opens = exr_reader_open(work->output, &there, &why);
-    if (opens) found = frame_string(exr_reader_picture(there), "parhelion:identity");
-    bool is_own = found && !strncmp(found, wanted, strlen(wanted));
-    if (opens) exr_reader_destroy(there);
-    return is_own || job_may_replace(&work->job, *work->arena) ||
-           error_at(err, ERROR_OUTPUT, work->output, "",
-                    "is there already and no frame of this job: it is written over only by "
-                    "-o FRAME.exr");
-}
-
 static bool parse(int argc, char **argv, MergeRun *work, Error *err)
 {
     const Option options[] = {
         {"-o", OPTION_TEXT, "FRAME.exr",
-         "what is written (default, of a job: the frame or review that it was planned for)",
+         "what is written",
          &work->output, .file = OPTION_OUTPUT},
         {"--part", OPTION_FLAG, NULL,
          "keep the exact sums, so that the frame can be merged again", &work->keeps_sums},
     };
     const CliCommand command = {
         "merge",
-        "make one frame of parts that were rendered with --samples or --crop, or of a job's",
-        "PART.exr ... -o FRAME.exr | DIR [-o FRAME.exr]",
+        "make one frame of parts that were rendered with --part, --samples or --crop",
+        "PART.exr ... -o FRAME.exr",
         "parhelion merge part1.exr part2.exr -o frame.exr",
         options, COUNT_OF(options), 1, -1};
     if (!cli_parse(&command, argc, argv, work->arena, &work->cli, err)) return false;
     if (work->cli.help_shown) return true;
-    if (!take_files(work, err)) return false;
-    if (is_review(work)) return true;
+    work->files = work->cli.arguments;
+    work->count = work->cli.argument_count;
     if (!work->output) return error_set(err, ERROR_USAGE, "no output — add -o FRAME.exr");
     if (strcmp(path_ending(work->output), ".exr") != 0)
         return error_set(err, ERROR_USAGE, "-o %s: required: a name that ends in .exr",
                          work->output);
-    if (work->by_manifest) outputs_note(&work->cli.outputs, "-o", work->output);
     return outputs_spare(&work->cli.outputs, work->files, work->count, err) &&
-           check_own_frame(work, err) && file_check_writable(work->output, err);
+           file_check_writable(work->output, err);
 }
 
 /* ---- the parts' attributes --------------------------------------------------------------- */
@@ -172,7 +85,8 @@ static void set_attribute(FrameImage *frame, const ExrAttribute *a, Arena *arena
 static bool is_of_the_run(const char *name)
 {
     return !strcmp(name, "capDate") || !strcmp(name, "utcOffset") ||
-           !strcmp(name, "parhelion:commandLine") || !strcmp(name, "parhelion:parts");
+           !strcmp(name, "parhelion:commandLine") || !strcmp(name, "parhelion:parts") ||
+           !strcmp(name, DEALT_PART_ATTRIBUTE);
 }
 
 /* The attribute of that name; files keep them sorted, so that it mostly stands at *place,
@@ -225,6 +139,11 @@ static bool check_identity(MergeRun *work, const FilmPart *part, const FilmPart 
                                            "(parhelion:identity is missing)");
     if (!work->identity) work->identity = arena_string(work->arena, identity, strlen(identity));
     const char *difference = identity_difference(work->identity, identity, work->arena);
+    if (difference && !identity_same_program(work->identity, identity))
+        return error_set(err, ERROR_MACHINE,
+                         "was made by another program or instruction set than %s: %s — make "
+                         "all parts by one version and one --isa",
+                         first->name, difference);
     if (difference)
         return error_set(err, ERROR_INPUT,
                          "is of another frame than %s: %s — merge parts of one scene, camera, "
@@ -252,6 +171,9 @@ static bool look_at(MergeRun *work, int i, Error *err)
     work->lines[i] = arena_string(work->arena, line ? line : "", line ? strlen(line) : 0);
     bool belongs = check_identity(work, &from.part, &work->parts[0],
                                   frame_string(picture, "parhelion:identity"), err);
+    const char *dealt = frame_string(picture, DEALT_PART_ATTRIBUTE);
+    if (belongs && dealt && !dealt_part_parse(dealt, &work->dealt[i]))
+        belongs = error_set(err, ERROR_INPUT, "damaged: " DEALT_PART_ATTRIBUTE " cannot be read");
     if (belongs && i == 0) copy_attributes(&work->common, picture, work->arena);
     if (belongs && i > 0) keep_common(&work->common, picture);
     film_part_close(&from);
@@ -262,10 +184,12 @@ static bool look_at_all(MergeRun *work, Error *err)
 {
     int count = work->count;
     work->parts = ARENA_NEW(work->arena, FilmPart, count);
+    work->dealt = ARENA_NEW(work->arena, DealtPart, count);
     work->lines = ARENA_NEW(work->arena, const char *, count);
     for (int i = 0; i < count; i++)
         if (!look_at(work, i, err)) return error_in_file(err, work->files[i]);
-    return film_merge_check(work->parts, count, *work->arena, &work->whole, err);
+    return dealt_parts_check(work->dealt, work->parts, count, *work->arena, err) &&
+           film_merge_check(work->parts, count, *work->arena, &work->whole, err);
 }
 
 /* ---- adding up --------------------------------------------------------------------------- */
@@ -313,16 +237,6 @@ static bool add_part(MergeRun *work, int i, Progress *progress, double *done, Er
     return ok;
 }
 
-/* `parhelion part` reads a file that is there to its end, and renders a damaged one again. */
-static bool report_damage(const MergeRun *work, int i, Error *err)
-{
-    error_in_file(err, work->files[i]);
-    if (!work->is_job || err->code != ERROR_INPUT) return false;
-    const Error why = *err;
-    return error_at(err, why.code, why.file, why.path, "%.500s — make it again: %.400s",
-                    why.text, job_part_command(&work->job, i, work->arena));
-}
-
 static bool add_all(MergeRun *work, Error *err)
 {
     const FilmPart *whole = &work->whole;
@@ -336,7 +250,7 @@ static bool add_all(MergeRun *work, Error *err)
     for (int i = 0; i < work->count; i++)
         if (!add_part(work, i, &progress, &done, err)) {
             progress_clear(&progress);
-            return report_damage(work, i, err);
+            return error_in_file(err, work->files[i]);
         }
     progress_end(&progress, done);
     work->seconds = monotonic_seconds() - progress.begun_s;
@@ -346,11 +260,10 @@ static bool add_all(MergeRun *work, Error *err)
 
 /* ---- the frame --------------------------------------------------------------------------- */
 
-/* The command of one run: a job was planned for it; else, when the parts' agree on it. */
+/* The command of one run, when the parts' agree on it. */
 static const char *line_of_whole(const MergeRun *work, Arena *arena)
 {
     const char *first = NULL;
-    if (work->is_job) return work->job.line;
     for (int i = 0; i < work->count; i++) {
         const char *line = work->lines[i];
         if (strncmp(line, "parhelion render ", 17) != 0) return NULL;
@@ -472,9 +385,8 @@ static Outcome run_merge(int argc, char **argv, Arena *arena, Error *err)
     MergeRun  work = {.arena = arena};
     if (!parse(argc, argv, &work, err)) return OUTCOME_FAILED;
     if (work.cli.help_shown) return OUTCOME_DONE;
-    return is_review(&work) ? job_review_merge(&work.job, &work.cli, work.output, arena, err)
-                            : outcome_of(merge(&work, err));
+    return outcome_of(merge(&work, err));
 }
 
 const Command command_merge = {
-    "merge", "make one frame, or review, of its parts, with the bits of one run", run_merge};
+    "merge", "make one frame of its parts, with the bits of one run", run_merge};

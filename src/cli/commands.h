@@ -14,7 +14,5 @@ extern const Command command_equip;
 extern const Command command_help;
 extern const Command command_measure;
 extern const Command command_merge;
-extern const Command command_part;
 extern const Command command_schema;
 extern const Command command_sky;
-extern const Command command_status;

@@ -4,7 +4,6 @@
 #include "base/count.h"
 #include "equip/equip_file.h"
 #include "import/import_request.h"
-#include "job/job_manifest.h"
 #include "panel/set/manifest.h"
 #include "panel/set/synthetic_format.h"
 #include "review/profile.h"
@@ -14,8 +13,6 @@
 const NamedFormat format_table[] = {
     {"profile", "Limits that a glare review holds its figures against", &profile_format},
     {"equip", "EQUIP.json, what a model is equipped with", &equip_format},
-    {"job", "manifest.json of a frame, or a review, that is shared among machines",
-     &job_format},
     {"review", "REVIEW.json: what a glare review is asked", &review_format},
     {"import_declaration", "--layout DECLARATION.json of panel import", &import_format},
     {"measurement_set", "MANIFEST.json of a measurement set", &manifest_format},

@@ -278,7 +278,7 @@ static bool read_texts(const FrameImage *words, FilmPart *part, uint64_t *checks
         if (!texts[i]) return damaged(text_names[i], err);
     }
     if (strcmp(texts[TEXT_LAYOUT], layout_text(&scratch)) != 0)
-        return error_set(err, ERROR_INPUT,
+        return error_set(err, ERROR_MACHINE,
                          "its sums are of another version: \"%.200s\", required: \"%s\"",
                          texts[TEXT_LAYOUT], layout_text(&scratch));
     if (!read_range(texts[TEXT_SAMPLES], &part->first_sample, &part->end_sample))
@@ -378,16 +378,6 @@ bool film_part_add_band(FilmPartReader *from, Film *to, Arena scratch, Error *er
     if (rect.y1 < part->crop.y1) return true;
     film_add_dropped(to, &part->dropped);
     return check_checksum(from, err);
-}
-
-bool film_part_check_end(const FilmPartReader *from, Arena scratch, Error *err)
-{
-    const FilmPart *part = &from->part;
-    ExrWords        words = name_words(part, &scratch);
-    int             y1 = part->crop.y1;
-    char           *values = arena_alloc(&scratch, row_bytes(part, 4 * (size_t)words.count),
-                                         _Alignof(PixelSums), 1);
-    return exr_reader_read_words(from->file, &words, y1 - 1, y1, values, err);
 }
 
 void film_part_close(FilmPartReader *from)

@@ -69,7 +69,7 @@ typedef struct FilmPartReader {
     int        next_y; /* the row that comes next; part.crop.y1: all is read */
 } FilmPartReader;
 
-/* Refuses frames that carry no sums, and sums that this program does not know. The names of
+/* Refuses frames that carry no sums, and sums that this program does not know (ERROR_MACHINE). The names of
  * lights are the arena's. */
 bool film_part_open(const char *path, Arena *arena, FilmPartReader *out, Error *err);
 
@@ -77,9 +77,5 @@ bool film_part_open(const char *path, Arena *arena, FilmPartReader *out, Error *
  * the last band come the dropped samples and the check of the checksum: until then, and after
  * a failure, the film is worth nothing. */
 bool film_part_add_band(FilmPartReader *from, Film *to, Arena scratch, Error *err);
-
-/* Whether the file goes on to its end: reads the last rows alone. This costs little; what lies
- * before them is not compared with the checksum. */
-bool film_part_check_end(const FilmPartReader *from, Arena scratch, Error *err);
 
 void film_part_close(FilmPartReader *from);

@@ -33,6 +33,12 @@ static const Kernel *const kernels[] = {&kernel_base};
 
 #define KERNEL_COUNT (int)(sizeof kernels / sizeof *kernels)
 
+/* Has another machine it? */
+static bool is_known(const char *isa)
+{
+    return !strcmp(isa, "sse2") || !strcmp(isa, "avx2") || !strcmp(isa, "avx512");
+}
+
 bool kernel_choose(const char *isa, const Kernel **out, Error *err)
 {
     char there[64] = "";
@@ -45,6 +51,6 @@ bool kernel_choose(const char *isa, const Kernel **out, Error *err)
         snprintf(there + strlen(there), sizeof there - strlen(there), "%s%s",
                  there[0] ? ", " : "", kernels[i]->isa);
     }
-    return error_set(err, ERROR_USAGE, "--isa %s: this processor and program have %s", isa,
-                     there);
+    return error_set(err, is_known(isa) ? ERROR_MACHINE : ERROR_USAGE,
+                     "--isa %s: this processor and program have %s", isa, there);
 }

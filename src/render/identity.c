@@ -322,3 +322,16 @@ const char *identity_difference(const char *there, const char *here, Arena *aren
     bool   is_extra_here = *b && (!is_line || (!is_same_name && value_of(here, a, name)));
     return difference(is_extra_here ? b : a, there, here, arena);
 }
+
+bool identity_same_program(const char *there, const char *here)
+{
+    static const char *const names[] = {"version", "sources", "isa", "ray tracer"};
+    for (int i = 0; i < COUNT_OF(names); i++) {
+        size_t      length = strlen(names[i]);
+        const char *a = value_of(there, names[i], length);
+        const char *b = value_of(here, names[i], length);
+        size_t      size = a ? strcspn(a, "\n") : 0;
+        if (!a || !b || strcspn(b, "\n") != size || memcmp(a, b, size) != 0) return false;
+    }
+    return true;
+}

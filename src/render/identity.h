@@ -38,3 +38,6 @@ void identity_add_camera(Text *text, const SceneCamera *camera);
  * one of them has no such line; "layers: uv there, not here"); NULL when the texts are
  * the same. */
 const char *identity_difference(const char *there, const char *here, Arena *arena);
+
+/* Whether both are of one program, on one instruction set (identity_add_program). */
+bool identity_same_program(const char *there, const char *here);

@@ -22,6 +22,17 @@ const RemovedWord removed_words[] = {
     {"review", "--decide", "lower \"contrast\" and raise \"paths\" of the request's \"precision\""},
     {"review", "--decide-times", "raise \"paths\" of the request's \"precision\""},
     {"review", "--watch", "run the same command again: responses of its sweeps are kept"},
+    {"parhelion", "part", "`render --part K/N` makes part K of N, and `merge` the frame"},
+    {"parhelion", "status", "`merge` names the parts that are missing, `squeue` the tasks"},
+    {"render", "--slurm", "let each task of an array `render --part K/N`, then `merge`: "
+                          "assets/slurm/render.sbatch"},
+    {"render", "--split", "--part K/N deals samples, --crop X0,Y0,X1,Y1 takes a rectangle"},
+    {"render", "--job", "name each part by -o, and `merge` the files"},
+    {"render", "--submit", "hand assets/slurm/render.sbatch to sbatch"},
+    {"review", "--slurm", "give each task conditions of its own (--only CONDITION) and `merge` "
+                          "the reviews"},
+    {"review", "--job", "name each review by -o DIR, and `merge` them"},
+    {"review", "--submit", "hand a script to sbatch: assets/slurm"},
     {NULL, NULL, NULL},
 };
 

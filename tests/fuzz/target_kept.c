@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What the program keeps for itself, and may get from anywhere: trained fields, responses,
- * journals of answers, jobs. Their checksums are corrected after most changes: whoever sends
+ * journals of answers. Their checksums are corrected after most changes: whoever sends
  * such a file can do that. */
 #include <math.h>
 #include <string.h>
@@ -9,10 +9,8 @@
 
 #include "base/count.h"
 #include "base/file.h"
-#include "cli/job_run.h"
 #include "guide/guide_file.h"
 #include "harness.h"
-#include "job/job_manifest.h"
 #include "keep/journal.h"
 #include "review/eye/eye_reading.h"
 #include "review/eye/false_suns.h"
@@ -361,62 +359,4 @@ size_t fuzz_make_answers(uint8_t *data, size_t max_size, unsigned number, Arena 
     }
     memcpy(data + size, cells, sizeof cells);
     return size + sizeof cells;
-}
-
-/* ---- jobs -------------------------------------------------------------------------------- */
-
-size_t fuzz_make_job(uint8_t *data, size_t max_size, unsigned number, Arena *arena)
-{
-    static const char *const words[] = {"small.gltf", "--size", "52x36", "--camera", "eye"};
-    JobPart   parts[2] = {{{0, 0, 52, 36}, 0, 4}, {{0, 0, 52, 36}, 4, 8}};
-    SharedJob job = {.kind = number ? JOB_REVIEW : JOB_FRAME, .dir = "/job",
-                     .program = "/bin/p", .folder = "/", .line = "parhelion render",
-                     .output = "frame.exr", .identity = identity, .isa = "sse2",
-                     .part_count = 2, .width = 52, .height = 36, .parts = parts,
-                     .word_count = COUNT_OF(words)};
-    if (number > 1) return 0;
-    job.words = ARENA_NEW(arena, const char *, COUNT_OF(words));
-    for (int i = 0; i < COUNT_OF(words); i++) job.words[i] = words[i];
-    const char *text = job_manifest_text(&job, arena);
-    fuzz_claim(strlen(text) <= max_size, "an input fits its target");
-    memcpy(data, text, strlen(text));
-    return strlen(text);
-}
-
-static void claim_job(const SharedJob *job, Arena *arena)
-{
-    Error err = {0};
-    for (int i = 0; i < job->part_count && job->kind == JOB_FRAME; i++) {
-        const JobPart *part = &job->parts[i];
-        fuzz_claim(part->first_sample < part->end_sample && part->crop.x0 >= 0 &&
-                       part->crop.y0 >= 0 && part->crop.x0 < part->crop.x1 &&
-                       part->crop.y0 < part->crop.y1 && part->crop.x1 <= job->width &&
-                       part->crop.y1 <= job->height,
-                   "a part is of the frame");
-    }
-    fuzz_claim(job->part_count > 0 && job->word_count > 0, "a job has parts and words");
-    if (!job_check_words(job, *arena, &err)) {
-        fuzz_claim_refusal(&err);
-        return;
-    }
-    for (int i = 0; i < job->word_count && strcmp(job->words[i], "--") != 0; i++)
-        fuzz_claim(strcmp(job->words[i], "-o") != 0 && strcmp(job->words[i], "--help") != 0,
-                   "no word leads elsewhere");
-}
-
-void fuzz_job(const uint8_t *data, size_t size, Arena *arena)
-{
-    Error     err = {0};
-    SharedJob job, again;
-    fuzz_file(JOB_MANIFEST, data, size, arena);
-    const char *dir = fuzz_path(".", arena);
-    if (!job_manifest_read(dir, arena, &job, &err)) {
-        fuzz_claim_refusal(&err);
-        return;
-    }
-    claim_job(&job, arena);
-    const char *text = job_manifest_text(&job, arena);
-    fuzz_file(JOB_MANIFEST, text, strlen(text), arena);
-    fuzz_claim(job_manifest_read(dir, arena, &again, &err), "what is written is read");
-    fuzz_claim(!strcmp(job_manifest_text(&again, arena), text), "and the same");
 }

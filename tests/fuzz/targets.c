@@ -30,7 +30,6 @@ const FuzzTarget fuzz_targets[] = {
     {"response", fuzz_response, fuzz_mutate_response, 16384, NULL, fuzz_make_response},
     {"journal", fuzz_journal, fuzz_mutate_journal, 2048, NULL, fuzz_make_journal},
     {"answers", fuzz_answers, NULL, 2048, NULL, fuzz_make_answers},
-    {"job", fuzz_job, fuzz_mutate_json, 2048, NULL, fuzz_make_job},
     {"import-any", fuzz_import_any, NULL, 2048, NULL},
     {"import-text", fuzz_import_text, NULL, 2048, NULL},
     FORMAT("eulumdat", 2048),

@@ -67,8 +67,7 @@ LINES = {
                  {"--report": ".html", "--junit": ".xml"}),
                 ("compare left right", "left/a.exr right/a.exr",
                  {"--report": ".html", "--junit": ".xml"})],
-    "merge": [("merge p0.exr p1.exr -o OUT.exr", "p0.exr p1.exr", {"-o": ".exr"}),
-              ("merge job -o OUT.exr", "job/part-0000.exr job/part-0001.exr", {"-o": ".exr"})],
+    "merge": [("merge p0.exr p1.exr -o OUT.exr", "p0.exr p1.exr", {"-o": ".exr"})],
     "measure": [("measure frame.exr", "frame.exr", {})],
     "review": [("review r.json --dry-run", "r.json scene.gltf content.png display.panel", {}),
                ("review scene.gltf --init OUT.json", "scene.gltf data.bin content.png",
@@ -160,9 +159,6 @@ def make_files(program):
     program.works(*frame, "--spp", "2", "--seed", "1", "-o", "other.exr")
     for i in range(2):
         program.works(*frame, "--samples", f"{i}:{i + 1}", "-o", f"p{i}.exr")
-    program.works(*frame, "--spp", "2", "--slurm", "2", "--job", "job", "-o", "whole.exr")
-    for i in range(2):
-        program.works("part", "job", str(i))
     for name, source in (("left/a.exr", "frame.exr"), ("right/a.exr", "other.exr")):
         write(folder, name, "")
         shutil.copy(at(source), at(name))

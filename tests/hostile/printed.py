@@ -207,7 +207,6 @@ def check_parts(work):
                  asks_json=False)
     work.run("merge", *parts, "-o", named("merged") + NO_UTF8 + ".exr")
     work.run("merge", parts[0], parts[0], "-o", "x.exr", status=3)
-    work.run("render", DASH, "--slurm", "2", "-o", named("job") + ".exr", status=2)
     for name in ("old", "new"):
         os.mkdir(work.path(named(name)))
         shutil.copy(work.path(parts[0]), work.path(named(name), "same" + NO_UTF8 + ".exr"))

@@ -231,6 +231,9 @@ def check_refusals(work, *options):
 
     is_of = "is of another render: "
     refused(3, is_of + "seed: 0 there, 2 here", "--seed", "2")
+    version = subprocess.run([work.program, "--version"], capture_output=True, text=True)
+    if "instruction set: avx" in version.stdout:
+        refused(5, "was made by another program or instruction set: isa: avx", "--isa", "sse2")
     refused(3, is_of + "max bounces: 2 there, 5 here", "--max-bounces", "5")
     refused(3, is_of + "size: 32x24 there, 32x25 here", "--size", "32x25")
     refused(3, is_of + "layers: ", "--layers", "depth")

@@ -61,8 +61,6 @@ def scripts(text):
 
 def outputs(command):
     words = shlex.split(command)
-    if "--slurm" in words:  # a job is planned, the frame comes later
-        return [words[words.index("-o") + 1] + ".parts/manifest.json"]
     return [after for word, after in zip(words, words[1:]) if word in OUTPUTS]
 
 

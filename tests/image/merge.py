@@ -106,6 +106,33 @@ def few_splits():
             "2 x 2 crops": [((0, 7), crop) for crop in crops([17], [20])]}
 
 
+def dealt(program, count, *options):
+    """All parts that samples are dealt to."""
+    return [program.render(f"dealt{i}of{count}{''.join(options)}.exr", "--layers", "all", "--spp",
+                           str(SAMPLES), "--part", f"{i}/{count}", *options)
+            for i in range(1, count + 1)]
+
+
+def check_dealt(report, program):
+    """--part K/N: the file of one run, and what is missing, doubled or another program's."""
+    for count in (1, 3, SAMPLES):
+        claim_whole(report, program, dealt(program, count)[::-1], f"dealt to {count}")
+    one, two, three = dealt(program, 3)
+    claim_refused(report, program, [one, three], "part 2 of 3 is missing — ", "--part 2/3")
+    claim_refused(report, program, [two], "parts 1,3 of 3 are missing — ", "--part K/3")
+    claim_refused(report, program, [two, one, three, two],
+                  f"{two}: is part 2 of 3, and so is {two} — leave one of the two out")
+    claim_refused(report, program, [one, two, *dealt(program, 2)], "part 3 of 3 is missing")
+    crop = ("--crop", "3,2,30,20")
+    program.render("crop.exr", "--layers", "all", "--spp", str(SAMPLES), *crop)
+    program.merge(dealt(program, 2, *crop), "merged.exr")
+    report.claim(program.read("merged.exr") == program.read("crop.exr"), "a crop that is dealt")
+    if "instruction set: avx" in program.run("--version").stdout:
+        other = dealt(program, 3, "--isa", "sse2")[2]
+        claim_refused(report, program, [one, two, other], f"{other}: was made by another "
+                      f"program or instruction set than {one}: isa: avx", status=5)
+
+
 def more_splits():
     return {"seven samples": [(range_, WHOLE) for range_ in cut(7, range(1, 7))],
             "crops by samples": [(range_, crop) for range_ in cut(7, [3])
@@ -223,7 +250,7 @@ def check_foreign(report, program):
     claim_refused(report, program, ["frame.exr"], "frame.exr: carries no sums, only means")
     claim_refused(report, program, [a, "text.exr"], "text.exr: not an OpenEXR file")
     claim_refused(report, program, ["missing.exr"], "missing.exr: cannot be opened: No such")
-    claim_refused(report, program, ["."], ".: is no folder of a job")
+    claim_refused(report, program, ["."], ".: is a folder, a file is required")
 
 
 def check_damage(report, program):
@@ -355,6 +382,7 @@ def main():
         program.render("frame.exr", "--layers", "all", "--spp", str(SAMPLES))
         check_splits(report, program, few_splits())
         check_nested(report, program)
+        check_dealt(report, program)
         check_holes(report, program)
         check_foreign(report, program)
         check_damage(report, program)

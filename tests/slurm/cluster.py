@@ -1,34 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
-"""cluster.py [--keep DIR] [--only NAME] PARHELION -- a frame that is shared by Debian's Slurm,
-slurmctld and three slurmd on this machine: twelve parts over three nodes, parts that fail, a
-task that is warned and comes back, a node that dies in the middle of a part; and a review of
-the shipped car. Each time the frame, or the review, is that of one run, byte for byte. Skipped
-where slurm-wlm is not installed, or nobody is root: without munge only root's daemons believe
-each other.
+"""cluster.py -- Debian's Slurm on this machine, for tests: slurmctld and three slurmd, whose
+nodes can die.
+
+    with cluster.started(report) as slurm:
+        job = slurm.submit("--array=1-3", "render.sbatch", "3", "frame.exr", ..., cwd=folder)
+        slurm.wait(slurm.is_empty)
 """
-import argparse
 import contextlib
-import json
 import os
 import re
 import shutil
+import signal
 import socket
 import subprocess
-import signal
-import sys
 import tempfile
 import time
-
-from jobs import ISA, Report, ROOT, Work, contents
-
-sys.path.insert(0, os.path.join(ROOT, "tests", "hostile"))
-from review_resume import files_of  # noqa: E402
 
 TOOLS = ("slurmctld", "slurmd", "sbatch", "squeue", "scontrol", "scancel", "sinfo")
 NODES = ("n1", "n2", "n3")
 PATIENCE_S = 420
-SMALL = ("--size", "64x48", "--layers", "all", "--spp", "24", *ISA)
-PART_S = 40  # of a part that something happens to
 
 # cred_expire is how long a task that is requeued waits; two minutes without it.
 CONFIGURATION = """ClusterName=test
@@ -141,8 +131,20 @@ class Cluster:
             found[facts.get("ArrayTaskId", "0")] = facts
         return found
 
+    def submit(self, *words, cwd, **environment):
+        """The number of the job that sbatch made; what it prints lies in cwd, NAME.log."""
+        done = subprocess.run(["sbatch", "--parsable", *words], capture_output=True, text=True,
+                              cwd=cwd, env={**os.environ, **environment}, timeout=60)
+        if done.returncode:
+            raise RuntimeError(f"sbatch {words}: {done.stderr}")
+        return done.stdout.strip().partition(";")[0]
+
+    def ids(self):
+        """Of the jobs, or tasks, that are left in the queue."""
+        return self.ask("squeue", "--noheader", "--array", "--format=%i").stdout.split()
+
     def is_empty(self):
-        return not self.ask("squeue", "--noheader").stdout.strip()
+        return not self.ids()
 
     def end(self):
         self.ask("scancel", "--user=root")
@@ -155,194 +157,24 @@ class Cluster:
                 daemon.wait(20)
 
 
-def long_frame(work, count):
-    """Options of a frame whose parts take PART_S each, as fast as this machine is now."""
-    done = work.run("render", "small.gltf", "-o", "rate.exr", "--size", "96x64", "--spp", "64",
-                    "--json", "--quiet")
-    rate = 64 / max(json.loads(done.stdout)["seconds"], 0.01)
-    samples = count * max(64, int(PART_S * rate / len(NODES)))
-    return *ISA, "--size", "96x64", "--spp", str(samples)
-
-
-def submit(work, count, *options, job):
-    done = work.run("render", "small.gltf", "-o", f"{job}.exr", "--slurm", str(count), "--job",
-                    job, "--submit", "--json", *options)
-    work.report.claim(done.returncode == 0, f"--submit: {done.stderr}")
-    answer = json.loads(done.stdout)
-    return answer["array_job"], answer["merge_job"]
-
-
-def log_of(work, job, name):
-    path = work.path(job, "logs", name)
-    return contents(path).decode() if os.path.exists(path) else f"no {name}"
-
-
-def claim_frame(work, job, options, what):
-    """The merge job made the frame of one run."""
-    path = work.path(f"{job}.exr")
-    if work.report.claim(os.path.exists(path), f"{what}: no frame: "
-                         f"{log_of(work, job, 'merge.log')}{work.run('status', job).stdout}"):
-        work.report.claim(contents(path) == work.whole(*options),
-                          f"{what}: not the bytes of one run")
-
-
-def check_twelve(work, cluster):
-    array, merge = submit(work, 12, *SMALL, job="twelve")
-    work.report.claim(cluster.wait(cluster.is_empty), "twelve parts do not end")
-    tasks = cluster.tasks(array)
-    work.report.claim(len(tasks) == 12 and all(task["JobState"] == "COMPLETED"
-                                               for task in tasks.values()), f"{tasks}")
-    work.report.claim({task["NodeList"] for task in tasks.values()} == set(NODES),
-                      f"nodes: {[task['NodeList'] for task in tasks.values()]}")
-    work.report.claim(cluster.tasks(merge)["0"]["JobState"] == "COMPLETED", "the merge")
-    work.report.claim(work.status("twelve")[0] == 0, "status")
-    claim_frame(work, "twelve", SMALL, "twelve parts")
-
-
-def check_failing(work, cluster):
-    """Bad input is not tried again; the merge tells what is missing, and how to do it."""
-    report = work.report
-    report.claim(cluster.ask("scontrol", "update", "NodeName=n1,n2,n3", "State=DRAIN",
-                             "Reason=test").returncode == 0, "drain")
-    array, merge = submit(work, 3, *SMALL, job="failing")
-    os.rename(work.path("small.gltf"), work.path("away.gltf"))
-    cluster.ask("scontrol", "update", "NodeName=n1,n2,n3", "State=RESUME")
-    report.claim(cluster.wait(cluster.is_empty), "failing parts do not end")
-    tasks = cluster.tasks(array)
-    report.claim(all((task["JobState"], task["ExitCode"], task["Restarts"]) ==
-                     ("FAILED", "3:0", "0") for task in tasks.values()), f"failing: {tasks}")
-    report.claim(cluster.tasks(merge)["0"]["ExitCode"] == "3:0"
-                 and "3 of 3 parts are not done" in log_of(work, "failing", "merge.log"),
-                 f"merge of failures: {log_of(work, 'failing', 'merge.log')}")
-    status = work.status("failing")[1]
-    report.claim(status["failed"] == 3 and "small.gltf" in status["list"][0]["error"],
-                 f"status of failures: {status}")
-    os.rename(work.path("away.gltf"), work.path("small.gltf"))
-    for command in [part["command"] for part in status["list"]] + [status["merge"]]:
-        done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, cwd="/")
-        report.claim(done.returncode == 0, f"{command}: {done.stderr}")
-    claim_frame(work, "failing", SMALL, "failures done by hand")
-
-
-def kept(work, job, index):
-    return work.status(job)[1]["list"][index]["samples_kept"]
-
-
-def check_warned(work, cluster):
-    """What --signal=B:TERM@60 does, by hand: the checkpoint is kept, the task comes back."""
-    report = work.report
-    options = long_frame(work, 2)
-    array, _ = submit(work, 2, *options, "--checkpoint-interval", "0", job="warned")
-    report.claim(cluster.wait(lambda: kept(work, "warned", 0) > 0), "no checkpoint")
-    cluster.ask("scancel", "--batch", "--signal=TERM", f"{array}_0")
-    report.claim(cluster.wait(lambda: "stopped by TERM" in log_of(work, "warned",
-                                                                  "part-0.log")),
-                 f"the warning: {log_of(work, 'warned', 'part-0.log')}")
-    report.claim(cluster.wait(cluster.is_empty), "warned parts do not end")
-    log = log_of(work, "warned", "part-0.log")
-    task = cluster.tasks(array)["0"]
-    report.claim(task["Restarts"] == "1" and task["JobState"] == "COMPLETED"
-                 and "goes on after" in log, f"warned: {task} {log}")
-    claim_frame(work, "warned", options, "a task that was warned")
-
-
-def check_dead(work, cluster):
-    """A node dies in the middle of a part: another goes on from the part's checkpoint."""
-    report = work.report
-    options = long_frame(work, 3)
-    array, _ = submit(work, 3, *options, "--checkpoint-interval", "0", job="dead")
-    report.claim(cluster.wait(lambda: kept(work, "dead", 0) > 0), "no checkpoint")
-    node = cluster.tasks(array)["0"]["NodeList"]
-    cluster.kill_node(node)
-    report.claim(cluster.wait(cluster.is_empty), "parts of a dead node do not end")
-    log, task = log_of(work, "dead", "part-0.log"), cluster.tasks(array)["0"]
-    report.claim((task["Restarts"], task["JobState"]) == ("1", "COMPLETED")
-                 and task["NodeList"] != node and "goes on after" in log,
-                 f"a node that died: {node} {task} {log}")
-    claim_frame(work, "dead", options, "a node that died")
-    cluster.start_node(node)
-    report.claim(cluster.wait(cluster.is_idle, 60), f"{node} does not come back")
-
-
-def check_two_kinds(work, cluster):
-    """Two of three nodes lack the instruction set: the third does all parts."""
-    report, job = work.report, work.path("kinds")
-    work.share(4, *SMALL, job="kinds", output="kinds.exr")
-    with open(work.path("kinds", "array.sbatch"), encoding="utf-8") as file:
-        script = file.read()
-    with open(work.path("lacks"), "w", encoding="utf-8") as file:
-        file.write(f'#!/bin/sh\n[ "$SLURMD_NODENAME" = n3 ] || exit 5\n'
-                   f'exec {work.program} "$@"\n')
-    os.chmod(work.path("lacks"), 0o755)
-    with open(work.path("kinds", "array.sbatch"), "w", encoding="utf-8") as file:
-        file.write(script.replace(os.path.realpath(work.program) + " part",
-                                  work.path("lacks") + " part"))
-    array = cluster.ask("sbatch", "--parsable", f"{job}/array.sbatch").stdout.strip()
-    report.claim(cluster.wait(cluster.is_empty), "two kinds of nodes do not end: " +
-                 cluster.ask("squeue", "--array").stdout)
-    tasks = cluster.tasks(array)
-    report.claim([(task["JobState"], task["NodeList"]) for task in tasks.values()]
-                 == [("COMPLETED", "n3")] * 4, f"two kinds of nodes: {tasks}")
-    work.claim_whole("kinds", SMALL, "two kinds of nodes", output="kinds.exr")
-
-
-def check_review(work, cluster):
-    """The shipped car at a glance: a job array, and the merge ends as the review does."""
-    asked = os.path.join(ROOT, "scenes", "glance.review.json")
-    one = work.run("review", asked, "-o", "glance", "--quiet", *ISA)
-    work.report.claim(one.returncode == 1, f"one run: {one.returncode} {one.stderr}")
-    os.rename(work.path("glance"), work.path("one"))
-    done = work.run("review", asked, "-o", "glance", "--slurm", "6", "--submit", "--json",
-                    *ISA)
-    if not work.report.claim(done.returncode == 0, f"--submit: {done.stderr}"):
-        return
-    answer = json.loads(done.stdout)
-    work.report.claim(cluster.wait(cluster.is_empty), "a review's parts do not end")
-    tasks = cluster.tasks(answer["array_job"])
-    work.report.claim([task["JobState"] for task in tasks.values()] == ["COMPLETED"] * 6,
-                      f"a review's parts: {tasks}")
-    merge = cluster.tasks(answer["merge_job"])["0"]
-    work.report.claim(merge["ExitCode"] == "1:0", f"a review that fails: {merge}")
-    wanted, found = files_of(work.path("one")), files_of(work.path("glance"))
-    other = [name for name in wanted.keys() | found.keys()
-             if wanted.get(name) != found.get(name)]
-    work.report.claim(wanted and not other, f"not one run's: {other}")
-
-
-def main():
-    report = Report()
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--keep", help="the folder of the daemons and jobs, which is kept")
-    parser.add_argument("--only", default="", help="cases of which the name has this")
-    parser.add_argument("program")
-    arguments = parser.parse_args()
+@contextlib.contextmanager
+def started(report, keep=None):
+    """A cluster whose nodes are idle; keep: its folder, else one that goes. Ends the test where
+    it cannot be: slurm-wlm is not installed, or nobody is root, since without munge only root's
+    daemons believe each other."""
     missing = [tool for tool in TOOLS if not shutil.which(tool)]
     if missing or os.geteuid() != 0:
         report.skip(f"Slurm: {', '.join(missing)} are missing (slurm-wlm)" if missing
                     else "Slurm: its daemons need root without munge")
         report.finish()
-    folder = arguments.keep or tempfile.mkdtemp(prefix="slurm-")
+    folder = os.path.realpath(keep or tempfile.mkdtemp(prefix="slurm-"))
     os.makedirs(folder, exist_ok=True)
-    cluster = None
+    cluster = Cluster(folder)
     try:
-        cluster = Cluster(os.path.realpath(folder))
-        work = Work(arguments.program, os.path.realpath(folder), report)
         if report.claim(cluster.wait(cluster.is_idle, 60), "the nodes do not come up: " +
                         cluster.ask("sinfo", "-N", "-l").stdout):
-            for check in (check_twelve, check_failing, check_warned, check_dead,
-                          check_two_kinds, check_review):
-                if arguments.only not in check.__name__:
-                    continue
-                begun = time.time()
-                check(work, cluster)
-                print(f"{check.__name__}: {time.time() - begun:.0f} s", flush=True)
+            yield cluster
     finally:
-        if cluster:
-            cluster.end()
-        if not arguments.keep:
+        cluster.end()
+        if not keep:
             shutil.rmtree(folder, ignore_errors=True)
-    report.finish()
-
-
-if __name__ == "__main__":
-    main()

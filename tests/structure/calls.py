@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""calls.py -- what no source may call: no shell and no other program (but three of Slurm's, in
-one file), no network, no code that is loaded while the program runs, no file that is mapped
-(one that shrinks would kill us), and no stream but by src/print/print.c, which escapes what a
-foreign name could make a terminal do.
+"""calls.py -- what no source may call: no shell and no other program, no network, no code that
+is loaded while the program runs, no file that is mapped (one that shrinks would kill us), and no
+stream but by src/print/print.c, which escapes what a foreign name could make a terminal do.
 """
 import re
 import sys
@@ -21,12 +20,8 @@ FORBIDDEN = {
                 "perror",
 }
 # What a file may call all the same, with a word that must stand in the same call: memory that
-# is no file, the programs of Slurm that hand it a job and ask it, and the program's own part
-# of that name and no other.
-SPAWNER = "src/job/slurm.c"
-SLURM = ["sbatch", "squeue", "sinfo"]
+# is no file, and the program's own part of that name and no other.
 ALLOWED = {("src/base/arena.c", "mmap"): "MAP_ANONYMOUS",
-           (SPAWNER, "posix_spawnp"): "tools[tool]",
            ("third_party/openimageio/image_file.c", "dlopen"): "path, RTLD_NOW",
            ("src/panel/set/set_writer.c", "fwrite"): "text->data"}
 STREAM = "a stream"
@@ -68,13 +63,6 @@ def check_itself(report):
                         ("std::fputs(name, stderr);", 1), ("send(1, x, 2, 0);", 1)):
         found = list(calls_in("x.c", text))
         report.claim(len(found) == count, f"calls.py: {text!r} has {found}")
-    start, table = "posix_spawnp(&child, {}, NULL);", read(SPAWNER).partition("tools[] = {")[2]
-    report.claim(not list(calls_in(SPAWNER, start.format("tools[tool]")))
-                 and list(calls_in(SPAWNER, start.format('"sh"')))
-                 and list(calls_in("x.c", start.format("tools[tool]"))),
-                 f"calls.py: who else than {SPAWNER} may start Slurm's programs?")
-    report.claim(re.findall('"(.*?)"', table.partition("};")[0]) == SLURM,
-                 f"calls.py: what else than {SLURM} does {SPAWNER} start?")
 
 
 def main():
@@ -85,8 +73,7 @@ def main():
         report.claim_none(f"calls of {what}", [call for kind, call in found if kind == what])
     report.claim_none("headers of other programs and the network", [
         f"{name}: {match[0]}" for name in names
-        for match in HEADERS.finditer(read(name))
-        if not (name == SPAWNER and match[1] == "spawn")])
+        for match in HEADERS.finditer(read(name))])
     report.claim(len(names) > 100, f"{len(names)} sources only")
     check_itself(report)
     report.finish()

@@ -11,7 +11,7 @@ from report import ROOT, Report, project_files, read
 
 LINE = "SPDX-License-Identifier: " + "Apache-2.0"  # in two parts: this is not its own line
 BLOCK = (".c", ".h", ".cpp", ".hpp", ".css", ".js")
-SHARP = (".py", ".sh", ".cmake", ".bash", "CMakeLists.txt", ".ci/run")
+SHARP = (".py", ".sh", ".sbatch", ".cmake", ".bash", "CMakeLists.txt", ".ci/run")
 WITHIN = 3  # lines from the start: an interpreter's line comes first
 
 

@@ -35,37 +35,6 @@ ARENA_TEST(idle_words_are_left_out_on_request)
                         "--resume --live=l.exr -- --quiet");
 }
 
-TEST(what_parts_have_in_common_is_without_outputs_and_ranges)
-{
-    static const struct {
-        char       *words[24]; /* until NULL */
-        const char *expected;
-    } cases[] = {
-        {{"render", "a b.gltf", "noon.gltf", "--size", "64x36", "-o", "f.exr", "--spp=8",
-          "--crop", "0,0,5,5", "--slurm", "4", "--job=d", "--submit", "--split", "rows"},
-         "a b.gltf|noon.gltf|--size|64x36"},
-        {{"render", "s.gltf", "--samples", "0:8", "--seed=3", "--png=f.png", "--exposure",
-          "auto", "--threads", "2", "--layers", "all"}, "s.gltf|--seed=3|--layers|all"},
-        {{"render", "s.gltf", "--checkpoint-interval", "5", "--resume", "--checkpoint=c"},
-         "s.gltf|--checkpoint-interval|5"},
-        {{"render", "--spp", "4", "--", "-o", "--spp"}, "--|-o|--spp"},
-        {{"render"}, ""},
-    };
-    for (int k = 0; k < COUNT_OF(cases); k++) {
-        Arena arena = test_arena(state);
-        char  found[256] = "";
-        int   argc = 0, count = 0;
-        while (cases[k].words[argc]) argc++;
-        const char **words = command_line_part_words(argc, (char **)cases[k].words, &arena,
-                                                     &count);
-        for (int i = 0; i < count; i++) {
-            if (i) strcat(found, "|");
-            strcat(found, words[i]);
-        }
-        assert_string_equal(found, cases[k].expected);
-    }
-}
-
 ARENA_TEST(a_part_s_line_becomes_the_whole_s)
 {
     static const FilmRect all = {0, 0, 64, 48}, half = {0, 0, 32, 48};
@@ -88,6 +57,12 @@ ARENA_TEST(a_part_s_line_becomes_the_whole_s)
         {"parhelion render s.gltf -o a.exr --png a.png --exposure 3 --view v --display d "
          "--config=c --false-colour luminance --display-level '*=50' --crop 1,1,2,2",
          all, 0, 256, "parhelion render s.gltf --display-level '*=50'"},
+        {"parhelion render --isa avx2 --part 3/8 --resume --spp=16 -o a.exr s.gltf", all, 0, 16,
+         "parhelion render --isa avx2 --spp=16 s.gltf"},
+        {"parhelion render s.gltf --part=3/8 --crop 0,0,32,48 -o a.exr", half, 0, 256,
+         "parhelion render s.gltf --crop 0,0,32,48"},
+        {"parhelion render -o a.exr --samples 0:4 -- --part -o", all, 0, 4,
+         "parhelion render --spp 4 -- --part -o"},
         {"parhelion render -o a.exr --samples 0:4 -- --crop -o", all, 0, 4,
          "parhelion render --spp 4 -- --crop -o"},
     };

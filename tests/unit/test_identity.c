@@ -3,6 +3,7 @@
  * where they differ. */
 #include "fixture.h"
 
+#include "base/count.h"
 #include "cli/render/render_identity.h"
 #include "render/identity.h"
 #include "cli/render/render_resume.h"
@@ -212,12 +213,33 @@ MEMORY_TEST(another_version_is_refused_by_name)
     bool same = render_find_checkpoint(&request, what.identity, arena, &found, &err);
     unlink(path);
     assert_false(done);
-    assert_int_equal(err.code, ERROR_INPUT);
+    assert_int_equal(err.code, ERROR_MACHINE);
     assert_string_equal(err.file, path);
     assert_string_equal(err.text,
-                        "is of another render: version: 0.0.9 there, " PARHELION_VERSION
-                        " here — leave out --resume to begin anew");
+                        "was made by another program or instruction set: version: 0.0.9 there, "
+                        PARHELION_VERSION " here — go on where it was made, or by its --isa; "
+                        "leave out --resume to begin anew");
     assert_true(same && found);
+}
+
+MEMORY_TEST(an_instruction_set_is_another_program_and_a_seed_is_not)
+{
+    static const struct {
+        Change change;
+        bool   is_same;
+    } cases[] = {{{NULL, isa}, false}, {{NULL, seed}, true}, {{NULL, content}, true}};
+    Subject one;
+    fill(&one);
+    const char *there = identity_of(&one, arena);
+    assert_true(identity_same_program(there, there));
+    assert_false(identity_same_program(there, "version\t0\n"));
+    for (int i = 0; i < COUNT_OF(cases); i++) {
+        Subject other;
+        fill(&other);
+        cases[i].change.make(&other);
+        assert_int_equal(identity_same_program(there, identity_of(&other, arena)),
+                         cases[i].is_same);
+    }
 }
 
 TEST_PROGRAM(make_folder, remove_folder)

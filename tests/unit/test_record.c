@@ -13,7 +13,6 @@
 /* A file of each format, in the order of the table. */
 static const char *const EXAMPLES[] = {PROJECT_DIR "/assets/profiles/iso-15008.json",
                                        PROJECT_DIR "/tests/unit/records/equip.json",
-                                       PROJECT_DIR "/tests/unit/records/job.json",
                                        PROJECT_DIR "/tests/unit/records/review.json",
                                        PROJECT_DIR "/tests/unit/records/import.json",
                                        PROJECT_DIR "/tests/unit/records/measurement_set.json",

@@ -378,7 +378,7 @@ static Outcome show(ShowRun *work, Arena *arena, Error *err)
     set_scene(work, arena);
     if (!set_render(work, arena, err)) return OUTCOME_FAILED;
     request->about = about(work);
-    Outcome outcome = cmd_render_request(request, NULL, arena, err);
+    Outcome outcome = cmd_render_request(request, arena, err);
     json_decref(request->about);
     bool is_told = request->cli.json || request->cli.quiet;
     if (outcome == OUTCOME_DONE && !is_told) print_about(work, arena);

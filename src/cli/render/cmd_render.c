@@ -20,9 +20,7 @@
 #include "denoise/denoise.h"
 #include "film/film_frame.h"
 #include "image/light/radiance_picture.h"
-#include "job/job_isa.h"
 #include "print/print.h"
-#include "render/identity.h"
 #include "render/signals.h"
 #include "scene/load/scene_load.h"
 
@@ -37,32 +35,7 @@ typedef struct RenderRun {
     LightGroups   lights;
     const char   *identity;
     RenderLive    live;
-    const RenderTask *task;  /* NULL: the user's own command */
 } RenderRun;
-
-/* ---- a frame that is shared out ---------------------------------------------------------- */
-
-/* identity: of the frame, without the guide; isa: the one that its parts take. The answer
- * goes to stdout. */
-static bool render_share(const RenderRequest *request, const char *identity, const char *isa,
-                         Arena *arena, Error *err)
-{
-    static const char *const splits[] = {[JOB_SPLIT_SAMPLES] = "samples",
-                                         [JOB_SPLIT_ROWS] = "rows"};
-    const RenderOptions *options = &request->render;
-    const JobPart whole = {options->crop, options->first_sample, options->end_sample};
-    ShareRequest  share = request->share;
-    json_t       *answer = NULL;
-    SharedJob     job = {.kind = JOB_FRAME, .line = request->command_line,
-                         .output = request->output, .identity = identity, .isa = isa,
-                         .width = options->width, .height = options->height,
-                         .keeps_sums = request->is_part};
-    share.split_name = splits[request->split];
-    return job_split(&whole, (JobSplit)request->split, (int)share.parts, arena, &job.parts,
-                     err) &&
-           job_share(&share, &job, arena, request->cli.json ? &answer : NULL, err) &&
-           (!answer || cli_print_json(answer, err));
-}
 
 /* ---- before ------------------------------------------------------------------------------ */
 
@@ -197,41 +170,6 @@ static bool identify(RenderRun *work, Error *err)
                                   &options->resume, err);
 }
 
-/* The identity of the frame's samples, without the guide: training takes a while, and follows
- * from the rest. *kernel: the one that will be used. */
-static bool identify_plan(const RenderRun *work, const Kernel **kernel, const char **identity,
-                          Error *err)
-{
-    if (!kernel_choose(work->request.render.isa, kernel, err)) return false;
-    *identity = render_identity(&work->request, work->scene, &work->camera, *kernel,
-                                work->arena);
-    return true;
-}
-
-static bool share(RenderRun *work, Error *err)
-{
-    const Kernel *kernel;
-    const char   *identity;
-    return job_isa_choose(work->request.render.isa, work->request.share.dir, work->arena,
-                          &work->request.render.isa, err) &&
-           identify_plan(work, &kernel, &identity, err) &&
-           render_share(&work->request, identity, kernel->isa, work->arena, err);
-}
-
-static bool check_task(const RenderRun *work, Error *err)
-{
-    const Kernel *kernel;
-    const char   *identity;
-    if (!work->task) return true;
-    if (!identify_plan(work, &kernel, &identity, err)) return false;
-    const char *difference = identity_difference(work->task->identity, identity, work->arena);
-    return !difference ||
-           error_at(err, ERROR_INPUT, work->task->name, "",
-                    "was planned for something else: %.500s — plan the job again, in another "
-                    "folder",
-                    difference);
-}
-
 /* ---- after ------------------------------------------------------------------------------- */
 
 static bool write_frame(const RenderRun *work, const RenderResult *result, Error *err)
@@ -292,11 +230,11 @@ static void warn_of_dropped(RenderRun *work, const RenderResult *result)
     if (text && !work->request.replays) warn(work, text);
 }
 
-/* Of a job's part the others may have what it lacks. */
+/* Of a part that was dealt the others may have what it lacks. */
 static bool check_dropped(const RenderRun *work, const RenderResult *result, Error *err)
 {
     const RenderRequest *request = &work->request;
-    if (request->replays || work->task ||
+    if (request->replays || request->part.count ||
         frame_check_dropped(result->film, request->command_line, *work->arena, err))
         return true;
     render_remove_checkpoint(request);
@@ -390,27 +328,18 @@ static void show_end(RenderRun *work, const RenderResult *result)
     if (work->live.path && !write_live_file(work, result, &err)) warn_of(work, &err);
 }
 
-/* A part of a job leaves no partial frame. */
-static void print_interruption(const RenderRun *work, const RenderResult *result,
-                               const char *signal_name, bool is_kept)
-{
-    const RenderOptions *options = &work->request.render;
-    const RenderTask    *task = work->task;
-    const char          *line = task ? task->resume_line : work->request.resume_line;
-    print_to(stderr,
-             "parhelion: %s: stopped by %s after %u of %u samples a pixel%s — %s%s\n",
-             task ? task->name : work->request.output, signal_name, result->samples,
-             options->end_sample - options->first_sample,
-             task ? "" : "; the frame is marked incomplete",
-             is_kept ? "go on with: " : "run the same command again for the whole",
-             is_kept ? line : "");
-}
-
 /* The partial frame is written and the answer given: only the line is left. */
 static Outcome report_interruption(const RenderRun *work, const RenderResult *result,
                                    bool is_kept)
 {
-    print_interruption(work, result, signals_name(result->stopped_by), is_kept);
+    const RenderOptions *options = &work->request.render;
+    print_to(stderr,
+             "parhelion: %s: stopped by %s after %u of %u samples a pixel; the frame is marked "
+             "incomplete — %s%s\n",
+             work->request.output, signals_name(result->stopped_by), result->samples,
+             options->end_sample - options->first_sample,
+             is_kept ? "go on with: " : "run the same command again for the whole",
+             is_kept ? work->request.resume_line : "");
     return OUTCOME_STOPPED;
 }
 
@@ -441,10 +370,8 @@ static Outcome hand_over(RenderRun *work, const RenderResult *result, Error *err
         return outcome_of(render_print_replay(&work->request, work->scene, result, work->arena,
                                               err));
     bool is_kept = !result->complete && keep_checkpoint(work, result);
-    if (work->task && !result->complete) return report_interruption(work, result, is_kept);
     if (!write_frame(work, result, err)) return OUTCOME_FAILED;
     if (result->complete) render_remove_checkpoint(&work->request);
-    if (work->task) return OUTCOME_DONE;
     show_end(work, result);
     if ((work->request.png && !develop(work, result, err)) ||
         !render_print_answer(&work->request, result, work->live.spent_s,
@@ -471,9 +398,8 @@ static Outcome run(RenderRun *work, Error *err)
 {
     RenderOptions *options = &work->request.render;
     RenderResult   result;
-    bool keeps_frame = !work->request.replays && !work->task && !work->request.only_png;
+    bool keeps_frame = !work->request.replays && !work->request.only_png;
     options->snapshot = keeps_frame ? write_snapshot : NULL;
-    if (work->task && !options->isa) options->isa = work->task->isa;
     options->checkpoint = work->request.keeps_checkpoints ? keep_checkpoint_meanwhile : NULL;
     options->user = work;
     /* whether the scene has a second display is not known yet */
@@ -483,8 +409,6 @@ static Outcome run(RenderRun *work, Error *err)
         !check_look(&work->request, *work->arena, err) || !load(work, err))
         return OUTCOME_FAILED;
     if (!check_view(work, err)) return OUTCOME_FAILED;
-    if (work->request.share.parts) return outcome_of(share(work, err));
-    if (!check_task(work, err)) return OUTCOME_FAILED;
     work->live = render_live_begin(&work->request);
     if (work->live.path) options->pass_ended = show_pass;
     if (!render_prepare(work->scene, &work->camera, options, work->arena, &work->setup, err))
@@ -496,26 +420,19 @@ static Outcome run(RenderRun *work, Error *err)
     return done ? hand_over(work, &result, err) : OUTCOME_FAILED;
 }
 
-Outcome cmd_render_request(const RenderRequest *request, const RenderTask *task, Arena *arena,
-                           Error *err)
+Outcome cmd_render_request(const RenderRequest *request, Arena *arena, Error *err)
 {
-    RenderRun work = {.request = *request, .arena = arena, .task = task};
+    RenderRun work = {.request = *request, .arena = arena};
     Outcome   outcome = run(&work, err);
     scene_close(work.scene);
     return outcome;
 }
 
-Outcome cmd_render_run(int argc, char **argv, const RenderTask *task, Arena *arena, Error *err)
+static Outcome run_render(int argc, char **argv, Arena *arena, Error *err)
 {
     RenderRequest request;
     if (!render_request_parse(argc, argv, arena, &request, err)) return OUTCOME_FAILED;
-    return request.cli.help_shown ? OUTCOME_DONE
-                                  : cmd_render_request(&request, task, arena, err);
-}
-
-static Outcome run_render(int argc, char **argv, Arena *arena, Error *err)
-{
-    return cmd_render_run(argc, argv, NULL, arena, err);
+    return request.cli.help_shown ? OUTCOME_DONE : cmd_render_request(&request, arena, err);
 }
 
 const Command command_render = {

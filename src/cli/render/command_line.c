@@ -21,8 +21,7 @@ static int idle_words(const char *word)
     } idle[] = {{"-o", true}, {"--png", true}, {"--false-colour", true}, {"--threads", true},
                 {"--json", false}, {"--quiet", false}, {"--progress", true},
                 {"--checkpoint", true}, {"--checkpoint-interval", true}, {"--resume", false},
-                {"--live", true}, {"--slurm", true}, {"--split", true},
-                {"--job", true}, {"--submit", false}};
+                {"--live", true}};
     DevelopOptions look;
     const Option   looks[] = {LOOK_OPTIONS(&look)};
     for (int i = 0; i < COUNT_OF(idle); i++)
@@ -68,6 +67,7 @@ static const char *next_word(const char **rest, Arena *arena)
 typedef struct Rewriting {
     const FilmPart *whole;
     Arena          *arena;
+    bool            is_dealt; /* the part's line is that of one run, and --part */
     bool            is_impossible;
 } Rewriting;
 
@@ -90,6 +90,12 @@ static const char *write_crop(Rewriting *to)
     return arena_format(to->arena, " --crop %d,%d,%d,%d", crop.x0, crop.y0, crop.x1, crop.y1);
 }
 
+static const char *leave_out(Rewriting *to)
+{
+    (void)to;
+    return "";
+}
+
 static const char *give_up(Rewriting *to)
 {
     to->is_impossible = true;
@@ -101,39 +107,31 @@ static const struct {
     const char *name;
     Rewrite    *rewrite;
 } options[] = {{"--samples", write_samples}, {"--spp", write_samples}, {"--crop", write_crop},
-               {"--noise", give_up}};
+               {"--part", leave_out}, {"--noise", give_up}};
 
-static Rewrite *find_rewrite(const char *word)
+static Rewrite *find_rewrite(const Rewriting *to, const char *word)
 {
     for (int i = 0; i < COUNT_OF(options); i++)
-        if (cli_is_option(word, options[i].name)) return options[i].rewrite;
+        if (cli_is_option(word, options[i].name))
+            return to->is_dealt && options[i].rewrite != leave_out ? NULL : options[i].rewrite;
     return NULL;
 }
 
-const char **command_line_part_words(int argc, char **argv, Arena *arena, int *count)
+static bool is_dealt(const char *line, Arena *arena)
 {
-    const char **words = ARENA_NEW(arena, const char *, argc);
-    bool         has_options = true;
-    *count = 0;
-    for (int i = 1; i < argc; i++) {
-        bool is_range = has_options && find_rewrite(argv[i]);
-        bool is_kept = cli_is_option(argv[i], "--checkpoint-interval"); /* the parts' as well */
-        int  skipped = is_range ? cli_option_words(argv[i], true)
-                       : has_options && !is_kept ? idle_words(argv[i]) : 0;
-        if (!strcmp(argv[i], "--")) has_options = false;
-        if (skipped) i += skipped - 1;
-        else words[(*count)++] = argv[i];
-    }
-    return words;
+    const char *word;
+    while ((word = next_word(&line, arena)) && strcmp(word, "--") != 0)
+        if (cli_is_option(word, "--part")) return true;
+    return false;
 }
 
 const char *command_line_of_whole(const char *line, const FilmPart *whole, Arena *arena)
 {
-    Rewriting   to = {whole, arena, false};
+    Rewriting   to = {whole, arena, is_dealt(line, arena), false};
     const char *word, *result = "", *rest = line;
     bool        only_arguments = false;
     while ((word = next_word(&rest, arena))) {
-        Rewrite *rewrite = only_arguments ? NULL : find_rewrite(word);
+        Rewrite *rewrite = only_arguments ? NULL : find_rewrite(&to, word);
         int      idle = only_arguments ? 0 : idle_words(word); /* in parts of older versions */
         only_arguments = only_arguments || !strcmp(word, "--");
         if ((rewrite ? cli_option_words(word, true) : idle) == 2) next_word(&rest, arena);

@@ -11,12 +11,7 @@
  * outputs, what concerns the picture beside the frame, threads, progress, checkpoints. */
 const char *command_line_join(int argc, char **argv, bool with_idle, Arena *arena);
 
-/* The words of a `render` that its parts have in common, without its name (argv[0]): what
- * names outputs, controls the run, or chooses samples and pixels, is left out. Lists of the
- * arena, texts of argv. */
-const char **command_line_part_words(int argc, char **argv, Arena *arena, int *count);
-
-/* The `parhelion render` of a part, changed to render `whole`: its range and crop go in, or out
- * where they are those of a whole frame. NULL where one run would not make the same, since
- * noise decides when to stop. */
+/* The `parhelion render` of a part, changed to render `whole`: of one that was dealt --part goes
+ * out; else the range and the crop go in, or out where they are those of a whole frame. NULL
+ * where one run would not make the same, since noise decides when to stop. */
 const char *command_line_of_whole(const char *line, const FilmPart *whole, Arena *arena);

@@ -113,6 +113,10 @@ static void set_sampling(FrameImage *frame, const RenderRequest *request,
                                     .relative_error = result->error.frame,
                                     .dropped_samples = film_dropped(result->film).count};
     frame_set_outcome(frame, &outcome, arena);
+    if (request->part.count)
+        frame_set_string(frame, DEALT_PART_ATTRIBUTE,
+                         arena_format(arena, "%u/%u", request->part.number,
+                                      request->part.count), arena);
     frame_set_string(frame, "parhelion:isa", result->kernel->isa, arena);
     frame_set_string(frame, "parhelion:seed", arena_format(arena, "%u", options->seed), arena);
     frame_set_whole(frame, "parhelion:maxBounces", options->max_bounces, arena);

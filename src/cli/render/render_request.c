@@ -18,13 +18,13 @@
 
 /* Values as typed, before they are checked against each other. */
 typedef struct RenderWords {
-    const char *samples, *noise, *favoured, *layers;
+    const char *samples, *part, *noise, *favoured, *layers;
     int         size[2], false_colour;
     long        spp, max_bounces, seed;
     double      crop[4], replay[3];
     SceneWords  scene;
     PolarisedWords polarised;
-    bool        has_spp, has_size, has_crop, has_replay, has_interval, has_split, previews;
+    bool        has_spp, has_size, has_crop, has_replay, has_interval, previews;
 } RenderWords;
 
 /* ---- layers ------------------------------------------------------------------------------ */
@@ -100,6 +100,24 @@ static bool parse_samples(const char *text, RenderOptions *options, Error *err)
     return true;
 }
 
+/* K/N: a range of the samples of --spp. */
+static bool parse_part(const RenderWords *typed, RenderRequest *request, Error *err)
+{
+    RenderOptions *options = &request->render;
+    if (typed->samples)
+        return error_set(err, ERROR_USAGE, "--part and --samples exclude each other: --part "
+                                           "deals the samples of --spp");
+    if (typed->noise)
+        return error_set(err, ERROR_USAGE, "--part does not go with --noise, by which one run "
+                                           "finds how many samples it takes — say how many "
+                                           "(--spp N)");
+    return dealt_part_parse(typed->part, &request->part)
+               ? dealt_part_samples(request->part, &options->first_sample,
+                                    &options->end_sample, err)
+               : error_set(err, ERROR_USAGE, "--part %s: required: K/N, part K of N, whole "
+                           "numbers with 1 <= K <= N <= %u", typed->part, DEALT_PARTS_MAX);
+}
+
 static bool is_whole(double value)
 {
     return value == floor(value) && fabs(value) < 0x1p31;
@@ -158,7 +176,7 @@ bool render_output_is_radiance(const RenderRequest *request)
 static bool check_radiance(const RenderWords *typed, const RenderRequest *request, Error *err)
 {
     const char *option = typed->layers ? "--layers" : typed->samples ? "--samples"
-                         : request->share.parts ? "--slurm" : NULL;
+                         : typed->part ? "--part" : NULL;
     if (!render_output_is_radiance(request) || !option) return true;
     return error_set(err, ERROR_USAGE, "%s does not go with -o %s: a Radiance picture holds "
                      "R, G, B alone — required: -o FRAME.exr", option, request->output);
@@ -180,46 +198,6 @@ static bool check_live(const RenderRequest *request, Error *err)
     return ends_with(request->live, ".exr") ||
            error_set(err, ERROR_USAGE, "--live %s: required: a name that ends in .exr",
                      request->live);
-}
-
-/* ---- a frame that is shared out ---------------------------------------------------------- */
-
-/* Refuses an option that belongs to one run; `why` follows it in the text. */
-static bool refuse_shared(const char *option, const char *why, Error *err)
-{
-    return error_set(err, ERROR_USAGE, "%s does not go with --slurm: %s", option, why);
-}
-
-static bool check_share(const RenderWords *typed, const RenderRequest *request, Error *err)
-{
-    const ShareRequest *share = &request->share;
-    const char *alone = share->submits ? "--submit" : share->dir ? "--job"
-                        : typed->has_split ? "--split" : NULL;
-    if (!share->parts)
-        return !alone || error_set(err, ERROR_USAGE, "%s says how a frame is shared — add "
-                                                     "--slurm N, the number of parts", alone);
-    if (typed->noise) return refuse_shared("--noise", "it asks for a pause of all parts after "
-                                           "each pass — say how many samples (--spp N)", err);
-    if (request->replays) return refuse_shared("--replay", "it is one sample", err);
-    if (request->png)
-        return refuse_shared("--png", "nothing is rendered yet — `parhelion develop` the "
-                             "merged frame", err);
-    if (request->live)
-        return refuse_shared("--live", "there is no single run to watch — `parhelion status` "
-                             "tells how far it is", err);
-    if (request->checkpoint || request->resumes)
-        return refuse_shared(request->checkpoint ? "--checkpoint" : "--resume", "each part "
-                             "has a checkpoint of its own, and goes on from it", err);
-    return true;
-}
-
-static void set_share(int argc, char **argv, Arena *arena, RenderRequest *request)
-{
-    ShareRequest *share = &request->share;
-    if (!share->parts) return;
-    if (!share->dir) share->dir = arena_format(arena, "%s.parts", request->output);
-    share->threads = request->cli.threads_given ? request->cli.threads : 0;
-    share->words = command_line_part_words(argc, argv, arena, &share->word_count);
 }
 
 /* ---- all of them ------------------------------------------------------------------------- */
@@ -286,6 +264,7 @@ static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *
         return error_set(err, ERROR_USAGE, "--spp and --samples exclude each other — --samples "
                                            "0:N is --spp N");
     if (typed->samples && !parse_samples(typed->samples, options, err)) return false;
+    if (typed->part && !parse_part(typed, request, err)) return false;
     if (typed->layers && !render_layers_parse(typed->layers, &options->layers, err))
         return false;
     request->names_halves = typed->layers && strstr(typed->layers, "halves");
@@ -302,7 +281,7 @@ static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *
         return false;
     if (typed->has_replay && !parse_replay(typed->replay, options, err)) return false;
     request->replays = typed->has_replay;
-    request->is_part = typed->samples || typed->has_crop;
+    request->is_part = typed->samples || typed->part || typed->has_crop;
     return true;
 }
 
@@ -348,17 +327,6 @@ static const char *resume_line(int argc, char **argv, bool resumes, Arena *arena
      "go on from the checkpoint, to the same frame bit for bit; without one begin",            \
      &(request)->resumes}
 
-#define SHARE_OPTIONS(request, typed)                                                          \
-    {"--slurm", OPTION_INTEGER, "N",                                                           \
-     "render nothing: a folder that shares the frame in N parts, for Slurm or any other",      \
-     &(request)->share.parts, .low = 1, .high = JOB_PARTS_MAX},                                \
-    {"--split", OPTION_CHOICE, JOB_SPLITS, "how it is cut (default samples: equal work)",      \
-     &(request)->split, .given = &(typed)->has_split},                                         \
-    {"--job", OPTION_TEXT, "DIR", "that folder (default FRAME.exr.parts)",                     \
-     &(request)->share.dir},                                                                   \
-    {"--submit", OPTION_FLAG, NULL, "hand it to Slurm's sbatch, and the merge after it",       \
-     &(request)->share.submits}
-
 static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
                        RenderRequest *request, Error *err)
 {
@@ -397,6 +365,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
          typed->crop, .count = 4, .given = &typed->has_crop},
         {"--samples", OPTION_TEXT, "A:B", "only these sample indices, half-open",
          &typed->samples},
+        {"--part", OPTION_TEXT, "K/N", "part K of N of the samples, for `merge`", &typed->part},
         {"--layers", OPTION_TEXT, "LIST",
          "all, compare (what `compare` reads), or names with commas: xyz,depth,normal,... "
          "(halves: of 24 samples and more)",
@@ -408,7 +377,6 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
         {"--live", OPTION_TEXT, "FILE.exr",
          "the frame so far, for any viewer: written anew about every ten seconds",
          &request->live, .file = OPTION_OUTPUT},
-        SHARE_OPTIONS(request, typed),
         {"--replay", OPTION_NUMBERS, "X,Y,SAMPLE", "one sample of one pixel, printed",
          typed->replay, .count = 3, .given = &typed->has_replay},
     };
@@ -430,11 +398,10 @@ bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *ou
     if (!request.cli.help_shown &&
         (!render_check_size(&request.camera, typed.has_size, typed.size, err) ||
          !check_render(&typed, arena, &request, err) || !check_outputs(&request, err) ||
-         !check_radiance(&typed, &request, err) || !check_share(&typed, &request, err) ||
+         !check_radiance(&typed, &request, err) ||
          !scene_options_read(&typed.scene, &request.cli, arena, &request.scene, err)))
         return false;
     set_checkpoint(&typed, arena, &request);
-    set_share(argc, argv, arena, &request);
     request.resume_line = resume_line(argc, argv, request.resumes, arena);
     *out = request;
     return true;

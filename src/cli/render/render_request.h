@@ -8,11 +8,10 @@
 
 #include "cli/options/cli.h"
 #include "cli/options/scene_options.h"
+#include "cli/render/dealt_part.h"
 #include "cli/render/noise_goal.h"
 #include "cli/render/render_setup.h"
 #include "image/develop.h"
-#include "job/job.h"
-#include "job/job_share.h"
 #include "render/render.h"
 #include "scene/scene.h"
 
@@ -32,6 +31,7 @@ typedef struct RenderRequest {
     FrameArea     favoured; /* what all samples are for; option NULL: the whole frame */
     bool          names_halves; /* --layers requests halves by name */
     bool          replays; /* one sample of one pixel, printed */
+    DealtPart     part;    /* of the samples: --part */
     bool          is_part; /* some samples or pixels only: the frame can be merged */
     const char   *command_line; /* without what leaves every pixel as it is
                                    (command_line_join) */
@@ -40,8 +40,6 @@ typedef struct RenderRequest {
                                    there is none */
     bool          keeps_checkpoints; /* while rendering; else only when it is stopped */
     bool          resumes;      /* goes on from the checkpoint, if there is one */
-    ShareRequest  share;
-    int           split;  /* JobSplit: how it is cut */
     json_t       *about;  /* members that the answer has besides, the caller's; NULL: none */
 } RenderRequest;
 

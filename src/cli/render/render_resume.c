@@ -41,6 +41,11 @@ static bool open_and_check(const RenderRequest *request, const char *identity, A
     Checkpoint           found;
     if (!checkpoint_open(request->checkpoint, arena, &found, err)) return false;
     const char *difference = identity_difference(found.identity, identity, arena);
+    if (difference && !identity_same_program(found.identity, identity))
+        return error_at(err, ERROR_MACHINE, request->checkpoint, "",
+                        "was made by another program or instruction set: %s — go on where it "
+                        "was made, or by its --isa; leave out --resume to begin anew",
+                        difference);
     if (difference)
         return error_at(err, ERROR_INPUT, request->checkpoint, "",
                         "is of another render: %s — leave out --resume to begin anew",

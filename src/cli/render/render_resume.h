@@ -11,7 +11,8 @@
 bool render_check_checkpoint(const RenderRequest *request, Error *err);
 
 /* The checkpoint that --resume goes on from; NULL, with a line printed, where none is there
- * yet. One of another render, or of other pixels or samples, is refused by what differs. */
+ * yet. One of another render, or of other pixels or samples, is refused by what differs; one of
+ * another program or instruction set with ERROR_MACHINE. */
 bool render_find_checkpoint(const RenderRequest *request, const char *identity, Arena *arena,
                             const Checkpoint **out, Error *err);
 

@@ -14,7 +14,6 @@
 #include "cli/options/cli.h"
 #include "cli/options/outputs.h"
 #include "cli/options/scene_options.h"
-#include "cli/review/review_job.h"
 #include "cli/review/review_print.h"
 #include "print/print.h"
 #include "render/signals.h"
@@ -33,22 +32,17 @@
 #define FILES_BYTES ((size_t)1 << 32) /* address space: what is not touched costs nothing */
 
 typedef struct ReviewWords {
-    ShareRequest share;
     const char *folder, *profile, *root, *isa, *diff, *init, *responses, *mend, *summary;
     bool        is_strict, dry_run, is_self_contained, is_alone;
     StateWords  state_words;
     SceneState  state;
     Cli         cli;
-    const ReviewTask *task; /* NULL: the user's own command */
 } ReviewWords;
 
 /* That the words go together. */
 static bool check(ReviewWords *out, Error *err)
 {
-    const char *not_traced = out->init ? "--init" : out->dry_run ? "--dry-run" : NULL;
-    if (!state_options_read(&out->state_words, &out->state, err) ||
-        !review_share_check(&out->share, not_traced, err))
-        return false;
+    if (!state_options_read(&out->state_words, &out->state, err)) return false;
     if (out->init) return true;
     if (out->cli.argument_count > 1)
         return error_set(err, ERROR_USAGE, "%s: one request at a time is reviewed",
@@ -90,7 +84,6 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &out->root},
         {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
          &out->isa},
-        REVIEW_SHARE_OPTIONS(&out->share),
     };
     const CliCommand command = {
         "review", "can displays be read, under every light? verdicts, causes, a page",
@@ -215,16 +208,6 @@ static bool make_all(const ReviewWords *words, ReviewFolder *folder, ReviewRun *
     return ok && review_folder_write(folder, outcome, arena, err);
 }
 
-/* For a job that is merged: takes its parts' findings. */
-static bool take_found(const ReviewFolder *folder, const ReviewTask *task, Arena scratch,
-                       Error *err)
-{
-    if (!task) return true;
-    review_take_answers(folder->draft.journal, task);
-    return !folder->has_own_responses ||
-           review_take_responses(folder->responses, task, scratch, err);
-}
-
 static Outcome make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
                     Arena *arena, Error *err)
 {
@@ -238,9 +221,8 @@ static Outcome make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *r
     run->responses = folder->responses;
     run->responses_shown = folder->responses_shown;
     run->means.journal = folder->draft.journal;
-    if (!run->means.guides) run->means.guides = folder->draft.unfinished;
-    if (!take_found(folder, words->task, *arena, err) ||
-        !make_all(words, folder, run, &found, arena, err)) {
+    run->means.guides = folder->draft.unfinished;
+    if (!make_all(words, folder, run, &found, arena, err)) {
         Outcome outcome = err->code ? tell_kept(folder, err) : report_stopped(folder, arena);
         review_folder_close(folder);
         return outcome;
@@ -327,34 +309,16 @@ static Outcome review(const ReviewWords *words, Arena *arena, Error *err)
                      .means = {.root = words->root, .state = words->state,
                                .threads = words->cli.threads, .isa = words->isa},
                      .problems = &problems, .progress = &progress};
-    if (words->task) {
-        run.identity = words->task->identity;
-        run.means.guides = words->task->responses;
-    }
-    if (words->task && words->task->share.count)
-        return review_part(&run, words->task, words->responses, arena, err);
-    if (words->share.parts)
-        return outcome_of(review_share(&words->share, &folder, &run, words->cli.json, arena,
-                                       err));
     return words->dry_run ? outcome_of(plan(words, &folder, &run, arena, err))
                           : make(words, &folder, &run, arena, err);
 }
 
-Outcome cmd_review_run(int argc, char **argv, const ReviewTask *task, Arena *arena,
-                       Error *err)
-{
-    ReviewWords words = {.task = task};
-    if (!parse(argc, argv, arena, &words, err)) return OUTCOME_FAILED;
-    if (words.cli.help_shown) return OUTCOME_DONE;
-    if (task && !words.isa) words.isa = task->isa;
-    if (words.share.parts)
-        review_share_set(&words.share, argc, argv, words.folder, &words.cli, arena);
-    return words.init ? outcome_of(start(&words, arena, err)) : review(&words, arena, err);
-}
-
 static Outcome run(int argc, char **argv, Arena *arena, Error *err)
 {
-    return cmd_review_run(argc, argv, NULL, arena, err);
+    ReviewWords words = {0};
+    if (!parse(argc, argv, arena, &words, err)) return OUTCOME_FAILED;
+    if (words.cli.help_shown) return OUTCOME_DONE;
+    return words.init ? outcome_of(start(&words, arena, err)) : review(&words, arena, err);
 }
 
 const Command command_review = {
