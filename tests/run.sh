@@ -63,7 +63,7 @@ start 'frames held against accepted ones' regression python3 tests/image/regress
 start 'what a verdict rests on' rests python3 tests/image/rests.py $program
 start 'same bits, killed and resumed' resume python3 tests/hostile/resume.py --kills 1 $program
 start 'same bits, any parts' merge python3 tests/image/merge.py $program
-start 'what one pixel sees' probe python3 tests/image/probe.py $program
+start 'what one pixel sees' explain-pixel python3 tests/image/explain_pixel.py $program
 start 'scenes moved and turned' moved python3 tests/image/moved.py $program
 start 'faults and their outcomes' faults python3 tests/hostile/faults.py $program
 start 'closed forms in frames' image python3 tests/image/run.py $program

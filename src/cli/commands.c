@@ -10,6 +10,6 @@
 const Command *const command_table[] = {
     &command_render,  &command_develop, &command_panel,   &command_sky,  &command_check,
     &command_compare, &command_merge,   &command_measure, &command_review, &command_explain,
-    &command_probe,   &command_equip,   &command_schema,  &command_help,
+    &command_equip,   &command_schema,  &command_help,
 };
 const int command_count = COUNT_OF(command_table);

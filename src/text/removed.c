@@ -33,6 +33,11 @@ const RemovedWord removed_words[] = {
                           "the reviews"},
     {"review", "--job", "name each review by -o DIR, and `merge` them"},
     {"review", "--submit", "hand a script to sbatch: assets/slurm"},
+    {"parhelion", "probe", "explain SCENE --pixel X,Y gives the same"},
+    {"explain", "-o", "--json has the rays as lists of points; a review's page draws them over "
+                      "the frame"},
+    {"explain", "--outlook", "render --projection fisheye --eye X,Y,Z --look-at X,Y,Z shows what "
+                             "is seen from there"},
     {NULL, NULL, NULL},
 };
 

@@ -122,13 +122,13 @@ def veil(program, reflectance, dirt, sun_lx):
         car = copy_car(folder, reflectance, dirt)
         target = ",".join(str(a + b) for a, b in zip(EYE, GAZE))
         seen = json.loads(answer(
-            program, "probe", car, "--environment", "sky:clear", "--sun",
+            program, "explain", car, "--environment", "sky:clear", "--sun",
             f"0,{ELEVATION_DEG},{sun_lx}", "--eye", ",".join(map(str, EYE)), "--look-at",
-            target, "--fov", "1", "--size", "1x1", "--pixel", "0,0", "--spp", "65536",
+            target, "--fov", "1", "--size", "1x1", "--pixel", "0,0", "--paths", "65536",
             "--ways", "200", "--json"))
     total = {"mirror": 0, "scatters": 0, "sun": 0}
-    for way in seen["ways"]:
-        first = way["bounces"][0] if way["bounces"] else {}
+    for way in seen["chains"]:
+        first = way["bounces"][0] if way.get("bounces") else {}
         if first.get("node") == "windscreen" and first["what"] in total:
             total[first["what"]] += way["cd_m2"]
             if first["what"] == "scatters" and way["light"] == "sun":

@@ -79,7 +79,7 @@ def check_once(report, program, row):
 # What a command needs besides, so that its lists are read.
 NEEDED = {
     "render": ("a.gltf", "-o", "x.exr"), "measure": ("a.gltf", "--illuminance", "0,1,0,0,1,0"),
-    "probe": ("a.gltf", "--pixel", "0,0"), "explain": ("a.gltf", "--pixel", "0,0"),
+    "explain": ("a.gltf", "--pixel", "0,0"),
     "compare": ("a.exr", "b.exr"), "panel import": ("a.csv", "-o", "m.json"),
     "review": ("a.json", "-o", "x"), "check": ("a.gltf",), "equip": ("a.gltf", "-o", "x.html")}
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """outputs.py PARHELION -- an output never replaces an input: of every command each option that
-takes a file (as its value in `help --json` has it, and shells complete it) gets a file that the command reads,
-typed or named inside another file; one that writes gets each of them in turn. No byte changes,
-and an option that writes is refused with status 4.
+takes a file (as its value in `help --json` has it, and shells complete it) gets a file that the
+command reads, typed or named inside another file; one that writes gets each of them in turn. No
+byte changes, and an option that writes is refused with status 4.
 
 Which options write is found by trying: a new name that is a file afterwards was written.
 """
@@ -72,15 +72,10 @@ LINES = {
     "review": [("review r.json --dry-run", "r.json scene.gltf content.png display.panel", {}),
                ("review scene.gltf --init OUT.json", "scene.gltf data.bin content.png",
                 {"--init": ".json"})],
-    "explain": [("explain scene.gltf --display screen --paths 1024 "
-                 "--environment constant:100 -o OUT.gltf",
-                 "scene.gltf data.bin content.png", {"-o": ".gltf", "--outlook": ".png"}),
-                ("explain r.json --paths 1024 --symbol bar -o OUT.gltf",
-                 "r.json scene.gltf data.bin content.png",
-                 {"-o": ".gltf", "--outlook": ".png"})],
-    "probe": [("probe scene.gltf --pixel 1,1 --size 4x2 --spp 128 --no-guiding "
-               "--environment constant:100 --gltf OUT.gltf",
-               "scene.gltf data.bin display.panel", {"--gltf": ".gltf"})],
+    "explain": [("explain scene.gltf --display screen --paths 1024 --environment constant:100",
+                 "scene.gltf data.bin content.png", {}),
+                ("explain r.json --paths 1024 --symbol bar",
+                 "r.json scene.gltf data.bin content.png", {})],
     "equip": [("equip model/m.gltf -o OUT.html", "model/m.gltf model/data.bin",
                {"-o": ".html"}),
               ("equip model/m.gltf --with e.json --overwrite -o OUT.gltf",

@@ -153,7 +153,7 @@ def check_scenes(work):
     work.run("render", *view, "--spp", "4", "-o", OTHER, "--layers", "all", "--progress",
              "plain")
     work.run("render", *view, "--replay", "8,4,0", asks_json=False)
-    work.run("probe", *view, "--pixel", "8,4", "--spp", "128")
+    work.run("explain", *view, "--pixel", "8,4", "--paths", "128")
     work.run("explain", *view[:3], "--display", SCREEN, "--paths", "1024")
     work.run("sky", "--environment", "constant:500", "-o", named("sky") + NO_UTF8 + ".exr")
     work.run("measure", FRAME, "--display", SCREEN)

@@ -2,7 +2,7 @@
 """every_interval.py [--all | --seeds N] [ROOM...] PARHELION -- every interval that a command
 prints holds the truth: of `review` (gazes, eyes, symbols, causes, limits, variants, --diff),
 `explain`, `measure` of frames (regions, displays, contents, --glare, --illuminance) and
-`compare`. `probe` prints none.
+`compare`.
 
 Answers are searched for members whose names end with "interval": one for which a room knows no
 truth fails. Rooms, each with few samples, as people have them:
@@ -240,9 +240,6 @@ def frame(reviewer, tally, seeds):
         if seed > 1:
             compared = ask(reviewer, "compare", "near0.exr", "near1.exr")
             tally.add("frame, compare", compared, {"/ratio_interval": 1})
-    probed = ask(reviewer, "probe", "room.gltf", "--pixel", "4,4", "--size", SIZE, "--spp",
-                 "128")
-    tally.add("probe", probed, {})
 
 
 def seen_in(reviewer, room, panel, name):

@@ -17,7 +17,6 @@ import sys
 import tempfile
 
 from exr import Frame
-from explain import numbers_of
 from gltf import Scene
 from moved import move
 from review import EYE, PANEL, Report, Reviewer, dashboard, moment, request
@@ -182,30 +181,12 @@ def check_luxmeter(report, pair):
                  f"tables {tables}")
 
 
-def rays_of(path):
-    """Points of its lines in the world."""
-    with open(path, encoding="utf-8") as file:
-        document = json.load(file)
-    blob = base64.b64decode(document["buffers"][0]["uri"].split(",")[1])
-    for node in document["nodes"]:
-        mesh = document["meshes"][node["mesh"]]["primitives"][0]
-        values = numbers_of(document, mesh["attributes"]["POSITION"], blob)
-        for i in range(0, len(values), 3):
-            yield sum_of(values[i:i + 3], node.get("translation", [0, 0, 0]))
-
-
 def check_ways(report, pair):
-    """Of a pixel, a display and a wall; their rays as files."""
+    """Of a pixel, a display and a wall."""
     ask = "dash.gltf", "lamps.gltf", *SKY, "--size", "24x16"
-    hold(report, pair, "probe", *both(pair, "probe", *ask, "--pixel", "12,4", "--spp", "128",
-                                      "--gltf", "rays.gltf"))
-    rays = [list(rays_of(pair.file(kind, "rays.gltf"))) for kind in (FAR, NEAR)]
-    report.claim(len(rays[0]) == len(rays[1]) > 10 and all(
-        math.dist(a, sum_of(b, pair.origin)) < 1e-9 for a, b in zip(*rays)),
-        f"rays at {pair.at[FAR]}: {rays[0][:3]}, {rays[1][:3]}")
-    told = pair.run(FAR, "probe", *ask, "--pixel", "12,4", "--spp", "128")
+    told = pair.run(FAR, "explain", *ask, "--pixel", "12,4", "--paths", "128")
     wanted = f"  at {pair.at[FAR][0]:.0f}"[:7]
-    report.claim(wanted in told, f"probe's text has no '{wanted}': {told}")
+    report.claim(wanted in told, f"explain's text has no '{wanted}': {told}")
     eye = "--eye", lambda kind: numbers(pair.point(kind, EYE))
     for what in (("--display", "screen", *eye, "--look-at",
                   lambda kind: numbers(pair.point(kind, TARGET))), ("--pixel", "12,4")):

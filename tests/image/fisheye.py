@@ -250,24 +250,26 @@ def check_pictures(report, program):
 
 
 def check_commands(report, program):
-    """Pixels of a fisheye are the same in probe, explain, --replay and the frame."""
+    """Pixels of a fisheye are the same in explain, --replay and the frame."""
     words = ("lit.gltf", "--projection", "equisolid", "--size", "40x40")
     program.render(*words[:1], "w.exr", *words[1:], "--spp", "128", "--layers", "xyz")
     frame = Frame(program.file("w.exr"))
     for x, y in ((9, 12), (5, 6)):  # the second is cut by the circle
         wanted = frame.channels["xyz.Y"][y * 40 + x]
-        probed = json.loads(program.run("probe", *words, "--pixel", f"{x},{y}", "--spp", "128",
-                                        "--json").stdout)
-        report.claim(abs(probed["luminance_cd_m2"] / wanted - 1) < 1e-5,
-                     f"probe of {x},{y}: {probed['luminance_cd_m2']}, the frame has {wanted}")
-    wanted = frame.channels["xyz.Y"][12 * 40 + 9]
-    for command in (("probe", *words, "--pixel", "0,0"), ("explain", *words, "--pixel", "0,0"),
+        told = json.loads(program.run("explain", *words, "--pixel", f"{x},{y}", "--paths",
+                                      "128", "--json").stdout)
+        light = told["luminance_cd_m2"]["all"]
+        report.claim(abs(light / wanted - 1) < 1e-5,
+                     f"explain of {x},{y}: {light}, the frame has {wanted}")
+    for command in (("explain", *words, "--pixel", "0,0"),
+                    ("explain", *words, "--region", "0,0,1,1"),
                     ("render", *words, "--replay", "0,0,0")):
         done = program.run(*command)
         report.claim(done.returncode == 2 and "circle" in done.stderr,
                      f"{command[0]} of a corner: {done.stderr}")
-    explained = json.loads(program.run("explain", *words, "--pixel", "9,12", "--paths", "4096",
-                                       "--json").stdout)
+    wanted = frame.channels["xyz.Y"][12 * 40 + 9]
+    explained = json.loads(program.run("explain", *words, "--region", "9,12,10,13", "--paths",
+                                       "4096", "--json").stdout)
     light = explained["luminance_cd_m2"]["all"]
     report.claim(abs(light / wanted - 1) < 0.2, f"explain: {light}, the frame has {wanted}")
 

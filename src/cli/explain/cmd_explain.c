@@ -1,37 +1,26 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* parhelion explain: by which chains of objects light comes to a symbol, a display or a pixel,
- * and what each of them costs. */
+/* parhelion explain: what a symbol, a display or a pixel sends to an eye, by which chains of
+ * objects light comes to it, and what each of them costs. */
 #include "cli/explain/cmd_explain.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <strings.h>
 
 #include "base/count.h"
 #include "base/file.h"
-#include "base/file_write.h"
-#include "print/print.h"
 #include "camera/camera.h"
-#include "cli/explain/ray_option.h"
+#include "cli/explain/explain_answer.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/options/outputs.h"
 #include "cli/options/scene_options.h"
 #include "cli/render/render_setup.h"
-#include "review/chain/outlook.h"
-#include "review/output/ray_file.h"
-#include "review/output/case_json.h"
-#include "review/output/review_words.h"
+#include "render/render.h"
 #include "review/request/request_check.h"
 #include "review/request/request_read.h"
-#include "review/review_decide.h"
 #include "review/run/explain.h"
 #include "review/run/symbols.h"
 #include "scene/load/scene_load.h"
-#include "text/interval_text.h"
-#include "text/json_text.h"
-
-/* ---- what of a scene is to be explained -------------------------------------------------- */
 
 typedef struct SceneQuestion {
     CameraChoice      camera;
@@ -40,17 +29,18 @@ typedef struct SceneQuestion {
     const char       *display; /* "cluster", "node:NAME"; NULL: pixels */
     double            uv[4];   /* of the content: left, top, right, bottom */
     double            region[4]; /* pixels: X0, Y0, X1, Y1 */
+    bool              has_pixel; /* it is one pixel: its samples are those of a frame */
     int               size[2];
-    const char       *isa;
-    long              paths;
-    int               threads;
-    ProgressMode      progress; /* of loading */
-    bool              with_outlook;
+    RenderOptions     render;  /* threads, isa, seed, bounces and guide alone */
+    long              paths, most, seed, max_bounces;
     Problems         *problems;
     const Outputs    *outputs;
 } SceneQuestion;
 
+#define SUMMARY "what a symbol, a display or a pixel sends, and by which ways light comes to it"
 #define BOUNCES 64
+#define WAYS 10
+#define SEED 0x6578706cu /* of what is no pixel, with --seed 0 */
 #define SIDE 32 /* of the raster of a region */
 
 /* Points along the looks of a raster. */
@@ -94,42 +84,75 @@ static bool aim_at_display(const SceneQuestion *question, Arena *arena, ProbeAim
                      question->display);
 }
 
-static bool explain_lit(const SceneQuestion *question, const PathContext *context,
-                        const ReadingTools *tools, Arena *arena, Explained *out, Error *err)
+/* A sum that has met one number that is none is none. */
+static bool check_light(const PixelLight *light, const double pixel[2], Error *err)
 {
-    SceneCamera camera;
-    if (!render_choose_camera(context->scene, &question->camera, question->problems, &camera,
-                              err))
-        return false;
-    ProbeAim aim = {.context = context, .eye = camera.world_from_camera.origin};
-    if (!(question->display ? aim_at_display(question, arena, &aim, err)
-                            : aim_at_region(question, &camera, arena, &aim, err)))
-        return false;
-    ExplainPlace place = {tools, aim, question->paths, question->with_outlook};
-    explain_place(&place, arena, out);
-    return true;
+    double sum = 0;
+    for (int i = 0; i < 3; i++) sum += light->xyz[i].mean + light->xyz[i].sigma;
+    for (int i = 0; i < PIXEL_BANDS; i++)
+        sum += light->radiance[i].mean + light->radiance[i].sigma;
+    return isfinite(sum) ||
+           error_set(err, ERROR_INPUT,
+                     "pixel %g,%g: its light is not finite: a light of the scene, or what a "
+                     "material makes of it, has no measure",
+                     pixel[0], pixel[1]);
 }
 
-static bool explain_scene(const SceneQuestion *question, Arena *arena, Explained *out,
-                          Error *err)
+/* The samples of a pixel are those that a render of the same options takes. */
+static bool explain_lit(const SceneQuestion *question, const SceneCamera *camera,
+                        const RenderSetup *setup, Arena *arena, ExplainAnswer *out, Error *err)
 {
-    ReadingTools tools = {NULL, question->threads};
-    Scene       *scene;
-    Bvh         *bvh = NULL;
-    Lights      *lights;
-    const SceneAsked asked = {&question->scene, &question->environment, question->progress,
-                              question->outputs};
-    if (!kernel_choose(question->isa, &tools.kernel, err) ||
-        !scene_options_load(&asked, arena, question->problems, &scene, err))
+    const double      *r = question->region;
+    const ProbePixel   pixel = {&setup->camera, (int)r[0], (int)r[1]};
+    const ReadingTools tools = {setup->kernel, question->render.threads};
+    ProbeAim aim = {.context = &setup->context, .eye = camera->world_from_camera.origin,
+                    .pixel = question->has_pixel ? &pixel : NULL,
+                    .seed = (uint32_t)question->seed + (question->has_pixel ? 0 : SEED)};
+    if (!(question->display ? aim_at_display(question, arena, &aim, err)
+                            : aim_at_region(question, camera, arena, &aim, err)))
         return false;
-    render_warn_of_darkness(scene, question->problems);
-    bool ok = bvh_create(scene, question->threads, question->isa, &bvh, err) &&
-              lights_build(scene, arena, &lights, err);
-    if (ok) {
-        PathContext context = path_context_build(scene, bvh, lights, BOUNCES, arena);
-        ok = explain_lit(question, &context, &tools, arena, out, err);
+    ExplainPlace place = {&tools, aim, question->paths, (int)question->most};
+    explain_place(&place, arena, &out->found);
+    if (!question->has_pixel) return true;
+    for (int i = 0; i < 2; i++) {
+        out->pixel[i] = (int)r[i];
+        out->size[i] = question->size[i];
     }
-    bvh_destroy(bvh);
+    return check_light(&out->found.light, r, err);
+}
+
+static bool explain_loaded(SceneQuestion *question, const Scene *scene, Arena *arena,
+                           ExplainAnswer *out, Error *err)
+{
+    SceneCamera    camera;
+    RenderSetup    setup;
+    RenderOptions *render = &question->render;
+    Problems       unsaid = problems_start(arena); /* about names of a frame's layers */
+    render_warn_of_darkness(scene, question->problems);
+    if (!render_choose_camera(scene, &question->camera, question->problems, &camera, err) ||
+        (question->has_pixel &&
+         !render_check_pixel(&camera, question->size, question->region, err)))
+        return false;
+    render->width = question->size[0];
+    render->height = question->size[1];
+    render->seed = (uint32_t)question->seed;
+    render->max_bounces = (int)question->max_bounces;
+    render->no_guiding |= !question->has_pixel;
+    if (!render_prepare(scene, &camera, render, arena, &setup, err)) return false;
+    if (!question->has_pixel) setup.context.cone = (RayCone){0}; /* points, whatever the size */
+    bool ok = explain_lit(question, &camera, &setup, arena, out, err);
+    out->lights = light_groups_build(scene, setup.context.lights, arena, &unsaid);
+    render_setup_end(&setup);
+    return ok;
+}
+
+static bool explain_scene(SceneQuestion *question, Arena *arena, ExplainAnswer *out, Error *err)
+{
+    Scene           *scene;
+    const SceneAsked asked = {&question->scene, &question->environment,
+                              question->render.progress, question->outputs};
+    if (!scene_options_load(&asked, arena, question->problems, &scene, err)) return false;
+    bool ok = explain_loaded(question, scene, arena, out, err);
     scene_close(scene);
     return ok;
 }
@@ -137,9 +160,9 @@ static bool explain_scene(const SceneQuestion *question, Arena *arena, Explained
 typedef struct ExplainWords {
     SceneQuestion scene;
     SceneWords    scene_words;
-    const char   *condition, *eye, *symbol, *rays, *outlook;
+    const char   *condition, *eye, *symbol;
     double        pixel[2];
-    bool          has_pixel, has_region, has_uv, has_size;
+    bool          has_region, has_uv, has_size, has_seed, has_bounces, has_ways;
     Cli           cli;
 } ExplainWords;
 
@@ -148,212 +171,13 @@ static bool is_review(const ExplainWords *words)
     return !strcasecmp(path_ending(words->cli.arguments[0]), ".json");
 }
 
-/* ---- the answer -------------------------------------------------------------------------- */
-
-/* ---- as text ----------------------------------------------------------------------------- */
-
-static void print_where(const ReviewCase *c)
-{
-    if (c->symbol)
-        print("symbol     %s on %s, seen by %s, %s\n", c->symbol, c->display, c->eye,
-              c->condition);
-    else if (c->display) print("display    %s\n", c->display);
-    print("eye        %.3f, %.3f, %.3f m\n", c->eye_m[0], c->eye_m[1], c->eye_m[2]);
-}
-
-static void print_light(const Explained *explained, Arena scratch)
-{
-    const ReviewCase     *c = &explained->of;
-    const CaseLuminances *l = &c->luminance_cd_m2;
-    const char *light = c->display ? "reflected" : "luminance";
-    if (c->symbol)
-        print("sends      %.4g cd/m2 foreground, %.4g background\n", l->foreground,
-              l->background);
-    else if (c->display)
-        print("sends      %.4g cd/m2; white %.4g, black %.4g\n", explained->shown,
-              l->foreground, l->background);
-    print("%-10s %s cd/m2", light,
-          interval_text(l->reflected, c->reflected_range.low, c->reflected_range.high,
-                        &scratch));
-    if (c->display) print(": mirror %.4g, scattered %.4g", l->mirror, l->scattered);
-    print("\n");
-    if (c->display)
-        print("contrast   %s : 1; %.4g : 1 if nothing were reflected\n",
-              interval_text(c->contrast_ratio, c->contrast_low, c->contrast_high, &scratch),
-              luminance_contrast(l->foreground, l->background, 0));
-}
-
-/* Of a review's case: the quantity of the limit that decides it. */
-static void print_judged(const ReviewCase *c, Arena scratch)
-{
-    const LimitVerdict *limit = case_worst_limit(c);
-    if (!limit) return;
-    print("judged     %s: %s %s, required %s\n", verdict_names[c->verdict], words_kind(limit),
-          words_measured(limit, &scratch), words_required(limit, &scratch));
-}
-
-static void print_cause(const CaseCause *cause, bool has_contrast, Arena scratch)
-{
-    print("%6.1f %%  %8s  %8s to %-8s", 100 * cause->share,
-          words_within(cause->cd_m2, cause->low, cause->high, &scratch),
-          words_within(cause->low, cause->low, cause->high, &scratch),
-          words_within(cause->high, cause->low, cause->high, &scratch));
-    if (has_contrast) print("  %7.3g : 1", cause->contrast_without);
-    for (int i = 0; i < cause->links; i++)
-        print("%s%s", i ? " > " : "  ", cause->chain[i]);
-    print("\n");
-}
-
-/* Each adds up to all of the light. */
-static void print_groups(const ReviewCase *c)
-{
-    static const char *const NAMES[CAUSE_GROUPS] = {"began at", "came by", "met at"};
-    for (int g = 0; g < CAUSE_GROUPS; g++) {
-        const CaseGroup *group = &c->groups[g];
-        if (group->count && g) print("\n");
-        for (int i = 0; i < group->count; i++)
-            print("%s%.3g %% %s", i ? ", " : "", 100 * group->list[i].share,
-                  group->list[i].what);
-        if (group->count) print(" (%s)", NAMES[g]);
-    }
-    print("\n");
-}
-
-static void print_causes(const ReviewCase *c, Arena scratch)
-{
-    bool has_contrast = c->display != NULL;
-    if (!c->cause_count) return;
-    print("\n   share     cd/m2   95 %% interval     %s  via\n",
-          has_contrast ? "without it " : "");
-    for (int i = 0; i < c->cause_count; i++) print_cause(&c->causes[i], has_contrast, scratch);
-}
-
-static void print_remedies(const ReviewCase *c, Arena scratch)
-{
-    if (c->remedy_count) print("\n");
-    for (int i = 0; i < c->remedy_count; i++)
-        print("remedy     %s: %s\n", c->remedies[i].what,
-              words_remedy(&c->remedies[i], &scratch));
-}
-
-static void print_text(const Explained *explained, Arena *arena)
-{
-    print_where(&explained->of);
-    if (explained->of.hider_count)
-        print("hidden     %s\n", words_hiders(&explained->of, arena));
-    if (!case_is_seen(&explained->of)) {
-        print("%s\n", words_reason(&explained->of, arena));
-        return;
-    }
-    print_light(explained, *arena);
-    print_judged(&explained->of, *arena);
-    print_groups(&explained->of);
-    print_causes(&explained->of, *arena);
-    const char *seat = words_empty_seat(&explained->of, arena);
-    if (seat[0]) print("\nnote       %s\n", seat);
-    print_remedies(&explained->of, *arena);
-    if (explained->has_outlook) print("\nsees       %s\n", outlook_words(&explained->outlook,
-                                                                         arena));
-}
-
-/* ---- as JSON ----------------------------------------------------------------------------- */
-
-static json_t *json_rays(const ReviewCase *c, const CaseCause *cause)
-{
-    json_t *out = json_array();
-    for (int i = 0; i < cause->ray_count; i++) {
-        json_t *ray = json_array();
-        for (int k = 0; k < cause->rays[i].count; k++) {
-            double at[3];
-            world_from_scene(c->origin_m, cause->rays[i].points[k], at);
-            json_array_append_new(ray, json_world_point(at));
-        }
-        json_array_append_new(out, ray);
-    }
-    return out;
-}
-
-static json_t *json_chains(const ReviewCase *c)
-{
-    json_t *out = json_array();
-    for (int i = 0; i < c->cause_count; i++) {
-        const CaseCause *cause = &c->causes[i];
-        double lost = cause->contrast_without - c->contrast_ratio;
-        json_array_append_new(out, json_pack(
-            "{s:o, s:o, s:o, s:[o,o], s:o, s:o, s:o}", "chain",
-            json_texts(cause->chain, cause->links), "share", json_figure(cause->share), "cd_m2",
-            json_figure(cause->cd_m2), "interval", json_figure(cause->low),
-            json_figure(cause->high), "contrast_without", json_figure(cause->contrast_without),
-            "contrast_lost", json_figure(lost), "rays", json_rays(c, cause)));
-    }
-    return out;
-}
-
-static json_t *json_light(const Explained *explained)
-{
-    const CaseLuminances *l = &explained->of.luminance_cd_m2;
-    if (!explained->of.display) return json_pack("{s:o}", "all", json_figure(l->reflected));
-    json_t *out = json_pack("{s:o, s:o, s:o}", "reflected", json_figure(l->reflected), "mirror",
-                            json_figure(l->mirror), "scattered", json_figure(l->scattered));
-    bool is_symbol = explained->of.symbol != NULL;
-    json_object_set_new(out, is_symbol ? "foreground" : "white", json_figure(l->foreground));
-    json_object_set_new(out, is_symbol ? "background" : "black", json_figure(l->background));
-    if (!is_symbol) json_object_set_new(out, "emitted", json_figure(explained->shown));
-    return out;
-}
-
-static json_t *json_outlook(const Explained *explained)
-{
-    const Outlook *o = &explained->outlook;
-    if (!explained->has_outlook) return json_null();
-    json_t *shares = json_array();
-    for (int i = 0; i < o->share_count; i++)
-        json_array_append_new(shares, json_pack("{s:o, s:o, s:o}", "what",
-                                                json_text(o->shares[i].what), "share",
-                                                json_figure(o->shares[i].share), "lux",
-                                                json_figure(o->shares[i].lux)));
-    return json_pack("{s:o, s:o, s:o, s:{s:o, s:o}}", "lux", json_figure(o->lux), "shares",
-                     shares, "rest", json_figure(o->rest), "mirror", "what",
-                     json_text_or_null(o->mirror_what), "cd_m2", json_figure(o->mirror_cd_m2));
-}
-
-static bool print_json(const Explained *explained, Error *err)
-{
-    const ReviewCase *c = &explained->of;
-    json_t *out = json_pack(
-        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:[o,o], s:I}", "condition",
-        json_text_or_null(c->condition), "eye", json_text_or_null(c->eye), "symbol",
-        json_text_or_null(c->symbol), "display", json_text_or_null(c->display), "eye_m",
-        json_world_point(c->eye_m), "luminance_cd_m2", json_light(explained), "contrast_ratio",
-        json_figure(c->contrast_ratio), "contrast_interval", json_figure(c->contrast_low),
-        json_figure(c->contrast_high), "paths", (json_int_t)explained->paths);
-    json_object_set_new(out, "visible_share", json_figure(c->visible_share));
-    case_whole_json(c, out);
-    json_object_set_new(out, "hidden_by", case_hiders_json(c));
-    json_object_set_new(out, "reflected_interval",
-                        json_pack("[o,o]", json_figure(c->reflected_range.low),
-                                  json_figure(c->reflected_range.high)));
-    json_object_set_new(out, "cause_groups", case_groups_json(c));
-    json_object_set_new(out, "chains", json_chains(c));
-    json_object_set_new(out, "remedies", case_remedies_json(c));
-    json_object_set_new(out, "outlook", json_outlook(explained));
-    return cli_print_json(out, err);
-}
-
-static bool explain_answer(const Cli *cli, const Explained *explained, Arena *arena, Error *err)
-{
-    if (cli->json) return print_json(explained, err);
-    print_text(explained, arena);
-    return true;
-}
-
 /* ---- the command line -------------------------------------------------------------------- */
 
 static bool check_region(const ExplainWords *words, Error *err)
 {
     const double *r = words->scene.region;
     const int    *size = words->scene.size;
-    if (words->has_pixel && !(r[0] == floor(r[0]) && r[1] == floor(r[1]) && r[0] >= 0 &&
+    if (words->scene.has_pixel && !(r[0] == floor(r[0]) && r[1] == floor(r[1]) && r[0] >= 0 &&
                               r[1] >= 0 && r[0] < size[0] && r[1] < size[1]))
         return error_set(err, ERROR_USAGE,
                          "--pixel %g,%g: is no pixel of a picture of %dx%d, whose first is 0,0 "
@@ -382,7 +206,7 @@ static bool read_scene(ExplainWords *words, Arena *arena, Error *err)
     SceneQuestion *scene = &words->scene;
     const char *of_review = words->symbol ? "--symbol" : NULL;
     if (words->condition) of_review = "--condition";
-    int asked = (scene->display != NULL) + words->has_pixel + words->has_region;
+    int asked = (scene->display != NULL) + scene->has_pixel + words->has_region;
     if (of_review)
         return error_set(err, ERROR_USAGE, "%s: a scene has none; a REVIEW.json has",
                          of_review);
@@ -395,7 +219,7 @@ static bool read_scene(ExplainWords *words, Arena *arena, Error *err)
         return error_set(err, ERROR_USAGE, "--uv: of which --display?");
     if (!(scene->uv[0] < scene->uv[2] && scene->uv[1] < scene->uv[3]))
         return error_set(err, ERROR_USAGE, "--uv: required: L < R and T < B");
-    if (words->has_pixel)
+    if (scene->has_pixel)
         for (int i = 0; i < 4; i++) scene->region[i] = words->pixel[i % 2] + (int)(i / 2);
     return (scene->display || check_region(words, err)) && read_eye(words, err) &&
            scene_options_read(&words->scene_words, &words->cli, arena, &scene->scene, err);
@@ -414,10 +238,12 @@ static const char *option_of_scene(const ExplainWords *words)
         const char *option;
     } options[] = {
         {camera->name != NULL, "--camera"}, {words->scene.display != NULL, "--display"},
-        {words->has_uv, "--uv"}, {words->has_pixel, "--pixel"},
+        {words->has_uv, "--uv"}, {words->scene.has_pixel, "--pixel"},
         {words->has_region, "--region"}, {words->has_size, "--size"},
         {camera->projection != 0, "--projection"},
-        {camera->has_look_at, "--look-at"}, {camera->has_fov, "--fov"}};
+        {camera->has_look_at, "--look-at"}, {camera->has_fov, "--fov"},
+        {words->has_seed, "--seed"}, {words->has_bounces, "--max-bounces"},
+        {words->has_ways, "--ways"}, {words->scene.render.no_guiding, "--no-guiding"}};
     for (int i = 0; i < COUNT_OF(options); i++)
         if (options[i].is_given) return options[i].option;
     return scene_options_given(&no_state, &no_sun);
@@ -435,13 +261,6 @@ static bool check_review(ExplainWords *words, Error *err)
     return state_options_read(&words->scene_words.state, &words->scene.scene.state, err);
 }
 
-static bool check_outputs(const ExplainWords *words, Error *err)
-{
-    return ray_option_check(words->rays, err) &&
-           (!words->outlook || (picture_check_name(words->outlook, 8, err) &&
-                                file_check_writable(words->outlook, err)));
-}
-
 static bool parse(int argc, char **argv, Arena *arena, ExplainWords *out, Error *err)
 {
     SceneQuestion *scene = &out->scene;
@@ -456,7 +275,7 @@ static bool parse(int argc, char **argv, Arena *arena, ExplainWords *out, Error 
         {"--uv", OPTION_NUMBERS, "L,T,R,B", "a rectangle of its content, 0 to 1, v down",
          scene->uv, .low = 0, .high = 1, .count = 4, .given = &out->has_uv},
         {"--pixel", OPTION_NUMBERS, "X,Y", "of a scene: a pixel of the camera's picture",
-         out->pixel, .low = 0, .high = 65535, .count = 2, .given = &out->has_pixel},
+         out->pixel, .low = -1e9, .high = 1e9, .count = 2, .given = &scene->has_pixel},
         {"--region", OPTION_NUMBERS, "X0,Y0,X1,Y1", "pixels, half-open, from the top left",
          scene->region, .low = 0, .high = 65536, .count = 4, .given = &out->has_region},
         {"--size", OPTION_SIZE, "WxH",
@@ -470,33 +289,37 @@ static bool parse(int argc, char **argv, Arena *arena, ExplainWords *out, Error 
          .given = &scene->camera.has_look_at},
         {"--fov", OPTION_NUMBER, "DEG", "with --eye: the picture's height as an angle (40)",
          &scene->camera.fov_deg, .low = 0.01, .high = 179, .given = &scene->camera.has_fov},
-        {"--paths", OPTION_INTEGER, "N", "more make the figures surer (default 65536)",
-         &scene->paths, .low = 1024, .high = 1 << 24},
-        {"-o", OPTION_TEXT, "FILE.gltf|.glb", "the rays, to be opened beside the scene",
-         &out->rays, .file = OPTION_OUTPUT},
-        {"--outlook", OPTION_TEXT, "FILE.png", "what the surface sees, as a fisheye",
-         &out->outlook, .file = OPTION_OUTPUT},
+        {"--paths", OPTION_INTEGER, "N",
+         "rounded up to whole chunks of 64; of a pixel its samples (default 65536)",
+         &scene->paths, .low = CHAIN_PATHS_LEAST, .high = 1 << 24},
+        {"--ways", OPTION_INTEGER, "N",
+         "of a scene: chains that are listed by themselves, at most (default 10)", &scene->most,
+         .low = 1, .high = 1000, .given = &out->has_ways},
+        {"--seed", OPTION_INTEGER, "N", "of a scene: other random numbers (default 0)",
+         &scene->seed, .low = 0, .high = 4294967295.0, .given = &out->has_seed},
+        {"--max-bounces", OPTION_INTEGER, "N",
+         "of a scene: 0 emission only, 1 adds direct light (default 64)", &scene->max_bounces,
+         .low = 0, .high = 100000, .given = &out->has_bounces},
+        {"--no-guiding", OPTION_FLAG, NULL,
+         "of a pixel: as a frame that was rendered with this option",
+         &scene->render.no_guiding},
         {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
-         &scene->isa},
+         &scene->render.isa},
         SCENE_OPTIONS(&out->scene_words, &scene->scene, &scene->environment),
     };
     const CliCommand command = {
-        "explain", "by which ways light comes to a display or a pixel, and what each costs",
+        "explain", SUMMARY,
         "REVIEW.json [--condition NAME] [--symbol NAME] [--eye NAME] | SCENE... --display NAME "
         "| SCENE... --pixel X,Y",
-        "parhelion explain scenes/glance.review.json --condition night -o ways.gltf",
+        "parhelion explain scenes/glance.review.json --condition night",
         options, COUNT_OF(options), 1, -1};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
     if (out->cli.help_shown) return true;
-    scene->threads = out->cli.threads;
-    scene->progress = out->cli.progress;
+    scene->render.threads = out->cli.threads;
+    scene->render.progress = out->cli.progress;
     scene->outputs = &out->cli.outputs;
-    scene->with_outlook = out->outlook != NULL;
-    if (!(is_review(out) ? check_review(out, err) : read_scene(out, arena, err))) return false;
-    return check_outputs(out, err);
+    return is_review(out) ? check_review(out, err) : read_scene(out, arena, err);
 }
-
-/* ---- the answer -------------------------------------------------------------------------- */
 
 /* As far as a sweep's may go. */
 static bool read_sun(const char *text, double out_deg[2], Error *err)
@@ -522,9 +345,9 @@ static bool review_question(const ExplainWords *words, Arena *arena, Explained *
     ExplainOptions  options = {.condition = words->condition, .eye = words->eye,
                                .symbol = words->symbol, .has_sun = sun != NULL,
                                .means = {.root = root, .state = scene->scene.state,
-                                         .isa = scene->isa, .threads = scene->threads},
-                               .paths = scene->paths, .with_outlook = scene->with_outlook,
-                               .problems = scene->problems, .read = spare_scene,
+                                         .isa = scene->render.isa,
+                                         .threads = scene->render.threads},
+                               .paths = scene->paths, .problems = scene->problems, .read = spare_scene,
                                .user = &outputs};
     if (sun && !read_sun(sun, options.sun_deg, err)) return false;
     if (!review_request_read(words->cli.arguments[0], root, arena, scene->problems, &request,
@@ -540,36 +363,19 @@ static bool review_question(const ExplainWords *words, Arena *arena, Explained *
     return explain_review(&request, &options, arena, out, err);
 }
 
-static bool write_outlook(const ExplainWords *words, const Explained *explained, Arena *arena,
-                          Error *err)
-{
-    if (!words->outlook) return true;
-    PictureFile file = {.bits = 8, .is_srgb = true,
-                        .description = outlook_words(&explained->outlook, arena)};
-    Picture     picture = outlook_picture(&explained->outlook, arena);
-    return picture_write(words->outlook, &picture, file, *arena, err);
-}
-
 static Outcome run(int argc, char **argv, Arena *arena, Error *err)
 {
-    Problems     problems = problems_start(arena);
-    ExplainWords words = {.scene = {.uv = {0, 0, 1, 1}, .paths = 65536, .problems = &problems}};
-    Explained    explained;
+    Problems      problems = problems_start(arena);
+    ExplainWords  words = {.scene = {.uv = {0, 0, 1, 1}, .paths = 65536, .most = WAYS,
+                                     .max_bounces = BOUNCES, .problems = &problems}};
+    ExplainAnswer answer = {.size = {0, 0}};
     if (!parse(argc, argv, arena, &words, err)) return OUTCOME_FAILED;
     if (words.cli.help_shown) return OUTCOME_DONE;
-    if (!(is_review(&words)
-              ? review_question(&words, arena, &explained, err)
-              : explain_scene(&words.scene, arena, &explained, err)))
+    if (!(is_review(&words) ? review_question(&words, arena, &answer.found, err)
+                            : explain_scene(&words.scene, arena, &answer, err)))
         return OUTCOME_FAILED;
-    if (words.outlook && !explained.has_outlook)
-        return error_set(err, ERROR_INPUT, "--outlook %s: the eye meets no surface there, "
-                         "required: one to look out from", words.outlook);
     cli_print_warnings(&problems);
-    return outcome_of((!words.rays || ray_file_write(&explained.of, words.rays, err)) &&
-                      write_outlook(&words, &explained, arena, err) &&
-                      explain_answer(&words.cli, &explained, arena, err));
+    return outcome_of(explain_answer(&words.cli, &answer, arena, err));
 }
 
-const Command command_explain = {
-    "explain", "by which ways light comes to a display or a pixel, and what each costs", run,
-    NULL, 0};
+const Command command_explain = {"explain", SUMMARY, run, NULL, 0};

@@ -226,6 +226,7 @@ static const struct {
     {"-j", "--threads"}, {"-t", "--threads"}, {"-n", "--threads"},
     {"--output", "-o"}, {"--outfile", "-o"}, {"--out", "-o"},
     {"--samples-per-pixel", "--spp"}, {"--sample-count", "--spp"}, {"-s", "--spp"},
+    {"--spp", "--paths"},
     {"--resolution", "--size"}, {"--width", "--size"}, {"--height", "--size"},
     {"--film", "--size"}, {"--falsecolor", "--false-colour"},
     {"--falsecolour", "--false-colour"}, {"--false-color", "--false-colour"},

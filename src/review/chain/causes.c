@@ -212,33 +212,30 @@ static void set_groups(const Chains *chains, ReviewCase *c, Arena *arena)
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-static void set_luminances(const Chains *chains, CaseLuminances *l)
+CauseFacts case_causes_of(const Chains *chains, int rays, ReviewCase *c, Arena *arena)
 {
-    l->reflected = chains->all.cd_m2;
-    l->mirror = chains->mirror.cd_m2;
-    l->scattered = l->reflected - l->mirror;
+    CaseCause *causes = ARENA_NEW(arena, CaseCause, chains->count + 1);
+    for (int i = 0; i < chains->count; i++) {
+        const Chain *chain = &chains->list[i];
+        causes[i] = cause_of(chain->figure, chains, c);
+        if (!chain->key.count) causes[i].contrast_without = (double)NAN; /* the display's own */
+        causes[i].chain = chain_words(chains->scene, &chain->key, &causes[i].links, arena);
+        causes[i].rays = rays_of(chain, rays, &causes[i].ray_count, arena);
+    }
+    c->causes = causes;
+    c->cause_count = chains->count;
+    if (chains->others) causes[c->cause_count++] = all_other(chains, c, arena);
+    set_groups(chains, c, arena);
+    return facts_of(chains, arena);
 }
 
 CauseFacts case_causes(const CauseArgs *args, ReviewCase *c, Arena *arena)
 {
-    CaseCause *causes = ARENA_NEW(arena, CaseCause, CAUSES_MOST + 1);
-    Arena    scratch = arena_reserve((size_t)1 << 28);
+    Arena     scratch = arena_reserve((size_t)1 << 28);
     ChainArgs chain_args = {.aim = args->aim, .tools = args->tools, .paths = args->paths,
-                          .most = CAUSES_MOST, .with_direct = args->with_direct,
-                          .places = args->places};
-    Chains   chains = chains_find(&chain_args, &scratch);
-    if (args->sets_luminances) set_luminances(&chains, &c->luminance_cd_m2);
-    for (int i = 0; i < chains.count; i++) {
-        const Chain *chain = &chains.list[i];
-        causes[i] = cause_of(chain->figure, &chains, c);
-        causes[i].chain = chain_words(chains.scene, &chain->key, &causes[i].links, arena);
-        causes[i].rays = rays_of(chain, args->rays, &causes[i].ray_count, arena);
-    }
-    c->causes = causes;
-    c->cause_count = chains.count;
-    if (chains.others) causes[c->cause_count++] = all_other(&chains, c, arena);
-    set_groups(&chains, c, arena);
-    CauseFacts facts = facts_of(&chains, arena);
+                            .most = CAUSES_MOST, .places = args->places};
+    Chains     chains = chains_find(&chain_args, &scratch);
+    CauseFacts facts = case_causes_of(&chains, args->rays, c, arena);
     arena_release(&scratch);
     return facts;
 }

@@ -25,9 +25,6 @@ typedef struct CauseArgs {
     long                paths;
     int                 rays;        /* of each cause, at most CHAIN_RAYS */
     const ChainPlaces  *places;      /* or NULL */
-    bool                with_direct; /* what the eye sees by itself counts, too */
-    bool                sets_luminances; /* the case has no reading: these paths give what is
-                                            reflected */
 } CauseArgs;
 
 /* A node and its material; `what` NULL: none is worth a word. */
@@ -48,8 +45,11 @@ typedef struct CauseFacts {
 } CauseFacts;
 
 /* Sets the case's causes: the greatest CAUSES_MOST, and "all other ways", which add up to the
- * reflected light by these paths, and the groups; that light itself where requested. */
+ * reflected light by these paths, and the groups. */
 CauseFacts case_causes(const CauseArgs *args, ReviewCase *c, Arena *arena);
+
+/* The same of all chains that were found already. */
+CauseFacts case_causes_of(const Chains *chains, int rays, ReviewCase *c, Arena *arena);
 
 /* The share of that light that comes via materials without data, alone: as the causes have it,
  * by the aim, tools and paths of the question. */

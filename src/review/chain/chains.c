@@ -29,8 +29,8 @@ typedef struct ChunkChain {
 typedef struct ChainChunk {
     ChunkChain *table;   /* [CHUNK_ROOM] */
     int         count;
-    double      all, mirror, own;
-    BrightSamples bright; /* as all */
+    double      all, mirror, own, reflected;
+    BrightSamples bright, bright_reflected; /* as all, as reflected */
     double     *by_part;
     ChainGroups groups;
     PlaceSums   places;
@@ -211,6 +211,10 @@ static void on_light(void *user, const PathHistory *history, const float xyz[3])
     ChunkChain *chain = chunk_chain(sums, &key);
     int         display = history->count ? display_of(scene, history->step[0].part_id) : NO_ID;
     sums->all += y;
+    if (history->count) {
+        sums->reflected += y;
+        bright_add(&sums->bright_reflected, y);
+    }
     bright_add(&sums->bright, y);
     if (display != NO_ID && history->step[0].event == PATH_REFLECTS) sums->mirror += y;
     if (display != NO_ID && history->source == LIGHTS_EMITTERS &&
@@ -272,7 +276,7 @@ typedef struct FoundChains {
     FoundChain **table;  /* [ROOM] */
     FoundChain **by_id;
     int          count;
-    FoundSums    all, mirror;
+    FoundSums    all, mirror, reflected;
     double       own;
 } FoundChains;
 
@@ -323,6 +327,8 @@ static void add_chunk(FoundChains *found, const ChainChunk *sums, int batch, Are
     add_sum(&found->all, batch, sums->all);
     add_bright(&found->all, &sums->bright);
     add_sum(&found->mirror, batch, sums->mirror);
+    add_sum(&found->reflected, batch, sums->reflected);
+    add_bright(&found->reflected, &sums->bright_reflected);
     found->own += sums->own;
     for (int i = 0; i < CHUNK_ROOM; i++) {
         const ChunkChain *from = &sums->table[i];
@@ -519,6 +525,7 @@ Chains chains_find(const ChainArgs *args, Arena *arena)
     }
     out.all = figure_of(&found.all, &search);
     out.mirror = figure_of(&found.mirror, &search);
+    out.reflected = figure_of(&found.reflected, &search);
     out.own = found.own / (double)out.paths;
     keep_greatest(&found, &search, own, &out);
     arena_release(&rounds);

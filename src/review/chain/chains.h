@@ -88,6 +88,7 @@ typedef struct Chains {
     int         others; /* how many more there are */
     ChainFigure rest;   /* theirs */
     ChainFigure all, mirror; /* mirror: via the mirror of a display that is seen first */
+    ChainFigure reflected;   /* all that does not come straight from its source */
     double      own;    /* cd m^-2 of `all` that began at the display that is seen first */
     double     *by_part; /* cd m^-2 that came by each part of the scene, surface or pane, behind
                             what is seen first; of parts that count as one at their first */

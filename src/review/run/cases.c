@@ -522,7 +522,7 @@ static bool case_of(const CaseTools *tools, const CaseArgs *args, Arena *arena, 
         int      rays = tools->cause_rays ? tools->cause_rays : CAUSE_RAYS;
         RemedyArgs   remedies = remedies_of(tools, args->symbol, &aim);
         ChainPlaces places = remedy_places(&remedies, arena);
-        CauseArgs causes = {&tools->setup->tools, &aim, paths, rays, &places, false, false};
+        CauseArgs causes = {&tools->setup->tools, &aim, paths, rays, &places};
         CauseFacts facts = case_causes(&causes, &c, arena);
         c.own_reflected = facts.own_cd_m2;
         judge_case(&c, tools->profile, arena); /* now that its share without data is known */

@@ -107,7 +107,6 @@ static bool explain_symbol(const CaseTools *tools, const SetupSymbol *symbol,
     c->symbol = arena_string(arena, c->symbol, strlen(c->symbol));
     out->paths = tools->cause_paths;
     out->shown = (double)NAN;
-    for (int i = 0; i < c->cause_count; i++) out->all.cd_m2 += c->causes[i].cd_m2;
     return true;
 }
 
@@ -140,11 +139,7 @@ static bool explain_on(Setup *setup, const ExplainOptions *options, Arena *scrat
         !find_eye(setup->request, options->eye, &eye, *scratch, err))
         return false;
     tools.symbols = symbols;
-    if (!explain_symbol(&tools, symbol, eye, arena, out, err)) return false;
-    out->has_outlook = options->with_outlook && case_is_seen(&out->of);
-    Vec3 from = scene_from_world(setup->scene->origin, out->of.eye_m);
-    if (out->has_outlook) out->outlook = setup_outlook(setup, symbol, from, arena);
-    return true;
+    return explain_symbol(&tools, symbol, eye, arena, out, err);
 }
 
 bool explain_review(const ReviewRequest *request, const ExplainOptions *options, Arena *arena,
@@ -152,7 +147,7 @@ bool explain_review(const ReviewRequest *request, const ExplainOptions *options,
 {
     SetupOptions setup_options = {.request = request, .means = options->means};
     Setup setup;
-    *out = (Explained){.has_outlook = false};
+    *out = (Explained){.has_pixel = false};
     if (!find_condition(request, options, &setup_options.condition, *arena, err)) return false;
     Arena scratch = arena_reserve(SETUP_BYTES);
     bool  ok = setup_open(&setup_options, &scratch, options->problems, &setup, err);
@@ -169,7 +164,6 @@ bool explain_review(const ReviewRequest *request, const ExplainOptions *options,
 
 /* ---- a display, a part of a picture ------------------------------------------------------ */
 
-#define SEED 0x6578706cu
 #define PANES 16 /* before a display, at most */
 
 /* ---- what is there ----------------------------------------------------------------------- */
@@ -249,43 +243,46 @@ static void set_sent(const ExplainPlace *place, const ProbeAim *aim, Explained *
     out->of.level = (double)scene->displays[display_id].level;
 }
 
-static void set_outlook(const ExplainPlace *place, const ProbeAim *aim, bool is_display,
-                        Arena *arena, Explained *out)
+static ReviewCase fresh_case(const Scene *scene, Vec3 eye)
 {
-    const Scene *scene = place->aim.context->scene;
-    Hit   hit;
-    if (!meet(place, aim->targets[aim->target_count / 2], is_display, &hit)) return;
-    TrianglePoint point = triangle_point(scene, hit.triangle, hit.u, hit.v);
-    Vec3       to_eye = vec3_sub(place->aim.eye, point.position);
-    Vec3       ng = vec3_dot(to_eye, point.ng) < 0 ? vec3_neg(point.ng) : point.ng;
-    OutlookArgs args = {place->aim.context, place->tools, ray_start(&point, ng), ng,
-                      outlook_up(ng), place->aim.eye};
-    out->has_outlook = true;
-    out->outlook = outlook_take(&args, arena);
+    const double nan = (double)NAN;
+    ReviewCase   c = {.luminance_cd_m2 = {nan, nan, nan, nan, nan, nan}, .contrast_ratio = nan,
+                      .contrast_low = nan, .contrast_high = nan, .limit_id = -1, .level = nan,
+                      .visible_share = 1};
+    memcpy(c.origin_m, scene->origin, sizeof c.origin_m);
+    world_from_scene(scene->origin, eye, c.eye_m);
+    return c;
 }
 
-/* ---- all of it --------------------------------------------------------------------------- */
+/* Of a pixel's light some is what the display itself sends. */
+static void set_light(const Chains *chains, bool is_display, ReviewCase *c)
+{
+    CaseLuminances *l = &c->luminance_cd_m2;
+    const ChainFigure *found = is_display ? &chains->reflected : &chains->all;
+    l->reflected = found->cd_m2;
+    c->reflected_range = (MeanInterval){found->low, found->high};
+    if (!is_display) return;
+    l->mirror = chains->mirror.cd_m2;
+    l->scattered = l->reflected - l->mirror;
+    judge_contrasts(c, c->reflected_range);
+}
 
 void explain_place(const ExplainPlace *place, Arena *arena, Explained *out)
 {
-    const double nan = (double)NAN;
     ProbeAim aim = place->aim;
-    aim.seed = SEED;
+    const ProbePixel *pixel = aim.pixel;
+    aim.pixel = NULL; /* its targets are asked what they show */
     bool is_display = aim_at_displays(place, &aim, arena);
-    *out = (Explained){.shown = nan, .paths = place->paths};
-    ReviewCase *c = &out->of;
-    *c = (ReviewCase){.luminance_cd_m2 = {nan, nan, nan, nan, nan, nan}, .contrast_ratio = nan,
-                      .contrast_low = nan, .contrast_high = nan, .limit_id = -1, .level = nan,
-                      .visible_share = 1};
-    const Scene *scene = place->aim.context->scene;
-    memcpy(c->origin_m, scene->origin, sizeof c->origin_m);
-    world_from_scene(scene->origin, place->aim.eye, c->eye_m);
+    *out = (Explained){.of = fresh_case(aim.context->scene, aim.eye), .shown = (double)NAN,
+                       .has_pixel = pixel != NULL};
     if (is_display) set_sent(place, &aim, out);
-    CauseArgs   args = {place->tools, &aim, place->paths, CHAIN_RAYS, NULL, !is_display, true};
-    CauseFacts facts = case_causes(&args, c, arena);
-    out->all = facts.all;
-    c->reflected_range = (MeanInterval){facts.all.low, facts.all.high};
-    if (is_display) judge_contrasts(c, c->reflected_range);
-    else c->luminance_cd_m2.mirror = c->luminance_cd_m2.scattered = nan;
-    if (place->with_outlook) set_outlook(place, &aim, is_display, arena, out);
+    if (pixel) aim = place->aim;
+    ChainArgs args = {.aim = &aim, .tools = place->tools, .paths = place->paths,
+                      .most = place->most, .with_direct = pixel || !is_display,
+                      .with_first_pane = pixel != NULL};
+    out->chains = chains_find(&args, arena);
+    out->paths = out->chains.paths;
+    set_light(&out->chains, is_display, &out->of);
+    case_causes_of(&out->chains, CHAIN_RAYS, &out->of, arena);
+    if (pixel) out->light = pixel_light_find(&args);
 }

@@ -11,7 +11,7 @@
  * Fails    where a name is missing or not known: the text lists those that there are.
  */
 #pragma once
-#include "review/chain/chains.h"
+#include "review/chain/causes.h"
 #include "review/chain/outlook.h"
 #include "review/profile.h"
 #include "review/run/cases.h"
@@ -22,7 +22,6 @@ typedef struct ExplainOptions {
     double      sun_deg[2];               /* azimuth of the vehicle, elevation */
     SetupMeans  means;
     long        paths;
-    bool        with_outlook;
     const Profile *profile;               /* limits */
     Problems      *problems;              /* warnings of the scene */
     bool         (*read)(void *user, const Scene *scene, Error *err); /* before it is traced */
@@ -31,10 +30,10 @@ typedef struct ExplainOptions {
 
 typedef struct Explained {
     ReviewCase  of;       /* `symbol` NULL: no symbol; contrasts NaN: no display */
-    ChainFigure all;      /* what its causes add up to */
     double      shown;    /* cd m^-2: of a display without a symbol what it emits, mean */
-    bool        has_outlook;
-    Outlook     outlook;
+    Chains      chains;   /* of a place: as its causes, first to last */
+    bool        has_pixel;
+    PixelLight  light;    /* of a pixel */
     long        paths;
 } Explained;
 
@@ -47,12 +46,14 @@ bool explain_review(const ReviewRequest *request, const ExplainOptions *options,
 /* A scene that is lit, and what is looked at in it. */
 typedef struct ExplainPlace {
     const ReadingTools *tools;
-    ProbeAim            aim; /* along its targets the eye looks; a path each, and again */
+    ProbeAim            aim; /* along its targets the eye looks; a path each, and again. With a
+                                pixel its samples are traced, and the targets, which lie in
+                                it, tell whether it shows a display */
     long                paths;
-    bool                with_outlook;
+    int                 most; /* chains that are listed by themselves */
 } ExplainPlace;
 
-/* Where at least half of the targets show a display, those of them count and the light is what
- * it reflects, its contrast that of white and black as the display sends them; else all that
- * comes to the eye. */
+/* Where at least half of the targets show a display, contrasts are those of white and black as
+ * the display sends them, on what it reflects. Of a display without a pixel those targets alone
+ * count, and the light is what it reflects; else it is all that comes to the eye. */
 void explain_place(const ExplainPlace *place, Arena *arena, Explained *out);
