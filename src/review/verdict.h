@@ -487,44 +487,6 @@ typedef struct ReviewVariantFound {
     const ReviewCase  *seen;        /* of the review: what they show */
 } ReviewVariantFound;
 
-/* How one symbol's margin of contrast hangs on a parameter, where the review has it least. */
-typedef struct ReviewSlope {
-    const ReviewCase *of;    /* of the review itself */
-    double            slope; /* margin by unit of the parameter; NaN: it is not seen there */
-    MeanInterval range; /* 95 %, by the same random numbers on both sides */
-} ReviewSlope;
-
-typedef struct ReviewSensitivity {
-    const char  *name, *unit;
-    double       at, step;       /* in that unit: where it stands, and by how much it was
-                                    turned, where its range allows, either way */
-    double       low, high;      /* the values that were compared */
-    ReviewSlope *slopes;         /* one a symbol, the least margin first */
-    int          slope_count;
-} ReviewSensitivity;
-
-/* A value of a parameter that was tried. */
-typedef struct ReviewTrial {
-    double  value;       /* in the parameter's unit */
-    Verdict verdict;     /* of the whole review there */
-    double  margin;      /* least of all; NaN: none */
-    bool    is_fresh;    /* by other random numbers than the review's */
-    const char *worst;   /* whose it is; NULL: none */
-} ReviewTrial;
-
-/* The smallest change that makes everything pass. */
-typedef struct ReviewMend {
-    const char  *name, *unit;
-    double       at;           /* where it stands, */
-    bool         is_found;
-    double       value;        /* and where all passes, confirmed by fresh paths; else the value
-                                  that came nearest */
-    double       outside;      /* the nearest value that was tried and does not pass; NaN: all
-                                  passes as it stands */
-    ReviewTrial *trials;       /* in their order */
-    int          trial_count;
-} ReviewMend;
-
 struct Review {
     const char *title, *profile;  /* profile: the standard's name and edition */
     ReviewCase     *cases;
@@ -541,10 +503,6 @@ struct Review {
     int             pane_image_count;
     ReviewVariantFound *variants; /* in the request's order */
     int             variant_count;
-    ReviewSensitivity *sensitivities;
-    int             sensitivity_count;
-    ReviewMend     *mends;
-    int             mend_count;
     const char *without_data;     /* names of materials without data; NULL: there are none */
     int         without_data_count;
     const char *const *notes;     /* what a reader must know: approximations, gaps in data */

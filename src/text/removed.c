@@ -38,6 +38,10 @@ const RemovedWord removed_words[] = {
                       "the frame"},
     {"explain", "--outlook", "render --projection fisheye --eye X,Y,Z --look-at X,Y,Z shows what "
                              "is seen from there"},
+    {"review", "--mend", "find the value by bisection over reviews: the script in parhelion help "
+                         "glare-review, What would mend it?"},
+    {"review", "sensitivity", "name the values as variants, which a script can write: parhelion "
+                              "help glare-review, What would mend it?"},
     {NULL, NULL, NULL},
 };
 

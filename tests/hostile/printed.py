@@ -135,7 +135,6 @@ def write_review(work):
         "precision": {"contrast": 0.2, "paths": 8192},
         "frames": {"size": [16, 9], "noise": 0.9, "worst": 1},
         "variants": {named("matte"): {"brightness": {SCREEN: 2}}},
-        "sensitivity": {named("peak"): {"brightness": 0.1, "display": SCREEN}},
         "conditions": [{"name": named("noon"), "level": named("level"),
                         "environment": {"type": "constant", "luminance": 3000}}]})
 
@@ -254,8 +253,7 @@ def check_review(work):
     write_review(work)
     ask, out = named("ask") + ".json", named("out") + NO_UTF8
     work.run("review", ask, "--dry-run")
-    work.run("review", ask, "-o", out, "--mend", named("peak"),
-             asks_json=False)
+    work.run("review", ask, "-o", out, asks_json=False)
     found = work.run("review", ask, "-o", out, "--diff", out, as_text=False)
     work.files_are_clean(out, TEXTS)
     symbols = sorted({c["symbol"] for c in found.get("cases", [])})
@@ -264,7 +262,6 @@ def check_review(work):
     of_bar = ["--symbol", named("bar"), "--paths", "1024"]
     work.run("explain", ask, "--condition", named("noon"), *of_bar)
     work.run("explain", ask, "--condition", named("moon"), *of_bar, status=2)
-    work.run("review", ask, "-o", out, "--mend", named("no such"), status=2)
     work.run("equip", DASH, "-o", named("equip") + ".html", asks_json=False)
     work.files_are_clean(".", {".html": "\n", ".xml": "\n"})
 

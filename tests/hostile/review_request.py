@@ -2,8 +2,7 @@
 """review_request.py [--all] PARHELION -- every key of REVIEW.json with values that it cannot
 have: of another kind, no number, negative, zero, huge, empty, too short, too long, an unknown
 key beside it. The schema says which are wrong; those are refused in one line that names the
-place, and what the schema takes is taken or refused so. Without --all every 27th of them, and
-beside those of a sensitivity only two of its kinds, each of which opens a panel anew. Then
+place, and what the schema takes is taken or refused so. Without --all every 27th of them. Then
 the files that a request names, what `explain` is asked, and what is in the output's way.
 """
 import calendar
@@ -82,14 +81,6 @@ GOOD = {
                 "mirror": {"middle_m": 0.1}, "hoods": {"screen": 0.02},
                 "eyes": {"box": {"move_m": [0, 0.01, 0]}},
                 "scene": ["dash.gltf"], "add": ["lamp.gltf"]}},
-    "sensitivity": {
-        "tilt": {"tilt_deg": 1, "node": "face", "with": ["shelf"], "range": [-5, 5]},
-        "turn": {"turn_deg": 1, "node": "face"}, "roll": {"roll_deg": 1, "node": "face"},
-        "shift": {"shift_m": 0.01, "node": "face", "direction": [0, 2, 0]},
-        "hood": {"hood_m": 0.01, "display": "screen"},
-        "eye": {"eye_m": 0.01, "eye": "box", "direction": [1, 0, 0]},
-        "peak": {"brightness": 0.1, "display": "*"},
-        "coat": {"reflectance": 0.005, "material": "coated", "at": 0.013}},
     "conditions": [
         {"name": "noon", "level": "auto", "with": "somebody", "polarity": "light-on-dark",
          "contents": {"screen": "letters.png"},
@@ -200,16 +191,6 @@ def trials():
                 yield place, text.replace(f'"{MARK}"', word), None
 
 
-def lighter(trial):
-    """A wrong value elsewhere, beside fewer sensitivities."""
-    place, _, document = trial
-    kinds = (document or {}).get("sensitivity")
-    if place[0] == "sensitivity" or not isinstance(kinds, dict):
-        return trial
-    document = {**document, "sensitivity": {name: kinds[name] for name in ("eye", "peak")}}
-    return place, json.dumps(document), document
-
-
 def is_near(told, place, document):
     """The place itself, what is in it, or what it is in; what was taken away may be missed by
     those beside it."""
@@ -277,8 +258,6 @@ def check_keys(report, requests, step):
     schema = written(requests.program, "review")
     validator = jsonschema.validators.validator_for(schema)(schema)
     chosen = list(trials())[::step]
-    if step > 1:
-        chosen = list(map(lighter, chosen))
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         answers = pool.map(requests.ask, range(len(chosen)), [text for _, text, _ in chosen])
         for number, (trial, answer) in enumerate(zip(chosen, answers)):

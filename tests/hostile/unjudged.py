@@ -107,11 +107,6 @@ def check_hidden(report, reviews):
     report.claim("Cannot be judged" in summary and "0.00 : 1" not in summary and
                  "0 : 1" not in re.sub("<svg.*?</svg>", "", summary, flags=re.S) and
                  "Remedy" not in summary, "hidden: the summary")
-    alone = asked(sensitivity={"peak": {"brightness": 0.5, "display": "*", "range": [1, 2]}})
-    del alone["symbols"]["letter"]
-    done = reviews.run(alone, "--mend", "peak")
-    report.claim(done.returncode == 1 and "no margin is known" in done.stdout and
-                 "nearest" not in done.stdout, f"hidden, mended: {done.stdout}")
 
 
 def check_optional(report, reviews):

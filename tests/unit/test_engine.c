@@ -51,8 +51,7 @@ static bool run_request(Heard *heard, Journal *journal, Arena *arena, ReviewOutc
                      .means = {.threads = 2, .journal = journal},
                      .problems = &problems, .progress = &progress,
                      .news = {hear_scene, heard}};
-    ReviewSteps steps = {.with_sensitivities = true};
-    return review_run(&run, &steps, arena, out, err);
+    return review_run(&run, false, arena, out, err);
 }
 
 ARENA_TEST(a_review_is_a_call)

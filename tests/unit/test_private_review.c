@@ -47,8 +47,7 @@ static Review run_request(Arena *arena)
     Progress    progress = progress_start(PROGRESS_NONE, "review", "steps", 1);
     ReviewRun   run = {.request = &request, .profile = profile, .means = {.threads = 2},
                        .problems = &problems, .progress = &progress};
-    ReviewSteps steps = {.with_sensitivities = false};
-    if (!review_run(&run, &steps, arena, &outcome, why())) fail_msg("%s", why()->text);
+    if (!review_run(&run, false, arena, &outcome, why())) fail_msg("%s", why()->text);
     return outcome.review;
 }
 

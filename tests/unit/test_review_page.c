@@ -191,11 +191,6 @@ static json_t *all_values(json_t *own)
     ReviewVariantFound variant = {.name = "v", .words = &change, .word_count = 1,
                                   .review = &before, .differences = &d, .difference_count = 1,
                                   .worst = d};
-    ReviewSlope       slopes[2] = {{worst, 0.1, {0.05, 0.2}}, {worst, NAN, {NAN, NAN}}};
-    ReviewSensitivity sensitivity = {.name = "s", .unit = "mm", .step = 1, .slopes = slopes,
-                                     .slope_count = 2};
-    ReviewTrial       trial = {.value = 1};
-    ReviewMend        mend = {.name = "m", .unit = "mm", .trials = &trial, .trial_count = 1};
     ReviewPicture     shown = {.of = worst, .title = "t", .caption = "c", .file = file,
                                .beside = "b.png", .view = &VIEW, .is_frame = true};
     ReviewPicture     pair[2] = {shown, {.title = "t", .file = file}};
@@ -206,9 +201,7 @@ static json_t *all_values(json_t *own)
     worst->rim = RIM;
     worst->rim_count = 3;
     review->variants = &variant;
-    review->sensitivities = &sensitivity;
-    review->mends = &mend;
-    review->variant_count = review->sensitivity_count = review->mend_count = 1;
+    review->variant_count = 1;
     PaneFinding panes[] = {fixture_pane("near"), fixture_pane_hidden()};
     pane_judge(&panes[0], "road", 0.1);
     review->pane_images = panes;

@@ -125,19 +125,6 @@ static const char *fact(const ReviewFacts *facts, const char *name)
     return "";
 }
 
-/* Of a value that was tried again by fresh paths the least margin is reported, not the last. */
-TEST(a_mend_tells_its_least_margin)
-{
-    ReviewTrial trials[] = {{1, VERDICT_FAIL, -0.33, false, NULL},
-                            {1.5, VERDICT_PASS, 0.04, false, NULL},
-                            {1.5, VERDICT_PASS, 0.013, true, NULL},
-                            {1.5, VERDICT_PASS, 0.11, true, NULL}};
-    ReviewMend mend = {.name = "brightness", .unit = "times the brightness", .at = 1,
-                       .is_found = true, .value = 1.5, .outside = 1.25, .trials = trials,
-                       .trial_count = 4};
-    assert_non_null(strstr(words_mend(&mend, &arena), "least margin +1.3 %"));
-}
-
 /* For each reason: what, why, and what to do; a figure that decides nothing is not reported. */
 TEST(what_cannot_be_judged_says_what_would_have_it_judged)
 {

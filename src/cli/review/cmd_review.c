@@ -32,7 +32,7 @@
 #define FILES_BYTES ((size_t)1 << 32) /* address space: what is not touched costs nothing */
 
 typedef struct ReviewWords {
-    const char *folder, *profile, *root, *isa, *diff, *init, *responses, *mend, *summary;
+    const char *folder, *profile, *root, *isa, *diff, *init, *responses, *summary;
     bool        is_strict, dry_run, is_self_contained, is_alone;
     StateWords  state_words;
     SceneState  state;
@@ -68,11 +68,8 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
         {"--self-contained", OPTION_FLAG, NULL,
          "pictures in the page itself, not in files beside it: to send it by mail",
          &out->is_self_contained},
-        {"--mend", OPTION_TEXT, "NAME",
-         "the smallest change of that parameter of \"sensitivity\" that makes all pass",
-         &out->mend},
         {"--no-variants", OPTION_FLAG, NULL,
-         "the review by itself, whatever variants and sensitivities it has", &out->is_alone},
+         "the review by itself, whatever variants it has", &out->is_alone},
         {"--summary", OPTION_TEXT, "SYMBOL",
          "one page of paper about this symbol, instead of one about each", &out->summary},
         {"--diff", OPTION_TEXT, "DIR", "an earlier review to hold this one against",
@@ -199,10 +196,8 @@ static bool spare_files(void *user, const Scene *scene, Error *err)
 static bool make_all(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
                      ReviewOutcome *outcome, Arena *arena, Error *err)
 {
-    const ReviewSteps steps = {.is_strict = words->is_strict,
-                               .with_sensitivities = !words->is_alone};
     run->news = (ReviewNews){spare_files, folder};
-    bool ok = review_run(run, &steps, arena, outcome, err);
+    bool ok = review_run(run, words->is_strict, arena, outcome, err);
     progress_clear(run->progress);
     cli_print_warnings(run->problems);
     return ok && review_folder_write(folder, outcome, arena, err);
@@ -231,24 +226,6 @@ static Outcome make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *r
     review_folder_finish(folder);
     if (!review_print(&words->cli, &found.review, *arena, err)) return OUTCOME_FAILED;
     return found.review.pass ? OUTCOME_DONE : OUTCOME_NO;
-}
-
-static bool find_parameter(const ReviewRequest *request, const char *name, Arena scratch,
-                           const ReviewParameter **out, Error *err)
-{
-    char         advice[320];
-    int          count = request->parameter_count;
-    const char **names = ARENA_NEW(&scratch, const char *, count + 1);
-    for (int i = 0; i < count; i++) {
-        *out = &request->parameters[i];
-        names[i] = request->parameters[i].name;
-        if (!strcmp(names[i], name)) return true;
-    }
-    if (!count)
-        return error_set(err, ERROR_USAGE, "--mend %.100s: %.200s has no \"sensitivity\", "
-                         "whose parameters could be turned", name, request->file);
-    return error_set(err, ERROR_USAGE, "--mend %.100s: is no parameter of \"sensitivity\": %s",
-                     name, nearest_word_advice(name, names, count, advice, sizeof advice));
 }
 
 /* Symbols that are found in a content are "NAME 1", "NAME 2" ... */
@@ -291,12 +268,9 @@ static Outcome review(const ReviewWords *words, Arena *arena, Error *err)
         return words->profile ? OUTCOME_FAILED : error_in_file(err, request.file);
     if (request.privacy.is_given)
         profile = profile_with_security(profile, request.privacy.security_min, arena);
-    if (words->mend && !find_parameter(&request, words->mend, *arena, &folder.mend, err))
-        return OUTCOME_FAILED;
     if (words->is_alone) {
         request.variant_count = 0;
-        if (!words->mend) request.parameter_count = 0; /* else they are checked with it */
-        request.is_compared = words->mend != NULL;
+        request.is_compared = false;
     }
     if ((words->summary && !check_symbol(&request, words->summary, *arena, err)) ||
         !review_check(&request, *arena, err) ||
@@ -305,7 +279,7 @@ static Outcome review(const ReviewWords *words, Arena *arena, Error *err)
         return OUTCOME_FAILED;
     Progress  progress = progress_start(words->cli.progress, "review", "steps",
                                         review_steps(&request));
-    ReviewRun run = {.request = &request, .profile = profile, .mend = folder.mend,
+    ReviewRun run = {.request = &request, .profile = profile,
                      .means = {.root = words->root, .state = words->state,
                                .threads = words->cli.threads, .isa = words->isa},
                      .problems = &problems, .progress = &progress};

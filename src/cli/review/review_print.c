@@ -136,11 +136,6 @@ static void print_variant(const Review *review, const ReviewVariantFound *v, Are
               road_change_words(&change, &scratch));
 }
 
-static void print_mend(const ReviewMend *m, Arena *scratch)
-{
-    print("%-16s %s\n", m->is_found ? "remedy" : "no remedy", words_mend(m, scratch));
-}
-
 /* Dots that go on from the line before are left out. */
 static void print_fact(const ReviewFact *fact)
 {
@@ -169,7 +164,6 @@ static void print_review(const Review *review, Arena scratch)
     const ReviewCase *worst = review_worst(review, scratch);
     for (int i = 0; i < review->variant_count; i++)
         print_variant(review, &review->variants[i], scratch);
-    for (int i = 0; i < review->mend_count; i++) print_mend(&review->mends[i], &scratch);
     if (worst) print_worst(review, worst, scratch);
     const char *rests = review_rests_words(review, &scratch);
     if (rests[0]) print("%-16s %s\n", "rests on", rests);

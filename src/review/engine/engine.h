@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* engine.h -- a whole review, in order: every moment and sweep, then variants, sensitivities, a
- * remedy, and pictures of the worst cases.
+/* engine.h -- a whole review, in order: every moment and sweep, then variants, and pictures of
+ * the worst cases.
  *
  * Who listens gets each scene (ReviewRun.news).
  *
@@ -12,11 +12,7 @@
 #pragma once
 #include "review/run/job.h"
 
-typedef struct ReviewSteps {
-    bool is_strict;          /* as in review_decide */
-    bool with_sensitivities; /* the request's; else its parameters serve the remedy alone */
-} ReviewSteps;
-
-/* Pictures and checkpoints are written into the run's folders; nothing else is written here. */
-bool review_run(const ReviewRun *run, const ReviewSteps *steps, Arena *arena,
-                ReviewOutcome *out, Error *err);
+/* is_strict: as in review_decide. Pictures and checkpoints are written into the run's folders;
+ * nothing else is written here. */
+bool review_run(const ReviewRun *run, bool is_strict, Arena *arena, ReviewOutcome *out,
+                Error *err);

@@ -269,12 +269,6 @@ static void add_facts(const Review *review, ReviewPage *page, Arena *arena)
     page->facts = facts;
 }
 
-/* " --mend NAME"; "" without a name. */
-static const char *option_text(const char *option, const char *name, Arena *arena)
-{
-    return name ? arena_format(arena, " %s %s", option, escape_shell(name, arena)) : "";
-}
-
 const char *review_folder_command(const ReviewFolder *folder, Arena *arena)
 {
     const char *profile =
@@ -284,12 +278,14 @@ const char *review_folder_command(const ReviewFolder *folder, Arena *arena)
     const char *responses = folder->has_own_responses
                                 ? ""
                                 : arena_format(arena, " --responses %s", folder->responses);
-    const char *mend = option_text("--mend", folder->mend ? folder->mend->name : NULL, arena);
-    const char *summary = option_text("--summary", folder->summary, arena);
-    return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s%s%s%s%s%s",
+    const char *summary =
+        folder->summary
+            ? arena_format(arena, " --summary %s", escape_shell(folder->summary, arena))
+            : "";
+    return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s%s%s%s%s",
                         folder->request->file,
                         folder->target, profile, root, folder->state_text, diff, responses,
-                        mend, summary, folder->is_alone ? " --no-variants" : "",
+                        summary, folder->is_alone ? " --no-variants" : "",
                         folder->is_strict ? " --strict" : "",
                         folder->is_self_contained ? " --self-contained" : "");
 }

@@ -19,7 +19,6 @@ typedef struct ReviewFolder {
     const char          *target; /* as on the command line */
     const ReviewRequest *request;
     const char          *diff; /* folder of an earlier review; NULL: none */
-    const ReviewParameter *mend; /* --mend's; NULL: none */
     const char          *summary; /* the symbol that --summary names; NULL: all */
     const char          *profile, *root; /* as on the command line; NULL: not given */
     const char          *state_text;     /* the same, each option with a blank before it */

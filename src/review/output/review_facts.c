@@ -8,44 +8,6 @@
 #include "review/review_decide.h"
 #include "text/text.h"
 
-/* Of the trials at a value, by the same paths and by fresh ones, that of the least margin.
- * NULL: there is none. */
-static const ReviewTrial *trial_at(const ReviewMend *mend, double value)
-{
-    const ReviewTrial *found = NULL;
-    for (int i = 0; i < mend->trial_count; i++) {
-        const ReviewTrial *trial = &mend->trials[i];
-        if (trial->value == value && !(found && trial->margin >= found->margin)) found = trial;
-    }
-    return found;
-}
-
-/* "2.6 degrees", "31 mm", "1.1 %". */
-static const char *value_words(const ReviewMend *m, double value, Arena *arena)
-{
-    bool is_many = words_same(m->unit, "degree") && value != 1;
-    return arena_format(arena, "%.3g %s%s", value, m->unit, is_many ? "s" : "");
-}
-
-const char *words_mend(const ReviewMend *m, Arena *arena)
-{
-    const ReviewTrial *at = trial_at(m, m->value);
-    const char *margin = at ? words_margin(at->margin, arena) : "–";
-    const char *value = value_words(m, m->value, arena);
-    if (!m->is_found && (!at || isnan(at->margin)))
-        return arena_format(arena, "%s: no value that was tried makes everything pass: no "
-                            "margin is known, what is required cannot be judged", m->name);
-    if (!m->is_found)
-        return arena_format(arena, "%s: no value that was tried makes everything pass; nearest "
-                            "came %s: least margin %s%s%s", m->name, value, margin,
-                            at->worst ? ", " : "", at->worst ? at->worst : "");
-    if (isnan(m->outside))
-        return arena_format(arena, "%s: everything passes as it stands, at %s", m->name, value);
-    return arena_format(arena, "%s: with %s instead of %.3g everything passes, its least "
-                        "margin %s; with %.4g something does not", m->name, value, m->at,
-                        margin, m->outside);
-}
-
 #define MENDS_LISTED 2
 #define SHARES_LISTED 3
 
@@ -179,9 +141,6 @@ static void add_mend(ReviewFacts *facts, int *listed, bool mends, const char *wo
 /* Changes tried on the whole review go before those estimated for this case alone. */
 static void add_tried(ReviewFacts *facts, const Review *review, int *listed, Arena *arena)
 {
-    for (int i = 0; i < review->mend_count; i++)
-        if (review->mends[i].is_found)
-            add_mend(facts, listed, true, words_mend(&review->mends[i], arena));
     for (int i = 0; i < review->variant_count && *listed < MENDS_LISTED; i++) {
         const ReviewVariantFound *v = &review->variants[i];
         if (review_verdict(v->review) == VERDICT_PASS)

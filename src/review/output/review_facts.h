@@ -36,6 +36,3 @@ ReviewFacts review_facts_of(const Review *review, const ReviewCase *c,
  * cases, which may be a part of another's. "": nothing is known, as of an older review. */
 const char *review_rests_words(const Review *review, Arena *arena);
 
-/* "tilt: with 2.6 degrees instead of 0 everything passes ...; with 2.5 something does not";
- * where no value does what is left. */
-const char *words_mend(const ReviewMend *mend, Arena *arena);

@@ -151,17 +151,6 @@ TABLE(rest_json, ReviewRest,
 TABLE(files_json, ReviewFile,
     OWN(TEXT, ReviewFile, path), OWN(TEXT, ReviewFile, xxh3));
 
-TABLE(trial_json, ReviewTrial,
-    OWN(FIGURE, ReviewTrial, value), OWN(VERDICT, ReviewTrial, verdict),
-    AS("least_margin", FIGURE, ReviewTrial, margin), AS("of", TEXT, ReviewTrial, worst),
-    AS("fresh", FLAG, ReviewTrial, is_fresh));
-
-TABLE(mend_json, ReviewMend,
-    OWN(TEXT, ReviewMend, name), OWN(TEXT, ReviewMend, unit), OWN(FIGURE, ReviewMend, at),
-    AS("found", FLAG, ReviewMend, is_found), OWN(FIGURE, ReviewMend, value),
-    OWN(FIGURE, ReviewMend, outside),
-    LIST("trials", MUST, ReviewMend, trials, trial_count, trial_json));
-
 /* ---- variants ---------------------------------------------------------------------------- */
 
 static json_t *pair(double low, double high)
@@ -245,31 +234,6 @@ static json_t *variant_json(const Review *review, const ReviewVariantFound *v)
     return out;
 }
 
-static json_t *slope_json(const ReviewSlope *slope)
-{
-    static const char *const KEYS[] = {"condition", "eye", "symbol", "margin", NULL};
-    json_t *out = json_object();
-    case_members_json(slope->of, KEYS, out);
-    set(out, "margin_per_unit", json_figure(slope->slope));
-    set(out, "interval", pair(slope->range.low, slope->range.high));
-    return out;
-}
-
-static json_t *write_slopes(const void *item)
-{
-    const ReviewSensitivity *s = item;
-    json_t                  *slopes = json_array();
-    for (int i = 0; i < s->slope_count; i++)
-        json_array_append_new(slopes, slope_json(&s->slopes[i]));
-    return slopes;
-}
-
-FOLLOWS(ReviewSensitivity, high, low);
-TABLE(sensitivity_json, ReviewSensitivity,
-    OWN(TEXT, ReviewSensitivity, name), OWN(TEXT, ReviewSensitivity, unit),
-    OWN(FIGURE, ReviewSensitivity, at), OWN(FIGURE, ReviewSensitivity, step),
-    AS("compared", RANGE, ReviewSensitivity, low), TOLD("symbols", 0, write_slopes));
-
 /* ---- what is stated of the whole --------------------------------------------------------- */
 
 static json_t *write_variants(const void *item)
@@ -346,9 +310,6 @@ TABLE(whole_json, Review,
     LIST("false_suns", MUST, Review, false_suns, false_sun_count, false_sun_json),
     LIST("pane_images", RECORD_BRIEF, Review, pane_images, pane_image_count, pane_image_json),
     TOLD("variants", RECORD_BRIEF, write_variants),
-    LIST("sensitivity", RECORD_WRITTEN | RECORD_BRIEF, Review, sensitivities, sensitivity_count,
-         sensitivity_json),
-    LIST("mends", RECORD_WRITTEN | RECORD_BRIEF, Review, mends, mend_count, mend_json),
     TOLD("eye_places", 0, write_places), TOLD("panels", 0, write_panels),
     LIST("responses", MUST, Review, responses, response_count, response_json),
     AS_TEXT("without_data", RECORD_WRITTEN, Review, without_data),

@@ -515,7 +515,7 @@ static Review part_of(const Review *whole, const char *symbol, Arena *arena)
     Review part = *whole;
     part.whole = whole;
     part.main_cards = part.case_count = part.sweep_count = part.gaze_count = 0;
-    part.variant_count = part.sensitivity_count = part.mend_count = 0;
+    part.variant_count = 0;
     part.cases = ARENA_NEW(arena, ReviewCase, whole->case_count);
     part.sweeps = ARENA_NEW(arena, ReviewSweep, whole->sweep_count);
     for (int i = 0; i < whole->case_count; i++)

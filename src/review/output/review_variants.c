@@ -335,118 +335,6 @@ static bool add_variants(const PageValues *v, Error *err)
     return true;
 }
 
-/* ---- sensitivity ------------------------------------------------------------------------- */
-
-#define BAR_WIDTH 300
-#define BAR_HEIGHT 22
-
-/* The effect of one step, in percent of the limit. */
-static double effect(const ReviewSensitivity *s, const ReviewSlope *slope)
-{
-    return 100 * s->step * slope->slope;
-}
-
-static double greatest_effect(const Review *review)
-{
-    double most = 0;
-    for (int i = 0; i < review->sensitivity_count; i++)
-        for (int k = 0; k < review->sensitivities[i].slope_count; k++) {
-            const ReviewSensitivity *s = &review->sensitivities[i];
-            const ReviewSlope       *slope = &s->slopes[k];
-            if (isnan(slope->slope)) continue;
-            most = fmax(most, fabs(effect(s, slope)));
-        }
-    return most;
-}
-
-/* A bar to the right gains; the line in it is the interval. */
-static const char *effect_bar(const ReviewSensitivity *s, const ReviewSlope *slope, double most,
-                              Arena *arena)
-{
-    Text   svg = {.arena = arena};
-    double scale = most > 0 ? 0.46 * BAR_WIDTH / most : 0, middle = 0.5 * BAR_WIDTH;
-    double value = effect(s, slope), x = scale * value;
-    double low = middle + scale * 100 * s->step * slope->range.low;
-    double high = middle + scale * 100 * s->step * slope->range.high;
-    text_format(&svg, "<svg class=\"margin\" width=\"%d\" height=\"%d\" role=\"img\" "
-                "aria-label=\"%+.2g percent of the limit by a step\">", BAR_WIDTH, BAR_HEIGHT,
-                value);
-    text_format(&svg, "<rect class=\"%s\" x=\"%.1f\" y=\"4\" width=\"%.1f\" height=\"14\"/>",
-                value < 0 ? "bad" : "good", x < 0 ? middle + x : middle, fabs(x));
-    text_format(&svg, "<path d=\"M%.1f 0V%d\"/><path class=\"whisker\" d=\"M%.1f 11H%.1f\"/>"
-                "</svg>", middle, BAR_HEIGHT, fmax(low, 0), fmin(high, BAR_WIDTH));
-    return svg.data;
-}
-
-/* "+1.03 ± 0.01 % per mm"; "none" below what a step shows. */
-static const char *slope_words(const ReviewSensitivity *s, const ReviewSlope *slope,
-                               Arena *arena)
-{
-    const char *effect = effect_text(slope->slope, slope->range, SHOWN_SHARE / s->step, arena);
-    if (words_same(effect, EFFECT_NONE)) return effect;
-    return arena_format(arena, "%s per %s", effect, s->unit);
-}
-
-static void add_slope(json_t *list, const ReviewSensitivity *s, int place, double most,
-                      Arena *arena)
-{
-    const ReviewSlope *slope = &s->slopes[place];
-    json_t            *to = page_add(list);
-    bool               is_known = !isnan(slope->slope);
-    page_set(to, "name", place > 1 ? "" : s->name); /* the first of its table */
-    page_set(to, "case", words_case(slope->of, arena));
-    page_set(to, "margin", words_margin(slope->of->margin, arena));
-    page_set(to, "slope", is_known ? slope_words(s, slope, arena) : NULL);
-    page_set(to, "bar", is_known ? effect_bar(s, slope, most, arena) : NULL);
-}
-
-static int compare_parameters(const void *a, const void *b)
-{
-    const ReviewSensitivity *one = *(const ReviewSensitivity *const *)a;
-    const ReviewSensitivity *other = *(const ReviewSensitivity *const *)b;
-    double x = one->slope_count ? fabs(effect(one, &one->slopes[0])) : 0;
-    double y = other->slope_count ? fabs(effect(other, &other->slopes[0])) : 0;
-    if (isnan(x)) x = 0;
-    if (isnan(y)) y = 0;
-    return x != y ? (x < y ? 1 : -1) : one < other ? -1 : 1;
-}
-
-/* The parameter that moves the least margin most comes first; symbols whose margin is not the
- * least are folded. */
-static void add_sensitivities(const PageValues *v)
-{
-    int     count = v->review->sensitivity_count, others = 0;
-    double  most = greatest_effect(v->review);
-    if (!count) return;
-    const ReviewSensitivity **list = ARENA_NEW(v->arena, const ReviewSensitivity *, count);
-    for (int i = 0; i < count; i++) list[i] = &v->review->sensitivities[i];
-    for (int i = 0; i < count; i++) others += list[i]->slope_count > 1;
-    qsort(list, (size_t)count, sizeof *list, compare_parameters);
-    json_t *slopes = values_object(v->doc, "slopes");
-    json_t *rows[2] = {values_list(values_object(slopes, "least"), "rows"),
-                       others ? values_list(values_object(slopes, "others"), "rows") : NULL};
-    for (int i = 0; i < count; i++)
-        for (int k = 0; k < list[i]->slope_count; k++)
-            add_slope(rows[k > 0], list[i], k, most, v->arena);
-}
-
-/* ---- what would remedy it ---------------------------------------------------------------- */
-
-static void add_mends(const PageValues *v)
-{
-    for (int i = 0; i < v->review->mend_count; i++) {
-        const ReviewMend *mend = &v->review->mends[i];
-        json_t *to = json_array_get(json_object_get(v->doc, "mends"), (size_t)i);
-        page_set(to, "words", words_mend(mend, v->arena));
-        page_set_count(to, "trial_count", mend->trial_count);
-        for (int k = 0; k < mend->trial_count; k++) {
-            json_t *trial = json_array_get(json_object_get(to, "trials"), (size_t)k);
-            values_set_verdict(trial, mend->trials[k].verdict);
-            page_set(trial, "margin", words_margin(mend->trials[k].margin, v->arena));
-        }
-    }
-}
-
 /* Those of what must not be read say so. */
 static bool add_places(const PageValues *v)
 {
@@ -459,12 +347,6 @@ static bool add_places(const PageValues *v)
 
 bool values_add_variants(const PageValues *v, Error *err)
 {
-    const Review *review = v->review;
-    bool has_places = add_places(v);
-    page_set_flag(v->doc, "has_places", has_places);
-    page_set_flag(v->doc, "has_what_if", review->variant_count || review->sensitivity_count ||
-                                             review->mend_count);
-    add_sensitivities(v);
-    add_mends(v);
+    page_set_flag(v->doc, "has_places", add_places(v));
     return add_variants(v, err);
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* review_variants.h -- what if: variants beside each other, the best first, and what each
- * changes of every symbol; how margins hang on parameters; the smallest change that remedies
- * it.
+ * changes of every symbol.
  *
  * Memory   the document's (jansson) and the arena's. Threads: one at a time.
  * Fails    for a picture that cannot be read.

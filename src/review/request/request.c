@@ -283,7 +283,6 @@ ReviewRequest review_request_variant(const ReviewRequest *request, const ReviewV
     ReviewRequest of = *request;
     of.variants = NULL;
     of.variant_count = 0;
-    of.parameter_count = 0;
     of.change = &variant->change;
     of.is_relevelled = is_of_levels(request, variant);
     if (variant->level_count) set_levels(&of, variant, arena);
@@ -297,8 +296,6 @@ bool review_is_compared(const ReviewRequest *request)
 {
     for (int i = 0; i < request->variant_count; i++)
         if (!is_of_levels(request, &request->variants[i])) return true;
-    for (int i = 0; i < request->parameter_count; i++)
-        if (request->parameters[i].kind != PARAMETER_BRIGHTNESS) return true;
     return false;
 }
 

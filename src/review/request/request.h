@@ -243,7 +243,7 @@ typedef struct ReviewWeather {
 
 /* Differences from the review itself; what is not named stays as it is. */
 typedef struct ReviewChange {
-    const char          *place;    /* JSON path of the variant or parameter */
+    const char          *place;    /* JSON path of the variant */
     const SceneChange   *scene;    /* nodes, materials, hoods, the mirror */
     int                  scene_count;
     const SceneOverride *panels;   /* by display: a file */
@@ -272,35 +272,6 @@ typedef struct ReviewVariant {
     int          more_count;
     double     (*eye_moves)[3]; /* m, one an eye */
 } ReviewVariant;
-
-/* One number that may be turned: how verdicts hang on it, and where all of them pass. */
-typedef enum ReviewParameterKind {
-    PARAMETER_TILT,        /* degrees, of a node (scene/change/node_change.h) */
-    PARAMETER_TURN,
-    PARAMETER_ROLL,
-    PARAMETER_SHIFT,       /* m along `direction`, of a node */
-    PARAMETER_HOOD,        /* m, over a display */
-    PARAMETER_EYE,         /* m along `direction`, of an eye */
-    PARAMETER_BRIGHTNESS,  /* times as bright as it stands, of a display or "*" */
-    PARAMETER_REFLECTANCE, /* 0..BARE_REFLECTANCE of a material's coating: a quarter wave at 550
-                              nm on glass of index 1.52, of the index that leaves so much */
-    PARAMETER_KINDS
-} ReviewParameterKind;
-
-typedef struct ReviewParameter {
-    const char  *name;
-    ReviewParameterKind kind;
-    const char  *target;     /* a node, display, eye or material */
-    const char **with;       /* nodes that move along */
-    int          with_count;
-    double       direction[3]; /* unit */
-    double       at;         /* where it stands now: 0; brightness 1; reflectance as given */
-    double       step;       /* for the slope, above 0 */
-    double       low, high;  /* range that may be tried */
-    const char  *place;      /* JSON path */
-} ReviewParameter;
-
-#define BARE_REFLECTANCE 0.0425 /* just below glass of index 1.52 at normal incidence */
 
 /* Where a display's surface is: all parts of its material, or those of one node. */
 typedef struct ReviewDisplay {
@@ -389,10 +360,8 @@ typedef struct ReviewRequest {
     const ReviewPaneImages *pane_images; /* NULL: displays in glass are not looked for */
     ReviewVariant   *variants;
     int              variant_count;
-    ReviewParameter *parameters; /* "sensitivity" in the file */
-    int              parameter_count;
-    bool             is_compared; /* has variants or parameters that change more than levels, or
-                                     is one of them: read from more paths (run/cases.c) */
+    bool             is_compared; /* has variants that change more than levels, or is one of
+                                     them: read from more paths (run/cases.c) */
     const ReviewChange *change;  /* this variant's; NULL: the review itself */
     bool             is_relevelled; /* it changes levels of displays and nothing else */
     ReviewInput     *inputs;     /* the file itself, weathers, skies' pictures */

@@ -13,7 +13,6 @@
 extern const RecordFormat review_eye_format, review_gaze_format, review_symbol_format;
 extern const RecordFormat review_with_format, review_level_format, review_condition_format;
 extern const RecordFormat review_glasses_format, review_variant_format;
-extern const RecordFormat review_parameter_format;
 extern const RecordFormat review_panes_format;
 extern const RecordFormat review_content_format; /* of a ReviewContent: a file by display */
 

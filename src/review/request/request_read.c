@@ -181,9 +181,6 @@ static const RecordRow REVIEW[] = {
     MAP("variants", 0, variants, variant_count, 100, review_variant_format,
         "The same review with something changed, by name: each is held against the review "
         "itself."),
-    MAP("sensitivity", 0, parameters, parameter_count, 100, review_parameter_format,
-        "Numbers that may be turned, by name: how margins hang on them; --mend NAME seeks the "
-        "smallest change that makes everything pass."),
     {0}};
 
 static void start_review(void *item)

@@ -67,8 +67,6 @@ typedef struct ReviewRun {
     const char          *responses_shown; /* and as the review names it */
     ReviewShare          share;    /* of its questions: the others' are left alone */
     const char          *identity; /* review_plan's, of what was planned; NULL: anything */
-    const ReviewParameter *mend;   /* the request's: of it the smallest change is sought that
-                                      makes all pass; NULL: of none */
     ReviewNews           news;
     Problems            *problems; /* warnings of scenes, once each */
     SunSearches         *sun_searches; /* review_run_conditions' own */
