@@ -174,7 +174,7 @@ ARENA_TEST(a_review_of_what_must_not_be_read)
 enum { SUNS = 5 };
 static const double LIGHT[SUNS] = {40, 3, 900, 3.5, 60}; /* reflected under each, cd/m2 */
 
-/* A symbol of 100 cd/m2 on 1 under those suns, which a probe read. */
+/* A symbol of 100 cd/m2 on 1 under those suns. */
 static SunFigures under_suns(bool is_private, Arena *arena)
 {
     static Display     display = {.name = "screen"};
@@ -193,14 +193,22 @@ static SunFigures under_suns(bool is_private, Arena *arena)
     Sweep         sweep = {.run = &run, .setup = &setup, .suns = {.count = SUNS}};
     SetupSymbol   symbol = {.display_name = "screen"};
     SweepMeter    face = {.lux = lux};
-    DistantReading read[SUNS];
-    for (int i = 0; i < SUNS; i++)
-        read[i] = (DistantReading){.sky = LIGHT[i], .interval = {LIGHT[i], LIGHT[i]}};
-    Sight sight = {.symbol = &symbol, .face = &face, .read = read, .is_private = is_private,
+    DistantSun    suns[SUNS]; /* all of them down: the hours' skies are all the light */
+    float         alike[RESPONSE_GROUPS];
+    double        skies[SUNS];
+    BrightSamples bright = {0};
+    HourSkies     hours = {.list = NULL};
+    DistantTools  tools = {.setup = &setup, .hours = &hours, .suns = {suns, SUNS}};
+    memcpy(skies, LIGHT, sizeof skies);
+    for (int i = 0; i < SUNS; i++) suns[i] = (DistantSun){{0, -5}, 1};
+    for (int k = 0; k < RESPONSE_GROUPS; k++) alike[k] = 1;
+    Sight sight = {.symbol = &symbol, .face = &face, .is_private = is_private,
+                   .probe = {.sky = skies, .sky_bright = &bright, .sky_without = alike,
+                             .response = {.paths = 2 * RESPONSE_CHUNK}},
                    .seen = {1, 1}, .shown = {.foreground = 100, .background = 1},
                    .height_arcmin = 20};
     SunFigures figures = sun_figures_start(SUNS, arena);
-    sun_figures_judge(&sweep, &sight, NULL, &figures, *arena);
+    sun_figures_judge(&sweep, &sight, &tools, &figures, *arena);
     return figures;
 }
 
