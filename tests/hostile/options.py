@@ -128,7 +128,7 @@ def check_arguments(report, program):
                   ["develop", "a.exr", "b.exr", "-o", "x.png"],
                   ["measure", "a.exr", "b.exr"], ["compare", "a.exr", "b.exr", "c.exr"],
                   ["review", "a.json", "b.json"], ["explain", "a.json", "b.json"],
-                  ["status", "a", "b"], ["part", "a", "0", "b"], ["equip", "a.gltf", "b.gltf"]):
+                  ["equip", "a.gltf", "b.gltf"]):
         done = program(words)
         report.claim(done.returncode == 2 and done.stderr.count("\n") == 1,
                      f"{words}: status {done.returncode}, {done.stderr[:200]!r}")

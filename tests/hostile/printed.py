@@ -228,7 +228,6 @@ def check_refusals(work):
                   ["panel", "fit", no_scene, "-o", "x.panel"], ["compare", no_scene, FRAME],
                   ["panel", "import", no_scene, "-o", "x.json"],
                   ["merge", no_scene, "-o", "x.exr"], ["review", no_scene, "-o", "x"],
-                  ["status", no_scene], ["part", no_scene, "1"],
                   ["equip", no_scene, "-o", "x.html"],
                   ["equip", DASH, "--with", no_scene, "-o", "y.gltf"]):
         work.run(*words, status=3)
