@@ -325,7 +325,7 @@ static void print_options(const Option *options, int count)
                  option->value ? option->value : "");
         if (strlen(left) <= 30) print("  %-30s", left);
         else print("  %s\n  %-30s", left, "");
-        print("  %s%s\n", option->help, option_repeats(option));
+        print("  %s%s\n", option->help, option->kind == OPTION_TEXTS ? "; repeatable" : "");
     }
 }
 

@@ -30,8 +30,3 @@ const Command *command_find(const Command *const *list, int count, const char *w
                   "they do", name, advice);
     return NULL;
 }
-
-const char *option_repeats(const Option *option)
-{
-    return option->kind == OPTION_TEXTS ? "; repeatable" : "";
-}

@@ -79,9 +79,6 @@ typedef struct Option {
     OptionFile  file;  /* of OPTION_TEXT */
 } Option;
 
-/* What ends the help of an option that may be given many times; "" for all others. */
-const char *option_repeats(const Option *option);
-
 typedef void HelpRow(void *user, const char *name, const char *text);
 
 typedef struct CliCommand {

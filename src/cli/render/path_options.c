@@ -59,10 +59,3 @@ bool polarised_options_read(const PolarisedWords *words, bool wants_all, unsigne
     *out = eye;
     return true;
 }
-
-bool guiding_options_check(const RenderOptions *render, Error *err)
-{
-    return !(render->field && render->no_guiding) ||
-           error_set(err, ERROR_USAGE, "--field %s keeps what is learnt — leave out "
-                                       "--no-guiding", render->field);
-}

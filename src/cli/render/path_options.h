@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* path_options.h -- how paths are followed: `--polarised` and `--sunglasses`, how the eye takes
- * polarised light; `--no-guiding` and `--field`, the guide of where light comes from.
+/* path_options.h -- `--polarised` and `--sunglasses`: how the eye takes polarised light.
  *
  * Memory   the eye comes from the arena.
  * Fails    ERROR_USAGE with the option.
@@ -8,7 +7,6 @@
 #pragma once
 #include "cli/options/cli.h"
 #include "path/polarised.h"
-#include "render/render.h"
 
 typedef struct PolarisedWords {
     bool        is_polarised;
@@ -28,14 +26,3 @@ typedef struct PolarisedWords {
  * LAYER_STOKES afterwards if it may and `wants_all` or it had. */
 bool polarised_options_read(const PolarisedWords *words, bool wants_all, unsigned *layers,
                             Arena *arena, const PolarisedEye **out, Error *err);
-
-/* Rows of an option table: RenderOptions *. */
-#define GUIDING_OPTIONS(render)                                                                \
-    {"--no-guiding", OPTION_FLAG, NULL,                                                        \
-     "do not learn first where light comes from: the plain estimator, of more noise",          \
-     &(render)->no_guiding},                                                                   \
-    {"--field", OPTION_TEXT, "FILE",                                                           \
-     "what is learnt: taken from this file if it is there, else kept there",                   \
-     &(render)->field, .file = OPTION_KEPT}
-
-bool guiding_options_check(const RenderOptions *render, Error *err);

@@ -257,7 +257,9 @@ static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *
     if (typed->previews && !set_preview(typed, request, err)) return false;
     options->max_bounces = (int)typed->max_bounces;
     options->seed = (uint32_t)typed->seed;
-    if (!guiding_options_check(options, err)) return false;
+    if (options->field && options->no_guiding)
+        return error_set(err, ERROR_USAGE, "--field %s keeps what is learnt — leave out "
+                         "--no-guiding", options->field);
     options->threads = request->cli.threads;
     options->progress = request->cli.progress;
     if (typed->has_spp && typed->samples)
@@ -360,7 +362,12 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
         POLARISED_OPTIONS(&typed->polarised),
         {"--seed", OPTION_INTEGER, "N", "another set of random numbers (default 0)",
          &typed->seed, .low = 0, .high = 4294967295.0},
-        GUIDING_OPTIONS(&request->render),
+        {"--no-guiding", OPTION_FLAG, NULL,
+         "do not learn first where light comes from: the plain estimator, of more noise",
+         &request->render.no_guiding},
+        {"--field", OPTION_TEXT, "FILE",
+         "what is learnt: taken from this file if it is there, else kept there",
+         &request->render.field, .file = OPTION_KEPT},
         {"--crop", OPTION_NUMBERS, "X0,Y0,X1,Y1", "only these pixels, half-open, from top left",
          typed->crop, .count = 4, .given = &typed->has_crop},
         {"--samples", OPTION_TEXT, "A:B", "only these sample indices, half-open",
