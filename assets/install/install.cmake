@@ -75,21 +75,21 @@ package(parhelion-scenes graphics "scenes, panels and contents for Parhelion"
   "A car's dashboard, an airliner's flight deck, their displays, people in the
 seats and lights: what the commands of Parhelion's guides render."
   ARCHITECTURE all RECOMMENDS parhelion)
-package(libparhelion-panel1 libs "measured display panels for renderers"
+package(libparhelion-panel2 libs "measured display panels for renderers"
   "What a measured display emits and reflects at every angle, asked in place
 from a .panel file as Parhelion makes it. This package has the shared library."
   SHLIBDEPS ON)
-set(CPACK_DEBIAN_LIBPARHELION-PANEL1_PACKAGE_CONTROL_EXTRA
+set(CPACK_DEBIAN_LIBPARHELION-PANEL2_PACKAGE_CONTROL_EXTRA
   ${CMAKE_BINARY_DIR}/shlibs ${CMAKE_SOURCE_DIR}/assets/install/triggers)
 package(libparhelion-panel-dev libdevel
   "measured display panels for renderers, development"
   "What a measured display emits and reflects at every angle, asked in place
 from a .panel file as Parhelion makes it. This package has the header, and a
 module for Python."
-  DEPENDS "libparhelion-panel1 (= ${PROJECT_VERSION}-1)" SUGGESTS "python3, python3-numpy")
+  DEPENDS "libparhelion-panel2 (= ${PROJECT_VERSION}-1)" SUGGESTS "python3, python3-numpy")
 # What depends on the library wants at least the version that it was built with.
 file(WRITE ${CMAKE_BINARY_DIR}/shlibs
-  "libparhelion-panel 1 libparhelion-panel1 (>= ${PROJECT_VERSION})\n")
+  "libparhelion-panel 2 libparhelion-panel2 (>= ${PROJECT_VERSION})\n")
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_COMPONENTS_ALL ${components})

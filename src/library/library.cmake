@@ -5,7 +5,7 @@
 # One build for every CPU: the instructions of x86-64 itself. The same sources for AVX2 give the
 # same bits and spectra in 0.86 of the time, but all else in 0.97 or more: no table of kernels.
 include(GNUInstallDirs)
-set(PANEL_LIBRARY_ABI 1)
+set(PANEL_LIBRARY_ABI 2)
 set(panel_library_sources src/library/parhelion_panel.c src/library/open_panel.c
   src/library/emission_draw.c
   src/base/arena.c src/base/error.c src/base/file.c src/base/machine.c src/base/mathd.c
@@ -47,7 +47,7 @@ set(PANEL_LIBRARY_PYTHON lib/python3/dist-packages)
 string(REGEX REPLACE "[^/]+" ".." panel_library_up "${CMAKE_INSTALL_LIBDIR}")
 configure_file(src/library/parhelion-panel.pc.in parhelion-panel.pc @ONLY)
 install(TARGETS parhelion_panel
-  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libparhelion-panel1
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libparhelion-panel2
   NAMELINK_COMPONENT libparhelion-panel-dev)
 install(FILES src/library/parhelion_panel.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   COMPONENT libparhelion-panel-dev)

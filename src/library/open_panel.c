@@ -36,10 +36,8 @@ static bool open_here(const PanelSource *from, size_t room, OpenedPanel *out, Er
     FileBytes bytes;
     Panel    *panel;
     if (!read_bytes(from, arena, &bytes, err) ||
-        !panel_open_state(&(PanelOpenArgs){bytes.data, bytes.size, name_of(from), from->state},
-                          arena, &panel, err))
+        !panel_open_memory(bytes.data, bytes.size, name_of(from), arena, &panel, err))
         return false;
-    if (from->level >= 0) panel_coarsen(panel, from->level, PANEL_COARSE_ALL, arena);
     out->panel = panel;
     out->room = arena_alloc(arena, 1, 64, room);
     return emission_draw_make(panel, arena, &out->draw, err) ||

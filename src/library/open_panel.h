@@ -14,8 +14,6 @@ typedef struct PanelSource {
     const char *path; /* NULL: bytes */
     const void *bytes;
     size_t      size;
-    int         level; /* of the trees; below 0: whole */
-    const char *state; /* NULL: the file's first */
 } PanelSource;
 
 typedef struct OpenedPanel {

@@ -11,7 +11,6 @@
 #include "library/open_panel.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_info.h"
-#include "panel/query/panel_open.h"
 #include "panel/query/panel_place.h"
 #include "panel/query/panel_reflection.h"
 #include "panel/query/panel_zones.h"
@@ -25,13 +24,7 @@ struct ParhelionPanel { /* lies in its own arena */
 
 /* Sizes in the first version: no caller has less. */
 #define INFO_BYTES (offsetof(ParhelionPanelInfo, polarisation_azimuth) + sizeof(float))
-#define FILE_BYTES (offsetof(ParhelionPanelFile, level) + sizeof(int))
 #define QUESTION_BYTES (offsetof(ParhelionPanelQuestions, nm) + sizeof(const float *))
-
-const char *parhelion_panel_version(void)
-{
-    return PARHELION_VERSION;
-}
 
 /* ---- opening ----------------------------------------------------------------------------- */
 
@@ -51,45 +44,16 @@ static int open_from(const PanelSource *from, ParhelionPanel **panel, char *erro
     return err.code == ERROR_MEMORY ? PARHELION_PANEL_NO_MEMORY : PARHELION_PANEL_REFUSED;
 }
 
-int parhelion_panel_open_level(const char *path, int level, ParhelionPanel **panel, char *error,
-                               size_t error_size)
+int parhelion_panel_open(const char *path, ParhelionPanel **panel, char *error,
+                         size_t error_size)
 {
-    const PanelSource from = {.path = path ? path : "", .level = level};
-    return open_from(&from, panel, error, error_size);
+    return open_from(&(PanelSource){.path = path ? path : ""}, panel, error, error_size);
 }
 
-int parhelion_panel_open_memory_level(const void *bytes, size_t size, int level,
-                                      ParhelionPanel **panel, char *error, size_t error_size)
+int parhelion_panel_open_memory(const void *bytes, size_t size, ParhelionPanel **panel,
+                                char *error, size_t error_size)
 {
-    const PanelSource from = {.bytes = bytes, .size = size, .level = level};
-    return open_from(&from, panel, error, error_size);
-}
-
-int parhelion_panel_open_file(const ParhelionPanelFile *file, ParhelionPanel **panel,
-                              char *error, size_t error_size)
-{
-    if (error && error_size) *error = 0;
-    *panel = NULL;
-    if (file->size < FILE_BYTES) return PARHELION_PANEL_WRONG_SIZE;
-    const PanelSource from = {file->path, file->bytes, file->byte_count, file->level,
-                              file->state};
-    return open_from(&from, panel, error, error_size);
-}
-
-ParhelionPanel *parhelion_panel_open(const char *path, char *error, size_t error_size)
-{
-    ParhelionPanel *panel;
-    parhelion_panel_open_level(path, PARHELION_PANEL_WHOLE, &panel, error, error_size);
-    return panel;
-}
-
-ParhelionPanel *parhelion_panel_open_memory(const void *bytes, size_t size, char *error,
-                                            size_t error_size)
-{
-    ParhelionPanel *panel;
-    parhelion_panel_open_memory_level(bytes, size, PARHELION_PANEL_WHOLE, &panel, error,
-                                      error_size);
-    return panel;
+    return open_from(&(PanelSource){.bytes = bytes, .size = size}, panel, error, error_size);
 }
 
 void parhelion_panel_close(ParhelionPanel *panel)
@@ -111,39 +75,28 @@ static uint32_t flags_of(const Panel *panel)
            (panel_info_azimuths(panel, phi) > 1 ? PARHELION_PANEL_ANISOTROPIC : 0) |
            (panel_varies(panel) ? PARHELION_PANEL_VARIES : 0) |
            (panel_polarisation(panel).degree > 0 ? PARHELION_PANEL_POLARISED : 0) |
-           (panel_subpixels(panel).layout ? PARHELION_PANEL_HAS_SUBPIXELS : 0) |
            (panel_zones(panel) ? PARHELION_PANEL_HAS_ZONES : 0);
 }
 
 static void add_emission(const Panel *panel, ParhelionPanelInfo *info)
 {
-    double            code[PANEL_INFO_LEVELS_MAX];
     PanelPolarisation polarisation = panel_polarisation(panel);
-    Subpixels         subpixels = panel_subpixels(panel);
     if (!panel_info_emits(panel)) return;
-    for (int p = 0; p < 3; p++)
-        info->levels[p] = (uint32_t)panel_info_levels(panel, p, code);
     info->emission_cone = (float)panel_info_emission_cone(panel);
     info->emission_nm[0] = SPECTRAL_FIRST_NM;
     info->emission_nm[1] = SPECTRAL_LAST_NM;
     info->polarisation = polarisation.degree;
     info->polarisation_azimuth = polarisation.azimuth;
-    info->subpixel_layout = (uint32_t)subpixels.layout;
-    info->subpixel_fill = subpixels.fill;
-    for (int k = 0; k < 2; k++) info->display_pixels[k] = (uint32_t)subpixels.pixels[k];
 }
 
 static void add_reflection(const Panel *panel, ParhelionPanelInfo *info)
 {
     float  nm[PANEL_INFO_WAVELENGTHS_MAX];
-    double theta[PANEL_INFO_INCIDENCES_MAX], phi[PANEL_INFO_AZIMUTHS_MAX];
+    double theta[PANEL_INFO_INCIDENCES_MAX];
     int    wavelengths = panel_info_wavelengths(panel, nm);
     if (!wavelengths) return;
-    info->wavelengths = (uint32_t)wavelengths;
-    info->incidences = (uint32_t)panel_info_incidences(panel, theta);
-    info->azimuths = (uint32_t)panel_info_azimuths(panel, phi);
     info->reflection_cone = (float)panel_info_reflection_cone(panel);
-    info->last_incidence = (float)theta[info->incidences - 1];
+    info->last_incidence = (float)theta[panel_info_incidences(panel, theta) - 1];
     info->reflection_nm[0] = nm[0];
     info->reflection_nm[1] = nm[wavelengths - 1];
 }
@@ -151,88 +104,13 @@ static void add_reflection(const Panel *panel, ParhelionPanelInfo *info)
 int parhelion_panel_info(const ParhelionPanel *panel, ParhelionPanelInfo *info)
 {
     ParhelionPanelInfo all = {.size = info->size};
-    float  place[PANEL_EVENNESS_SPOTS][2];
-    int    map[2];
     size_t room = info->size;
     if (room < INFO_BYTES) return PARHELION_PANEL_WRONG_SIZE;
     all.flags = flags_of(panel->panel);
-    all.spots = (uint32_t)panel_spots(panel->panel, place, map);
-    for (int k = 0; k < 2; k++) all.map_pixels[k] = (uint32_t)map[k];
     add_emission(panel->panel, &all);
     add_reflection(panel->panel, &all);
     memcpy(info, &all, room < sizeof all ? room : sizeof all);
     return PARHELION_PANEL_OK;
-}
-
-int parhelion_panel_level(const ParhelionPanel *panel)
-{
-    return panel_coarse_finest(panel->panel);
-}
-
-/* ---- states ------------------------------------------------------------------------------ */
-
-size_t parhelion_panel_states(const ParhelionPanel *panel)
-{
-    int state;
-    return (size_t)panel_info_states(panel->panel, &state);
-}
-
-size_t parhelion_panel_state(const ParhelionPanel *panel)
-{
-    int state;
-    panel_info_states(panel->panel, &state);
-    return (size_t)state;
-}
-
-const char *parhelion_panel_state_name(const ParhelionPanel *panel, size_t state)
-{
-    return state < parhelion_panel_states(panel) ? panel_info_state_name(panel->panel,
-                                                                         (int)state) : NULL;
-}
-
-/* ---- lists ------------------------------------------------------------------------------- */
-
-#define LIST_MAX PANEL_INFO_WAVELENGTHS_MAX /* the longest */
-
-/* Angles and codes are doubles inside. */
-static int narrowed(const double *value, int count, float *out)
-{
-    for (int i = 0; i < count; i++) out[i] = (float)value[i];
-    return count;
-}
-
-static int list_of(const Panel *panel, int list, float out[LIST_MAX])
-{
-    double value[LIST_MAX];
-    float  place[PANEL_EVENNESS_SPOTS][2];
-    int    map[2], spots;
-    switch (list) {
-    case PARHELION_PANEL_RED_LEVELS:
-    case PARHELION_PANEL_GREEN_LEVELS:
-    case PARHELION_PANEL_BLUE_LEVELS:
-        return narrowed(value, panel_info_levels(panel, list, value), out);
-    case PARHELION_PANEL_WAVELENGTHS:
-        return panel_info_wavelengths(panel, out);
-    case PARHELION_PANEL_INCIDENCES:
-        return narrowed(value, panel_info_incidences(panel, value), out);
-    case PARHELION_PANEL_AZIMUTHS:
-        return panel_reflects(panel) ? narrowed(value, panel_info_azimuths(panel, value), out)
-                                     : 0;
-    case PARHELION_PANEL_SPOTS:
-        spots = panel_spots(panel, place, map);
-        memcpy(out, place, sizeof place[0] * (size_t)spots);
-        return 2 * spots;
-    default:
-        return 0;
-    }
-}
-
-size_t parhelion_panel_list(const ParhelionPanel *panel, int list, float *out, size_t room)
-{
-    float  all[LIST_MAX];
-    size_t count = (size_t)list_of(panel->panel, list, all);
-    if (out) memcpy(out, all, sizeof *out * (count < room ? count : room));
-    return count;
 }
 
 /* ---- questions --------------------------------------------------------------------------- */
@@ -513,40 +391,6 @@ int parhelion_panel_pdf_emission(const ParhelionPanel *panel,
         held_at(q->code, i, 255, code);
         density[i] = emission_draw_pdf(&panel->draw, panel->panel, code,
                                        direction_at(q->viewer, i));
-    }
-    return status;
-}
-
-/* ---- measured or extrapolated ------------------------------------------------------------ */
-
-int parhelion_panel_emission_is_measured(const ParhelionPanel *panel,
-                                         const ParhelionPanelQuestions *questions,
-                                         unsigned char *is_measured)
-{
-    const ParhelionPanelQuestions *q = questions;
-    const float white[3] = {255, 255, 255};
-    int status = check(q, NEED_VIEWER, is_measured);
-    for (size_t i = 0; !status && i < q->count; i++) {
-        float place[2], xyz[3];
-        place_at(q, i, place);
-        is_measured[i] = panel_place_emission_xyz(panel->panel, place,
-                                                  direction_at(q->viewer, i), white, xyz);
-    }
-    return status;
-}
-
-int parhelion_panel_brdf_is_measured(const ParhelionPanel *panel,
-                                     const ParhelionPanelQuestions *questions,
-                                     unsigned char *is_measured)
-{
-    const ParhelionPanelQuestions *q = questions;
-    int status = check(q, NEED_VIEWER | NEED_LIGHT, is_measured);
-    for (size_t i = 0; !status && i < q->count; i++) {
-        PanelMix mix = mix_at(panel, q, i);
-        is_measured[i] = 1;
-        for (int k = 0; k < mix.count; k++)
-            is_measured[i] &= panel_brdf_is_measured(mix.panel[k], direction_at(q->viewer, i),
-                                                     direction_at(q->light, i));
     }
     return status;
 }

@@ -56,49 +56,18 @@ typedef enum ParhelionPanelStatus {
     PARHELION_PANEL_NO_MEMORY = 4   /* opening: there is not enough memory */
 } ParhelionPanelStatus;
 
-/* The library's version as text, such as "0.1.0". */
-PARHELION_PANEL_API const char *parhelion_panel_version(void);
-
 /* ---- opening ----------------------------------------------------------------------------- */
 
-/* Reads and checks a .panel file; later changes of the file make no difference. NULL: `error`
- * (NULL is fine, error_size 0 then) has the reason as one line, cut at error_size - 1 bytes. */
-PARHELION_PANEL_API ParhelionPanel *parhelion_panel_open(const char *path, char *error,
-                                                         size_t error_size);
+/* Reads and checks a .panel file; later changes of the file make no difference. *panel is NULL
+ * where the status is not PARHELION_PANEL_OK: `error` (NULL is fine, error_size 0 then) has the
+ * reason as one line, cut at error_size - 1 bytes. */
+PARHELION_PANEL_API int parhelion_panel_open(const char *path, ParhelionPanel **panel,
+                                             char *error, size_t error_size);
 
 /* The same for the bytes of a file, which are copied. */
-PARHELION_PANEL_API ParhelionPanel *parhelion_panel_open_memory(const void *bytes, size_t size,
-                                                                char *error,
-                                                                size_t error_size);
-
-/* The same two with a status, and the panel's trees read down to `level` alone: from 0, the
- * coarsest; a tree that ends before is read whole, and so is everything with
- * PARHELION_PANEL_WHOLE. A level has the values of the whole panel at its vertices, 2^level to
- * a right angle, and logarithms linear between them: smoother, and quicker to answer. Spectra,
- * mirrors, beams and the draws of the reflection stay whole. *panel is NULL where the status
- * is not PARHELION_PANEL_OK. */
-#define PARHELION_PANEL_WHOLE (-1)
-PARHELION_PANEL_API int parhelion_panel_open_level(const char *path, int level,
-                                                   ParhelionPanel **panel, char *error,
-                                                   size_t error_size);
-PARHELION_PANEL_API int parhelion_panel_open_memory_level(const void *bytes, size_t size,
-                                                          int level, ParhelionPanel **panel,
-                                                          char *error, size_t error_size);
-
-/* Any of these. A file may hold a display in several states, such as private and shared, each
- * with light of its own; the others open the first. */
-typedef struct ParhelionPanelFile {
-    size_t      size;       /* sizeof(ParhelionPanelFile), by the caller */
-    const char *path;       /* NULL: bytes */
-    const void *bytes;
-    size_t      byte_count;
-    const char *state;      /* its name; NULL: the first. REFUSED with the names there are where
-                               the file has none of this name */
-    int         level;      /* as above */
-} ParhelionPanelFile;
-PARHELION_PANEL_API int parhelion_panel_open_file(const ParhelionPanelFile *file,
-                                                  ParhelionPanel **panel, char *error,
-                                                  size_t error_size);
+PARHELION_PANEL_API int parhelion_panel_open_memory(const void *bytes, size_t size,
+                                                    ParhelionPanel **panel, char *error,
+                                                    size_t error_size);
 
 PARHELION_PANEL_API void parhelion_panel_close(ParhelionPanel *panel); /* NULL is fine */
 
@@ -111,23 +80,13 @@ PARHELION_PANEL_API void parhelion_panel_close(ParhelionPanel *panel); /* NULL i
 #define PARHELION_PANEL_ANISOTROPIC 8u     /* reflection depends on the azimuth of the light */
 #define PARHELION_PANEL_VARIES 16u         /* not the same at every place */
 #define PARHELION_PANEL_POLARISED 32u
-#define PARHELION_PANEL_HAS_SUBPIXELS 64u
-#define PARHELION_PANEL_HAS_ZONES 128u     /* local dimming: all answers are of a backlight that
+#define PARHELION_PANEL_HAS_ZONES 64u      /* local dimming: all answers are of a backlight that
                                               is full; what a picture makes of it is not told */
 
 /* Numbers of what is absent are 0. */
 typedef struct ParhelionPanelInfo {
     uint32_t size;               /* sizeof(ParhelionPanelInfo), by the caller */
     uint32_t flags;
-    uint32_t levels[3];          /* measured codes of red, green, blue, without 0 */
-    uint32_t wavelengths;        /* measured ones of the reflection */
-    uint32_t incidences;         /* measured ones of the light */
-    uint32_t azimuths;           /* of the light; 1: the same from all sides */
-    uint32_t spots;              /* measured places */
-    uint32_t map_pixels[2];      /* columns and rows of the uniformity map */
-    uint32_t subpixel_layout;    /* 1 stripe, 2 pentile */
-    uint32_t display_pixels[2];  /* columns and rows, where the file has sub-pixels */
-    float    subpixel_fill;      /* share of the area that emits */
     float    emission_cone;      /* last measured angle to the normal; beyond: extrapolated */
     float    reflection_cone;    /* the same of leaving directions */
     float    last_incidence;     /* the same of the light */
@@ -140,31 +99,6 @@ typedef struct ParhelionPanelInfo {
 /* Fills in *info but its size. */
 PARHELION_PANEL_API int parhelion_panel_info(const ParhelionPanel *panel,
                                              ParhelionPanelInfo *info);
-
-/* The finest level of its trees, as they are read. */
-PARHELION_PANEL_API int parhelion_panel_level(const ParhelionPanel *panel);
-
-/* How many states its file has; 0: one, without a name. Which of them this is, from 0, and the
- * name of each, the panel's own text; NULL: there is none. */
-PARHELION_PANEL_API size_t parhelion_panel_states(const ParhelionPanel *panel);
-PARHELION_PANEL_API size_t parhelion_panel_state(const ParhelionPanel *panel);
-PARHELION_PANEL_API const char *parhelion_panel_state_name(const ParhelionPanel *panel,
-                                                           size_t state);
-
-typedef enum ParhelionPanelList {
-    PARHELION_PANEL_RED_LEVELS = 0,
-    PARHELION_PANEL_GREEN_LEVELS = 1,
-    PARHELION_PANEL_BLUE_LEVELS = 2,
-    PARHELION_PANEL_WAVELENGTHS = 3, /* nm, of the reflection */
-    PARHELION_PANEL_INCIDENCES = 4,  /* radians, of the light */
-    PARHELION_PANEL_AZIMUTHS = 5,    /* radians, of the light; pi: from all sides */
-    PARHELION_PANEL_SPOTS = 6        /* u, v of each */
-} ParhelionPanelList;
-
-/* Measured values, rising but for spots; writes as many floats as there is room for and
- * returns how many there are. 0: nothing, or an unknown list. */
-PARHELION_PANEL_API size_t parhelion_panel_list(const ParhelionPanel *panel, int list,
-                                                float *out, size_t room);
 
 /* ---- questions --------------------------------------------------------------------------- */
 
@@ -242,21 +176,6 @@ PARHELION_PANEL_API int parhelion_panel_sample_emission(
 PARHELION_PANEL_API int parhelion_panel_pdf_emission(const ParhelionPanel *panel,
                                                      const ParhelionPanelQuestions *questions,
                                                      float *density);
-
-/* ---- measured or extrapolated ------------------------------------------------------------ */
-
-/* The emission towards the viewer: viewer. is_measured[count], 1: within the measured cone, of
- * all spots that count at the place; 0: extrapolated, or not there. */
-PARHELION_PANEL_API int parhelion_panel_emission_is_measured(
-    const ParhelionPanel *panel, const ParhelionPanelQuestions *questions,
-    unsigned char *is_measured);
-
-/* The BRDF: viewer, light. is_measured[count], 1: the light within the measured incidences and
- * the viewer among the directions that were measured there, or the two exchanged; 0:
- * extrapolated, or not there. */
-PARHELION_PANEL_API int parhelion_panel_brdf_is_measured(
-    const ParhelionPanel *panel, const ParhelionPanelQuestions *questions,
-    unsigned char *is_measured);
 
 #ifdef __cplusplus
 }

@@ -26,16 +26,13 @@ import os
 
 import numpy
 
-__all__ = ["Panel", "PanelError", "version"]
+__all__ = ["Panel", "PanelError"]
 
 FLAGS = ("emits", "reflects", "has_mirror", "is_anisotropic", "varies", "is_polarised",
-         "has_subpixels", "has_zones")
-LISTS = ("red_levels", "green_levels", "blue_levels", "wavelengths", "incidences", "azimuths",
-         "spots")
-LAYOUTS = (None, "stripe", "pentile")
+         "has_zones")
 FLOATS = ctypes.POINTER(ctypes.c_float)
 BYTES = ctypes.POINTER(ctypes.c_ubyte)
-WHOLE, LEVEL_MOST, NO_MEMORY = -1, 10, 4
+NO_MEMORY = 4
 
 
 class PanelError(Exception):
@@ -44,11 +41,7 @@ class PanelError(Exception):
 
 class _Info(ctypes.Structure):
     _fields_ = [("size", ctypes.c_uint32), ("flags", ctypes.c_uint32),
-                ("levels", ctypes.c_uint32 * 3), ("wavelengths", ctypes.c_uint32),
-                ("incidences", ctypes.c_uint32), ("azimuths", ctypes.c_uint32),
-                ("spots", ctypes.c_uint32), ("map_pixels", ctypes.c_uint32 * 2),
-                ("subpixel_layout", ctypes.c_uint32), ("display_pixels", ctypes.c_uint32 * 2),
-                ("subpixel_fill", ctypes.c_float), ("emission_cone", ctypes.c_float),
+                ("emission_cone", ctypes.c_float),
                 ("reflection_cone", ctypes.c_float), ("last_incidence", ctypes.c_float),
                 ("emission_nm", ctypes.c_float * 2), ("reflection_nm", ctypes.c_float * 2),
                 ("polarisation", ctypes.c_float), ("polarisation_azimuth", ctypes.c_float)]
@@ -58,12 +51,6 @@ class _Questions(ctypes.Structure):
     _fields_ = [("size", ctypes.c_size_t), ("count", ctypes.c_size_t), ("place", FLOATS),
                 ("viewer", FLOATS), ("light", FLOATS), ("code", FLOATS), ("random", FLOATS),
                 ("wavelengths", ctypes.c_size_t), ("nm", FLOATS)]
-
-
-class _File(ctypes.Structure):
-    _fields_ = [("size", ctypes.c_size_t), ("path", ctypes.c_char_p),
-                ("bytes", ctypes.c_char_p), ("byte_count", ctypes.c_size_t),
-                ("state", ctypes.c_char_p), ("level", ctypes.c_int)]
 
 
 WIDTH = {"place": 2, "viewer": 3, "light": 3, "code": 3, "random": 3}
@@ -78,9 +65,9 @@ def _candidates():
     folders = [here, os.path.join(prefix, "lib"), os.path.join(prefix, "lib", "*-linux-gnu"),
                os.path.join(prefix, "lib64")]
     found = [name for folder in folders
-             for name in sorted(glob.glob(os.path.join(folder, "libparhelion-panel.so.1")))]
+             for name in sorted(glob.glob(os.path.join(folder, "libparhelion-panel.so.2")))]
     system = ctypes.util.find_library("parhelion-panel")
-    return found + ([system] if system else []) + ["libparhelion-panel.so.1"]
+    return found + ([system] if system else []) + ["libparhelion-panel.so.2"]
 
 
 def _load():
@@ -96,26 +83,17 @@ def _load():
 
 def _declared(library):
     panel, questions = ctypes.c_void_p, ctypes.POINTER(_Questions)
-    library.parhelion_panel_version.restype = ctypes.c_char_p
-    into = [ctypes.c_int, ctypes.POINTER(panel), ctypes.c_char_p, ctypes.c_size_t]
-    library.parhelion_panel_open_file.argtypes = [ctypes.POINTER(_File), *into[1:]]
-    for name in ("states", "state"):
-        getattr(library, f"parhelion_panel_{name}").restype = ctypes.c_size_t
-        getattr(library, f"parhelion_panel_{name}").argtypes = [panel]
-    library.parhelion_panel_state_name.restype = ctypes.c_char_p
-    library.parhelion_panel_state_name.argtypes = [panel, ctypes.c_size_t]
-    library.parhelion_panel_level.argtypes = [panel]
+    into = [ctypes.POINTER(panel), ctypes.c_char_p, ctypes.c_size_t]
+    library.parhelion_panel_open.argtypes = [ctypes.c_char_p, *into]
+    library.parhelion_panel_open_memory.argtypes = [ctypes.c_char_p, ctypes.c_size_t, *into]
     library.parhelion_panel_close.restype = None
     library.parhelion_panel_close.argtypes = [panel]
     library.parhelion_panel_info.argtypes = [panel, ctypes.POINTER(_Info)]
-    library.parhelion_panel_list.restype = ctypes.c_size_t
-    library.parhelion_panel_list.argtypes = [panel, ctypes.c_int, FLOATS, ctypes.c_size_t]
     for name, outputs in (("emission_xyz", [FLOATS, BYTES]), ("emission_spectrum", [FLOATS]),
                           ("brdf", [FLOATS, FLOATS]), ("mirror", [FLOATS]),
                           ("albedo", [FLOATS]), ("sample", [FLOATS, FLOATS]),
                           ("pdf", [FLOATS]), ("sample_emission", [FLOATS, FLOATS]),
-                          ("pdf_emission", [FLOATS]), ("emission_is_measured", [BYTES]),
-                          ("brdf_is_measured", [BYTES])):
+                          ("pdf_emission", [FLOATS])):
         getattr(library, f"parhelion_panel_{name}").argtypes = [panel, questions, *outputs]
     return library
 
@@ -127,11 +105,6 @@ def _library():
     if not _loaded:
         _loaded.append(_load())
     return _loaded[0]
-
-
-def version():
-    """Of the library."""
-    return _library().parhelion_panel_version().decode()
 
 
 def _pointer(array, kind=FLOATS):
@@ -148,40 +121,22 @@ def _array(name, value, width):
 
 
 class Panel:
-    """An open panel file, or the bytes of one. state: of a file of several, its name; None:
-    the first. level: its trees are read down to that level
-    alone, from 0, the coarsest; None: whole. Raises PanelError, or MemoryError where there is
+    """An open panel file, or the bytes of one. Raises PanelError, or MemoryError where there is
     not enough memory."""
 
-    def __init__(self, source, level=None, state=None):
+    def __init__(self, source):
         self._panel = None
         library, error = _library(), ctypes.create_string_buffer(2048)
         panel = ctypes.c_void_p()
-        if level is not None and not 0 <= level <= LEVEL_MOST:
-            raise PanelError(f"level is {level}, 0 to {LEVEL_MOST} required")
-        file = _File(size=ctypes.sizeof(_File), level=WHOLE if level is None else level,
-                     state=None if state is None else state.encode())
+        into = (ctypes.byref(panel), error, len(error))
         if isinstance(source, (bytes, bytearray)):
-            file.bytes, file.byte_count = bytes(source), len(source)
+            status = library.parhelion_panel_open_memory(bytes(source), len(source), *into)
         else:
-            file.path = os.fsencode(source)
-        status = library.parhelion_panel_open_file(ctypes.byref(file), ctypes.byref(panel),
-                                                   error, len(error))
+            status = library.parhelion_panel_open(os.fsencode(source), *into)
         if status:
             words = error.value.decode("utf-8", "replace")
             raise MemoryError(words) if status == NO_MEMORY else PanelError(words)
         self._panel = panel.value
-
-    def states(self):
-        """Names of the states of its file, in their order; [] where it has one alone."""
-        library, panel = _library(), self._open()
-        return [library.parhelion_panel_state_name(panel, i).decode()
-                for i in range(library.parhelion_panel_states(panel))]
-
-    def state(self):
-        """The name of the one that it is; None where its file has one alone."""
-        names = self.states()
-        return names[_library().parhelion_panel_state(self._open())] if names else None
 
     def close(self):
         """Frees the panel; it cannot be asked afterwards."""
@@ -203,29 +158,16 @@ class Panel:
             raise PanelError("the panel is closed")
         return self._panel
 
-    def level(self):
-        """The finest level of its trees, as they are read."""
-        return _library().parhelion_panel_level(self._open())
-
     def info(self):
-        """What the file holds, as a dictionary; lists of what was measured are arrays."""
+        """What the file holds, as a dictionary."""
         told = _Info(size=ctypes.sizeof(_Info))
         _library().parhelion_panel_info(self._open(), ctypes.byref(told))
         out = {name: bool(told.flags >> bit & 1) for bit, name in enumerate(FLAGS)}
-        out.update({name: self._list(number) for number, name in enumerate(LISTS)})
-        out["spots"] = out["spots"].reshape(-1, 2)
-        for name in ("map_pixels", "display_pixels", "emission_nm", "reflection_nm"):
+        for name in ("emission_nm", "reflection_nm"):
             out[name] = tuple(getattr(told, name))
-        for name in ("subpixel_fill", "emission_cone", "reflection_cone", "last_incidence",
-                     "polarisation", "polarisation_azimuth"):
+        for name in ("emission_cone", "reflection_cone", "last_incidence", "polarisation",
+                     "polarisation_azimuth"):
             out[name] = getattr(told, name)
-        out["subpixel_layout"] = LAYOUTS[told.subpixel_layout]
-        return out
-
-    def _list(self, number):
-        library, panel = _library(), self._open()
-        out = numpy.empty(library.parhelion_panel_list(panel, number, None, 0), numpy.float32)
-        library.parhelion_panel_list(panel, number, _pointer(out), out.size)
         return out
 
     def _ask(self, name, asked, nm, outputs):
@@ -313,14 +255,3 @@ class Panel:
         """Density with which `sample_emission` draws a direction, sr^-1, [...]."""
         return self._ask("pdf_emission", {"viewer": viewer, "code": code}, None,
                          [(1, numpy.float32)])[0]
-
-    def emission_is_measured(self, viewer, place=None):
-        """Whether the emission towards the viewer is measured, not extrapolated, [...]."""
-        return self._ask("emission_is_measured", {"viewer": viewer, "place": place}, None,
-                         [(1, numpy.uint8)])[0].astype(bool)
-
-    def brdf_is_measured(self, viewer, light, place=None):
-        """The same for the BRDF, [...]."""
-        return self._ask("brdf_is_measured", {"viewer": viewer, "light": light,
-                                              "place": place}, None,
-                         [(1, numpy.uint8)])[0].astype(bool)

@@ -251,7 +251,7 @@ def main():
     parser.add_argument("--queries", type=int, default=600)
     arguments = parser.parse_args()
     build = os.path.abspath(arguments.build)
-    os.environ["PARHELION_PANEL_LIBRARY"] = os.path.join(build, "libparhelion-panel.so.1")
+    os.environ["PARHELION_PANEL_LIBRARY"] = os.path.join(build, "libparhelion-panel.so.2")
     program, report = os.path.join(build, "parhelion"), Report()
     table = observer()
     with tempfile.TemporaryDirectory(prefix="agreement-") as folder:

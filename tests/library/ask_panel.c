@@ -18,6 +18,7 @@ static int refused(const char *what, int holds)
 static int ask_wrongly(const ParhelionPanel *panel)
 {
     char                    error[300], two[2] = "";
+    ParhelionPanel         *none = NULL;
     ParhelionPanelInfo      info;
     ParhelionPanelQuestions q;
     float                   out[3];
@@ -25,12 +26,13 @@ static int ask_wrongly(const ParhelionPanel *panel)
     memset(&q, 0, sizeof q);
     memset(&info, 0, sizeof info);
     faults += refused("a file that is not there",
-                      !parhelion_panel_open("gone.panel", error, sizeof error) &&
-                          strstr(error, "gone.panel"));
+                      parhelion_panel_open("gone.panel", &none, error, sizeof error) ==
+                              PARHELION_PANEL_REFUSED && !none && strstr(error, "gone.panel"));
     faults += refused("bytes that are no panel",
-                      !parhelion_panel_open_memory("text", 4, two, sizeof two) &&
-                          strlen(two) == 1);
-    faults += refused("no bytes", !parhelion_panel_open_memory("", 0, NULL, 0));
+                      parhelion_panel_open_memory("text", 4, &none, two, sizeof two) ==
+                              PARHELION_PANEL_REFUSED && !none && strlen(two) == 1);
+    faults += refused("no bytes", parhelion_panel_open_memory("", 0, &none, NULL, 0) ==
+                              PARHELION_PANEL_REFUSED && !none);
     faults += refused("a struct without size",
                       parhelion_panel_info(panel, &info) == PARHELION_PANEL_WRONG_SIZE);
     q.count = 1;
@@ -92,17 +94,16 @@ int main(int count, char **arguments)
     unsigned char      measured[COUNT];
     ParhelionPanelInfo info;
     ParhelionPanelQuestions q;
-    ParhelionPanel *panel = parhelion_panel_open(count > 1 ? arguments[1] : "", error,
-                                                 sizeof error);
+    ParhelionPanel *panel;
     int i, faults;
-    if (!panel) {
+    if (parhelion_panel_open(count > 1 ? arguments[1] : "", &panel, error, sizeof error)) {
         fprintf(stderr, "%s\n", error);
         return 3;
     }
     memset(&info, 0, sizeof info);
     info.size = sizeof info;
     faults = parhelion_panel_info(panel, &info) != PARHELION_PANEL_OK;
-    printf("%s %u %u\n", parhelion_panel_version(), info.flags, info.wavelengths);
+    printf("%u\n", info.flags);
     memset(&q, 0, sizeof q);
     q.size = sizeof q, q.count = COUNT, q.viewer = viewer, q.light = light, q.code = code;
     q.wavelengths = 2, q.nm = nm;

@@ -111,7 +111,7 @@ def main():
     parser.add_argument("--samples", type=int, default=64)
     arguments = parser.parse_args()
     build, report = os.path.abspath(arguments.build), Report()
-    os.environ["PARHELION_PANEL_LIBRARY"] = os.path.join(build, "libparhelion-panel.so.1")
+    os.environ["PARHELION_PANEL_LIBRARY"] = os.path.join(build, "libparhelion-panel.so.2")
     with tempfile.TemporaryDirectory(prefix="other-renderer-") as folder:
         ours = rendered(os.path.join(build, "parhelion"), folder, arguments.samples)
         other = traced(folder, arguments.samples)

@@ -48,10 +48,8 @@ static int open_once(const char *path, const void *bytes, size_t size)
 {
     char            error[300] = "";
     ParhelionPanel *panel = NULL;
-    int status = bytes ? parhelion_panel_open_memory_level(bytes, size, PARHELION_PANEL_WHOLE,
-                                                           &panel, error, sizeof error)
-                       : parhelion_panel_open_level(path, PARHELION_PANEL_WHOLE, &panel, error,
-                                                    sizeof error);
+    int status = bytes ? parhelion_panel_open_memory(bytes, size, &panel, error, sizeof error)
+                       : parhelion_panel_open(path, &panel, error, sizeof error);
     int out = status == PARHELION_PANEL_OK && panel && !error[0] ? 0
               : status == PARHELION_PANEL_NO_MEMORY && !panel && strstr(error, "memory") ? 1
                                                                                          : 2;

@@ -16,7 +16,7 @@ from report import ROOT, Report  # noqa: E402
 LIBRARY = os.path.join(ROOT, "src", "library")
 RAISES = """
 import resource, parhelion_panel
-parhelion_panel.version()
+parhelion_panel._library()
 with open("/proc/self/statm") as file:
     mapped = int(file.read().split()[0]) * resource.getpagesize()
 resource.setrlimit(resource.RLIMIT_AS, (mapped + (4 << 20), resource.RLIM_INFINITY))
@@ -34,7 +34,7 @@ def check_host(report, build, folder):
     binary = os.path.join(folder, "short_memory")
     made = subprocess.run(
         ["cc", "-std=c17", "-O1", "-I", LIBRARY, os.path.join(HERE, "short_memory.c"), "-o",
-         binary, os.path.join(build, "libparhelion-panel.so.1"), f"-Wl,-rpath,{build}", "-ldl"],
+         binary, os.path.join(build, "libparhelion-panel.so.2"), f"-Wl,-rpath,{build}", "-ldl"],
         capture_output=True, text=True)
     if not report.claim(made.returncode == 0, f"the host does not compile: {made.stderr}"):
         return
@@ -53,7 +53,7 @@ def check_module(report, build):
         [sys.executable, "-B", "-c", f"PANEL = {panel!r}\n{RAISES}"], cwd=LIBRARY,
         capture_output=True, text=True, env={
             **os.environ,
-            "PARHELION_PANEL_LIBRARY": os.path.join(build, "libparhelion-panel.so.1")})
+            "PARHELION_PANEL_LIBRARY": os.path.join(build, "libparhelion-panel.so.2")})
     report.claim(done.returncode == 0 and done.stdout.startswith(panel) and "out of memory"
                  in done.stdout and not done.stderr,
                  f"the module says {done.stdout}{done.stderr}")
