@@ -66,8 +66,8 @@ static void print_displays(const Scene *scene)
     for (int i = 0; i < scene->display_count; i++) {
         const Display *d = &scene->displays[i];
         const Image *content = content_of(scene, d);
-        print("display      %s: panel %s%s%s, level %g %%, ", d->name, d->panel_path,
-              d->state ? ", state " : "", d->state ? d->state : "", 100 * (double)d->level);
+        print("display      %s: panel %s, level %g %%, ", d->name, d->panel_path,
+              100 * (double)d->level);
         if (content)
             print("content of %dx%d pixels\n", content->width, content->height);
         else
@@ -264,7 +264,6 @@ static json_t *json_displays(const Scene *scene)
         json_t *display = json_pack("{s:o, s:o, s:o, s:f}", "name", json_text(d->name),
                                     "panel", json_text(d->panel_path), "content_size", size,
                                     "level", (double)d->level);
-        if (d->state) json_object_set_new(display, "state", json_text(d->state));
         json_array_append_new(list, display);
     }
     return list;

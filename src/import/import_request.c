@@ -12,7 +12,6 @@
 #include "import/set/import.h"
 #include "import/set/import_complete.h"
 #include "import/text/text_options.h"
-#include "panel/query/panel_info.h"
 #include "panel/set/angle_table.h"
 #include "panel/set/level_table.h"
 #include "panel/set/primary_bands.h"
@@ -314,23 +313,6 @@ static bool read_remark(const JsonView *view, const RecordRow *row, void *item, 
     return true;
 }
 
-#define OWNER ImportStateFiles
-static const RecordRow PATTERNS = {.key = "patterns", .kind = RECORD_TEXTS,
-                                   RECORD_MANY(OWNER, pattern, count),
-                                   RECORD_COUNT(1, TEXT_ENTRIES_MAX)};
-#undef OWNER
-
-static bool check_state(const JsonView *view, void *item, Error *err)
-{
-    const ImportStateFiles *state = item;
-    return panel_info_is_state_name(state->name) ||
-           record_fails(view, state->name, err, "is no state's name, required: 1 to %d "
-                        "letters, digits, '-' and '_'", PANEL_INFO_STATE_NAME_MAX);
-}
-
-static const RecordFormat state_files_format = {"state_files", sizeof(ImportStateFiles),
-                                                .check = check_state, .value = &PATTERNS};
-
 static const char *const SYMMETRIES[] = {"none", "left-right", "up-down", "both", "half-turn",
                                          NULL};
 
@@ -401,10 +383,6 @@ static const RecordRow DECLARATION[] = {
      .doc = "Of primaries without spectra: the kind whose bands are assumed."},
     VECTOR("peaks_nm", 0, peaks_nm, 3, 380, 780,
            "Peak wavelengths of red, green and blue without spectra."),
-    {"states", RECORD_MAP, RECORD_MANY(OWNER, states, state_count),
-     RECORD_COUNT(2, PANEL_INFO_STATES_MAX), .of = &state_files_format,
-     .doc = "Of a display that shines otherwise at a switch: the name of each state to the "
-            "patterns of its files; all others are of every state."},
     FLAG("accept", 0, accepts_repeats,
          "Take means also where repeated directions or runs contradict each other."),
     {"note", RECORD_OWN, .read = read_remark, .schema = "{}",
@@ -499,7 +477,8 @@ static bool check_bands(const ImportRequest *request, Arena *arena, Error *err)
                      "red, green and blue, which fall", nm[0], nm[1], nm[2]);
 }
 
-bool import_begin(const char *const *file, int count, const ImportRequest *request,
+/* What a request says of a set, and the spectra of the primaries, before any file is read. */
+static bool begin(const char *const *file, int count, const ImportRequest *request,
                   ImportSet *set, Error *err)
 {
     set->panel = request->panel;
@@ -527,7 +506,7 @@ bool import_begin(const char *const *file, int count, const ImportRequest *reque
 bool import_run(const char *const *file, int count, const ImportRequest *request,
                 ImportSet *set, Error *err)
 {
-    return import_begin(file, count, request, set, err) &&
+    return begin(file, count, request, set, err) &&
            read_files(file, count, request, set, err) && import_complete(set, err) &&
            (!request->levels || import_beside_levels(request->levels, request->text.level_max,
                                                      set, err)) &&

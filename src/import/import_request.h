@@ -26,13 +26,6 @@ typedef void ImportStep(void *context, int done);
  * for black if it was measured. Fails with the file, the line, what was found and required. */
 bool primaries_read(const char *file, const TextOptions *options, ImportSet *set, Error *err);
 
-/* Which files are of one state of the display: patterns of their paths or names. */
-typedef struct ImportStateFiles {
-    const char  *name;
-    const char **pattern;
-    int          count;
-} ImportStateFiles;
-
 typedef struct ImportRequest {
     TextOptions text;
     ImportOptions   options;  /* options.text is set by import_run */
@@ -47,8 +40,6 @@ typedef struct ImportRequest {
     int             gloss_count;
     ImportSymmetry  symmetry;
     bool            is_isotropic, black_is_zero, accepts_repeats;
-    const ImportStateFiles *states; /* what no pattern names is of all states */
-    int             state_count; /* 0: the display has one, without a name */
     ImportStep     *step; /* NULL: nobody waits */
     void           *context;
 } ImportRequest;
@@ -64,11 +55,6 @@ bool import_symmetry_named(const char *name, ImportSymmetry *out, Error *err);
 /* Is the file left out, by a pattern of the list or by its role? */
 bool import_request_skips(const ImportRequest *request, const char *file);
 
-/* What a request says of a set, and the spectra of the primaries, before any file is read. */
-bool import_begin(const char *const *file, int count, const ImportRequest *request,
-                  ImportSet *set, Error *err);
-
-/* Reads all files with the options of the request and completes the set; of a display with
- * states: import_states.h. */
+/* Reads all files with the options of the request and completes the set. */
 bool import_run(const char *const *file, int count, const ImportRequest *request,
                 ImportSet *set, Error *err);

@@ -99,10 +99,9 @@ static void add_displays(Text *text, const SceneOptions *options, const Scene *s
     }
     for (int i = 0; i < scene->display_count; i++) {
         const Display *display = &scene->displays[i];
-        identity_line(text, arena_format(arena, "display %d", i), "%s, level %.9g, %s%s%s",
+        identity_line(text, arena_format(arena, "display %d", i), "%s, level %.9g, %s",
                       display->name, (double)display->level,
-                      input_name(scene, display->panel_path, arena), display->state ? "#" : "",
-                      display->state ? display->state : "");
+                      input_name(scene, display->panel_path, arena));
     }
 }
 

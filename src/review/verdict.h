@@ -98,7 +98,6 @@ typedef struct CasePanel {
     double      emission_error, reflection_error; /* relative, rms over all that was measured;
                                                      0: not stated */
     const char *assumed;         /* of the emission's spectra, in words; NULL: nothing */
-    const char *state;           /* private, shared; NULL: its file has one, without a name */
 } CasePanel;
 
 /* A ray of a cause, m: from the eye over what it meets to where the light began. */

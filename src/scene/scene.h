@@ -166,7 +166,6 @@ typedef struct DisplayFinish {
 typedef struct Display {
     const char *name;       /* the material's */
     const char *panel_path; /* resolved path */
-    const char *state;      /* of that panel's; NULL: its first, or only one */
     const Panel *panel;
     int   material_id;
     TextureSlot content;    /* NO_ID: full white is shown, with a warning */
@@ -368,8 +367,6 @@ typedef struct SceneOptions {
     int panel_count;
     const SceneOverride *levels; /* --display-level MATERIAL=PERCENT, * for all */
     int level_count;
-    const SceneOverride *states; /* --display-state MATERIAL=STATE of its panel, * for all */
-    int state_count;
     const SceneOverride *lights; /* --light NODE=FILE.ies; `material` is a node's name */
     int light_count;
     const SceneOverride *light_levels; /* --light-level NODE=PERCENT, * for all */

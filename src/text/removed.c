@@ -42,6 +42,17 @@ const RemovedWord removed_words[] = {
                          "glare-review, What would mend it?"},
     {"review", "sensitivity", "name the values as variants, which a script can write: parhelion "
                               "help glare-review, What would mend it?"},
+    {"render", "--display-state", "name the state's panel file by --panel MATERIAL=FILE.panel"},
+    {"explain", "--display-state", "name the state's panel file by --panel MATERIAL=FILE.panel"},
+    {"measure", "--display-state", "name the state's panel file by --panel MATERIAL=FILE.panel"},
+    {"PARHELION_display", "state", "name the panel file of the state as 'panel'"},
+    {"variant", "states", "name the panel file of the state in 'panels'"},
+    {"panel", "join", "keep a panel file of each state, and choose one by --panel "
+                      "MATERIAL=FILE.panel"},
+    {"panel import", "--state", "import the files of each state as a set of its own"},
+    {"import_declaration", "states", "import the files of each state as a set of its own"},
+    {"measurement_set", "states", "write a manifest of each state, and fit a panel of each"},
+    {"--kind", "states", "plot the panel file of each state"},
     {NULL, NULL, NULL},
 };
 

@@ -109,39 +109,6 @@ static void claim_zones(const Panel *panel, Arena *arena)
     }
 }
 
-/* ---- states ------------------------------------------------------------------------------ */
-
-/* Each by its name: refused in one line, or a panel that emits. */
-static void claim_states(const uint8_t *data, size_t size, Arena *arena)
-{
-    Error         err = {0};
-    Panel        *first, *other;
-    PanelOpenArgs args = {data, size, "x.panel", NULL};
-    int           state;
-    if (!panel_open_state(&args, arena, &first, &err)) {
-        fuzz_claim_refusal(&err);
-        return;
-    }
-    int count = panel_info_states(first, &state);
-    fuzz_claim(state == 0, "who names no state gets the first");
-    for (int i = 0; i < count; i++) {
-        const float white[3] = {255, 255, 255};
-        float       xyz[3];
-        args.state = panel_info_state_name(first, i);
-        fuzz_claim(panel_info_is_state_name(args.state), "a state's name is one");
-        if (!panel_open_state(&args, arena, &other, &err)) {
-            fuzz_claim_refusal(&err);
-            continue;
-        }
-        fuzz_claim(panel_info_states(other, &state) == count && state == i, "it is that one");
-        panel_emission_xyz(other, direction(0.3f, 1), white, xyz);
-        fuzz_claim(all_in(xyz, 3, 0), "a state's light is finite and not negative");
-    }
-    args.state = "no state";
-    fuzz_claim(!panel_open_state(&args, arena, &other, &err), "no state has that name");
-    fuzz_claim_refusal(&err);
-}
-
 void fuzz_panel(const uint8_t *data, size_t size, Arena *arena)
 {
     Error  err = {0};
@@ -171,7 +138,8 @@ void fuzz_panel(const uint8_t *data, size_t size, Arena *arena)
     panel_info_incidences(panel, number);
     panel_info_azimuths(panel, number);
     claim_zones(panel, arena);
-    claim_states(data, size, arena);
+    if (!panel_open_memory(data, size, "x.panel", arena, &panel, &err))
+        fuzz_claim_refusal(&err); /* without its sampling */
 }
 
 /* ---- mutation ---------------------------------------------------------------------------- */

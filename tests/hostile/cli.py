@@ -24,7 +24,7 @@ from report import Report  # noqa: E402
 
 COMMANDS = ("render", "develop", "check", "measure", "compare", "merge", "sky", "panel import",
             "panel fit", "panel info", "panel eval", "panel plot", "panel report", "panel show",
-            "panel export", "panel join", "panel simulate", "explain", "equip", "help")
+            "panel export", "panel simulate", "explain", "equip", "help")
 CAR = os.path.join(ROOT, "scenes", "car_dashboard.gltf")
 PANEL = os.path.join(ROOT, "assets", "panels", "ips_cluster.panel")
 

@@ -355,95 +355,6 @@ def check_places(report, commands, panel):
     report.claim(open(manifest, "rb").read() == before, "a set's manifest was written over")
 
 
-def simulated_states(commands):
-    """A manifest of two recipes' emissions, the second narrower, and of one reflection."""
-    with open(RECIPE) as file:
-        recipe = json.load(file)
-    sets = {}
-    for name, power in (("open", [1.1, 1.7]), ("narrow", [6, 6])):
-        recipe["emission"].update(cosine_power=power, levels=[127, 255])
-        recipe["reflection"]["incidence_deg"] = [20, 40]
-        path = commands.file(f"{name}.json")
-        write_json(path, recipe)
-        commands.text("simulate", path, "-o", commands.file(name), "--noise", "off", "--grid",
-                      "11x12", "--quiet")
-        with open(commands.file(name, "MANIFEST.json")) as file:
-            words = file.read()
-        for folder in ("emission/", "brdf/", "primaries.csv", "specular.csv"):
-            words = words.replace(f'"{folder}', f'"{name}/{folder}')
-        sets[name] = json.loads(words)
-    manifest = {key: value for key, value in sets["open"].items() if key != "emission"}
-    manifest["states"] = {"shared": {"emission": sets["open"]["emission"]},
-                          "private": {"emission": sets["narrow"]["emission"]}}
-    return manifest
-
-
-def check_states(report, commands, panel):
-    """From two emission sets to one file, and what every command says of it."""
-    source, path = commands.file("states.json"), commands.file("states.panel")
-    manifest = simulated_states(commands)
-    write_json(source, manifest)
-    fitted = json.loads(commands.text("fit", source, "-o", path, "--quiet", "--json"))
-    for name in ("shared", "private"):
-        commands.text("fit", f"{source}#{name}", "-o", commands.file(f"{name}.panel"),
-                      "--quiet")
-    commands.text("join", f"shared={commands.file('shared.panel')}",
-                  f"private={commands.file('private.panel')}", "-o",
-                  commands.file("joined.panel"))
-    with open(path, "rb") as one, open(commands.file("joined.panel"), "rb") as other:
-        report.claim(one.read() == other.read(), "a set's fit is not the join of single ones")
-    info = json.loads(commands.text("info", path, "--json"))
-    report.claim([one["state"] for one in fitted["states"]] == ["shared", "private"]
-                 and info["states"] == fitted["states"], "the states of fit and of info")
-    for index, (name, recipe) in enumerate((("shared", "open"), ("private", "narrow"))):
-        truth = json.loads(commands.text("simulate", commands.file(f"{recipe}.json"), "--truth",
-                                         "24,30,255,255,255", "--json"))
-        found = json.loads(commands.text("eval", f"{path}#{name}", "--theta", "24", "--phi",
-                                         "30", "--rgb", "255,255,255", "--json"))
-        report.claim(all(abs(a / b - 1) < 0.005 for a, b in zip(found["XYZ"], truth["XYZ"])),
-                     f"{name}: {found['XYZ']}, truth {truth['XYZ']}")
-        alone = json.loads(commands.text("info", commands.file(f"{name}.panel"), "--json"))
-        listed = info["states"][index]
-        report.claim(listed["total"] == alone["total"] and listed["tables"] == alone["tables"]
-                     and listed["verdict"] == alone["verdict"]
-                     and listed["display"]["white_cd_m2"] == alone["display"]["white_cd_m2"],
-                     f"the errors of {name} are not those of its own fit")
-        shown = commands.text("info", f"{path}#{name}")
-        report.claim(f"this is {name}" in shown and shown.count("state      ") == 2,
-                     f"info of {name}: {shown}")
-    drawn = json.loads(commands.text("plot", path, "--kind", "states", "--measured", source,
-                                     "-o", commands.file("states.svg"), "--json"))
-    report.claim(drawn["picture"]["figures"] == 4, f"plot has {drawn}")
-    told = json.loads(commands.text("report", f"{path}#private", "--measured", source,
-                                    "--json"))
-    rows = next(table["rows"] for table in told["tables"] if table["name"] == "states")
-    report.claim([row["state"] for row in rows] == ["shared", "private"] and all(
-        abs(row["max_error_percent"] / (100 * one["total"]["max_error"]) - 1) < 1e-3
-        for row, one in zip(rows, info["states"])), f"report has {rows}")
-    text = commands.text("export", f"{path}#private", "-o", commands.file("of_private"),
-                         "--theta-step", "20", "--phi-step", "60")
-    report.claim("state private alone" in text, f"export says {text}")
-    for arguments, words in ((("eval", f"{path}#odd", "--theta", "0", "--rgb", "1,1,1"),
-                              ("shared, private",)),
-                             (("info", f"{panel}#odd"), ("has one only",)),
-                             (("wavelets", source), ("shared, private", "#shared")),
-                             (("fit", f"{source}#odd", "-o", commands.file("no.panel")),
-                              ("'odd'", "shared, private")),
-                             (("plot", panel, "--kind", "states", "-o",
-                               commands.file("no.svg")), ("one state alone",))):
-        fails(report, commands.run(*arguments), 3, *words)
-    for key, value, words in (("private", {}, ("/states/private", "emission")),
-                              ("private", None, ("/states", "1 members")),
-                              ("a b", manifest["states"]["private"], ("/states/a b", "name"))):
-        document = json.loads(json.dumps(manifest))
-        if value is None:
-            del document["states"][key]
-        else:
-            document["states"][key] = value
-        write_json(commands.file("wrong.json"), document)
-        fails(report, commands.run("fit", commands.file("wrong.json"), "-o",
-                                   commands.file("no.panel")), 3, *words)
-
 
 def lambertian_set(commands, name, reflectance):
     """A reflection alone, the same at every angle."""
@@ -641,7 +552,7 @@ def main():
             report.finish()
         panel = commands.make("small.panel")
         for check in (check_grids, check_batch, check_export, check_levels, check_places,
-                      check_traits, check_states, check_verdict, check_display,
+                      check_traits, check_verdict, check_display,
                       check_plot_numbers):
             try:
                 check(report, commands, panel)

@@ -68,8 +68,7 @@ GOOD = {
     "precision": {"contrast": 0.02, "clear": 0.05, "paths": 65536, "seed": 3},
     "frames": {"size": [64, 36], "noise": 0.1, "worst": 2, "denoise": False},
     "variants": {
-        "all": {"panels": {"screen": "both.panel"}, "states": {"screen": "private"},
-                "contents": {"screen": "letters.png"},
+        "all": {"panels": {"screen": "both.panel"}, "contents": {"screen": "letters.png"},
                 "levels": {"night": {"*": 0.05}}, "brightness": {"screen": 1.5, "*": 1},
                 "coatings": {"coated": {"stack": "mgf2"}}, "glazings": {"coated": None},
                 "materials": {"coated": {"doubleSided": True}},

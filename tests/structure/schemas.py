@@ -113,8 +113,7 @@ WRONG_SUBPIXELS = [("subpixels", "stripe"), ("subpixels", {}), ("subpixels", {"f
                    ("subpixels", {"layout": "stripe", "columns": 9.5, "rows": 4}),
                    ("subpixels", {"layout": "stripe", "columns": 0, "rows": 4}),
                    ("subpixels", {"layout": "stripe", "shape": "round"})]
-DECLARATION = {**load(os.path.join(ROOT, "tests/unit/records/import.json")),
-               "states": {"shared": ["m01*"], "private": ["m02*"]}}
+DECLARATION = load(os.path.join(ROOT, "tests/unit/records/import.json"))
 WRONG_RECIPES = [("emission/red/peaks_nm", []), ("emission/red/peaks_nm", None),
                  ("emission/green", None), ("emission/gama", 2.2), ("emission/gamma", 9),
                  ("instrument/theta_step_deg", 20), ("reflection/haze_share", 1.5),
@@ -132,10 +131,7 @@ WRONG_DECLARATIONS = [("delimiter", "pipe"), ("azimuth_zero", "north"), ("azimut
                       ("backlight", "tube"), ("peaks_nm", [620, 530]), ("accept", 1),
                       ("specular", 7), ("specular_aperture_deg", 60), ("gloss", []),
                       ("gloss", [{"geometry_deg": 45, "gu": 9}]),
-                      ("gloss", [{"geometry_deg": 60}]),
-                      ("states", {"shared": ["m0*"]}), ("states", ["m01*", "m02*"]),
-                      ("states/shared", []), ("states/shared", "m01*"),
-                      ("states/private", None)]
+                      ("gloss", [{"geometry_deg": 60}])]
 WRONG_MANIFESTS = [("emission/black", None), ("emission/red", {}), ("emission/red/300", "a"),
                    ("emission/white", "white.csv"), ("emission/levels", "levels.csv"),
                    ("emission/purple", "a.csv"),
@@ -165,22 +161,8 @@ WRONG_MANIFESTS = [("emission/black", None), ("emission/red", {}), ("emission/re
                    ("uniformity", {"file": "map.csv", "bend_deg": 180}),
                    ("uniformity", {"file": "map.csv", "camera_mm": 1}),
                    ("uniformity", {"file": "map.csv", "white": "map.csv"}),
-                   ("states", {}), ("states", []),
-                   ("states", {"a": {"emission": {"white": "emission/black.csv"}},
-                               "b": {"emission": {"white": "emission/black.csv"}}}),
                    ("pixels", [9.5, 4]), *WRONG_SUBPIXELS, *WRONG_ZONES,
                    ("size_mm", None)]
-WRONG_STATES = [("emission", {"white": "emission/black.csv"}), ("states/private", None),
-                ("states/private", {}), ("states/private", 3),
-                ("states/private/emission", None), ("states/private/emission", {}),
-                ("states/private/emision", 1),
-                ("states/a b", {"emission": {"white": "emission/black.csv"}}),
-                ("states/" + 32 * "a", {"emission": {"white": "emission/black.csv"}}),
-                ("states/private/polarisation", {"degree": 2, "azimuth_deg": 0}),
-                ("states/private/polarisation", {"degree": 1}),
-                ("states/private/uniformity", {}), ("states/private/primaries", 1),
-                ("states/private/spots", []), ("states/private/reflection", {}),
-                ("spots", [{"position": [0, 0], "emission": {"white": "emission/black.csv"}}])]
 WRONG_PROFILES = [("title", None), ("title", ""), ("limit", []), ("veil", "yes"),
                   ("ambient", None), ("ambient/night_below_lx", -1),
                   ("ambient/dusk_below_lx", 3), ("limits", None), ("limits", {}),
@@ -291,13 +273,6 @@ def check_formats(report, program, folder, schema_of):
         report.claim(manifest[key] == RECIPE[key],
                      f"the manifest does not say the recipe's {key}")
     check_format(report, sets, manifest, WRONG_MANIFESTS,
-                 trying("panel", "fit", "DOCUMENT", "-o", "FOLDER/a.panel"))
-    emission = manifest["emission"]
-    of_states = {**{key: value for key, value in manifest.items() if key != "emission"},
-                 "states": {"shared": {"emission": emission},
-                            "private": {"emission": emission,
-                                        "polarisation": {"degree": 0.5, "azimuth_deg": 0}}}}
-    check_format(report, sets, of_states, WRONG_STATES,
                  trying("panel", "fit", "DOCUMENT", "-o", "FOLDER/a.panel"))
     for name in ("m01.txt", "m02.txt"):
         with open(os.path.join(folder, name), "w", encoding="utf-8") as file:

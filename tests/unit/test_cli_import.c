@@ -89,51 +89,6 @@ LAB_TEST(the_command_line_stands_above_the_declaration)
     assert_close(sum, 1.5, 1e-5);
 }
 
-#define LIGHT(y) "theta,phi,X,Y,Z\n0,0," y "," y "," y "\n40,0,10,10,10\n40,90,10,10,10\n"
-
-/* Each state's light in its own folder, the reflection once. */
-LAB_TEST(states_have_their_files)
-{
-    const char *printed;
-    lab_write(lab, "open.txt", LIGHT("100"));
-    lab_write(lab, "narrow.txt", LIGHT("90"));
-    lab_write(lab, "glass.txt", "theta,phi,550nm\n0,0,0.5\n40,0,0.01\n40,90,0.01\n");
-    lab_write(lab, "d.json", "{\"roles\": {\"*n*.txt\": \"white\"}, \"unit\": \"cd/m2\", "
-              "\"states\": {\"shared\": [\"open*\"], \"private\": [\"x\", \"narrow*\"]}}");
-    if (!RUN(lab, &printed, "@open.txt", "@narrow.txt", "@glass.txt", "--layout", "@d.json",
-             "--role", "glass.txt=brdf:10", "-o", "@out/M.json"))
-        fail_msg("%s", lab->err.text);
-    assert_non_null(strstr(printed, "shared/white.csv"));
-    assert_non_null(strstr(printed, "private/white.csv"));
-    assert_non_null(strstr(printed, "brdf/i10.csv"));
-    assert_non_null(strstr(printed, "out/M.json: 3 tables, 9 directions"));
-    const Measurement *set = read_set(lab);
-    assert_int_equal(set->state_count, 2);
-    assert_string_equal(set->state[0].name, "shared");
-    assert_string_equal(set->state[1].name, "private");
-    assert_near(set->state[0].set->white.value[1], 100, 0);
-    assert_near(set->state[1].set->white.value[1], 90, 0);
-    assert_int_equal(set->state[1].set->incidence_count, 1);
-    static const struct { const char *state[2], *part; } wrong[] = {
-        {{"a=open*", "a=x"}, "names 1 state, required: 2 to 16"},
-        {{"a b=open*", "b=n*"}, "letters, digits"},
-        {{"a=open*", "b=*n.txt"}, "is of the states 'a' and 'b'"},
-        {{"a=open*", "b=q*"}, "is light of no state"},
-        {{"a=open*", "b=glass*"}, "is light of no state"},
-    };
-    for (int i = 0; i < COUNT_OF(wrong); i++) {
-        if (RUN(lab, &printed, "@open.txt", "@narrow.txt", "@glass.txt", "--role",
-                "*n*.txt=white", "--role", "glass.txt=brdf:10", "--state", wrong[i].state[0],
-                "--state", wrong[i].state[1], "-o", "@no/M.json"))
-            fail_msg("taken: %s", wrong[i].part);
-        if (!strstr(lab->err.text, wrong[i].part)) fail_msg("%s", lab->err.text);
-    }
-    assert_false(RUN(lab, &printed, "@open.txt", "@glass.txt", "--role", "open*=white",
-                     "--role", "glass.txt=brdf:10", "--state", "a=open*", "--state",
-                     "b=glass*", "-o", "@no/M.json"));
-    assert_non_null(strstr(lab->err.text, "the state 'b' has no table of light"));
-}
-
 LAB_TEST(the_answer_is_one_json_document)
 {
     const char  *printed;

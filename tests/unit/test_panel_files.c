@@ -308,6 +308,29 @@ static bool try_bytes(const unsigned char *bytes, size_t size, const Kind *kind)
     return false;
 }
 
+/* Files that one display's states lay in: a section more. */
+TEST(a_file_of_several_states_is_refused_with_what_to_do_instead)
+{
+    const Kind    *kind = &kinds[0];
+    unsigned char *copy = malloc(kind->size);
+    PanelHeader    header;
+    int            changed = 0;
+    memcpy(copy, kind->bytes, kind->size);
+    memcpy(&header, copy, sizeof header);
+    for (uint32_t i = 0; i < header.section_count; i++) {
+        PanelSection *section = (PanelSection *)(void *)(copy + sizeof header) + i;
+        if (section->kind != PANEL_REPORT_TABLES) continue;
+        section->kind = PANEL_STATES;
+        changed++;
+    }
+    repair_checksum(copy, kind->size);
+    assert_int_equal(changed, 1);
+    assert_false(try_bytes(copy, kind->size, kind));
+    assert_non_null(strstr(why()->text, "has several states of a display"));
+    assert_non_null(strstr(why()->text, "`--panel NAME=FILE`"));
+    free(copy);
+}
+
 /* NULL: there is none. */
 static const unsigned char *section_of(const char *name, PanelSectionKind kind)
 {

@@ -7,7 +7,6 @@
 #include "base/count.h"
 #include "cli/panel/panel_commands.h"
 #include "image/image.h"
-#include "panel/fit/panel_states.h"
 #include "plot/panel/plot.h"
 
 /* The leak sanitizer needs this: the font library keeps what it has found until the end. */
@@ -161,7 +160,7 @@ TEST(every_kind_draws_svg)
 {
     for (int kind = 0; kind < PLOT_KIND_COUNT; kind++) {
         if (kind == PLOT_FIT || kind == PLOT_UNIFORMITY || kind == PLOT_GREY_INVERSION ||
-            kind == PLOT_HALO || kind == PLOT_STATES)
+            kind == PLOT_HALO)
             continue; /* of other files */
         RUN_OK(ips.panel_path, "-o", fixture_path(&ips, "k.svg"), "--kind",
                plot_kind_name((PlotKind)kind));
@@ -170,30 +169,6 @@ TEST(every_kind_draws_svg)
         assert_non_null(strstr(svg, "<svg "));
         assert_ids_are_whole(svg);
     }
-}
-
-/* Each state has its map and its curves; a file of one state has none, and no table. */
-TEST(states_are_drawn_beside_each_other)
-{
-    const char *two = fixture_path(&ips, "two.panel"), *svg = fixture_path(&ips, "s.svg");
-    const PanelStateFile files[] = {{"shared", ips.panel_path},
-                                    {"narrow-one", reflects_nothing.panel_path}};
-    assert_done(panel_states_join(files, 2, two, &ips.arena, &err));
-    RUN_OK(two, "-o", svg, "--kind", "states");
-    const char *text = read_text(svg, &ips.arena);
-    assert_true(assert_well_formed(text) > 100);
-    assert_ids_are_whole(text);
-    RUN_FAILS(ERROR_INPUT, "has one state alone", ips.panel_path, "-o", svg, "--kind",
-              "states");
-    const char *page = fixture_path(&ips, "s.html");
-    REPORT_OK(two, "-o", page, "--quiet");
-    text = read_text(page, &ips.arena);
-    static const char *const required[] = {"White, shared", "White, narrow-one",
-        "States, horizontal section", "States, vertical section", "½ right, °"};
-    for (int i = 0; i < COUNT_OF(required); i++)
-        if (!strstr(text, required[i])) fail_msg("no '%s'", required[i]);
-    REPORT_OK(ips.panel_path, "-o", page, "--quiet");
-    assert_null(strstr(read_text(page, &ips.arena), "States, horizontal section"));
 }
 
 TEST(names_of_kinds_agree_with_the_option)

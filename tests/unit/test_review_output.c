@@ -312,7 +312,7 @@ static bool is_optional(const char *key, const json_t *object)
                                         "stroke_ratio", "dgi", "dgp_interval",
                                         "ugr_interval", "dgi_interval", "glare", "rests_on",
                                         "rests_on_line", "inputs", "guessed_share",
-                                        "extrapolated_share", "spectra_assumed", "state",
+                                        "extrapolated_share", "spectra_assumed",
                                         "empty_seat", "empty_seat_share",
                                         "symbol_mean", "lit_share", "judged_part_uv",
                                         "open_by", "glasses_transmittance",

@@ -3,6 +3,7 @@
 #include "fixture.h"
 #include "base/count.h"
 #include "gltf_maker.h"
+#include "text/removed.h"
 
 /* The bytes behind the cases: a triangle, its indices 0 1 9, and a triangle with a NaN. */
 static const struct {
@@ -193,6 +194,30 @@ static const FaultCase FAULTS[] = {
 TEST_WITH(every_fault_is_named_with_its_place, maker_reset, NULL)
 {
     maker_expect_faults(FAULTS, COUNT_OF(FAULTS), &BYTES, sizeof BYTES);
+}
+
+/* An extension of materials; "PARHELION_environment" is a scene's. */
+static void expect_removed_key(const RemovedWord *row)
+{
+    bool        is_sky = !strcmp(row->where, "PARHELION_environment");
+    const char *host = is_sky ? "scenes" : "materials";
+    char        members[512], place[256];
+    snprintf(members, sizeof members,
+             "'extensionsUsed':['%s'],'%s':[{'extensions':{'%s':{'%s':null}}}]", row->where,
+             host, row->where, row->word);
+    snprintf(place, sizeof place, "/%s/0/extensions/%s/%s", host, row->where, row->word);
+    maker_expect_faults(&(FaultCase){members, place, row->instead}, 1, &BYTES, sizeof BYTES);
+}
+
+TEST_WITH(removed_keys_of_extensions_are_refused_with_what_to_do_instead, maker_reset, NULL)
+{
+    int count = 0;
+    for (const RemovedWord *row = removed_words; row->word; row++) {
+        if (strncmp(row->where, "PARHELION_", 10) != 0) continue;
+        expect_removed_key(row);
+        count++;
+    }
+    assert_true(count > 0);
 }
 
 static void assert_text(const char *text, const char *place, const char *message)

@@ -150,6 +150,14 @@ static bool read_size(const Parser *in, const Option *option, const char *text)
     return true;
 }
 
+static bool refuse_choice(const Parser *in, const Option *option, const char *text)
+{
+    const char *instead = removed_instead(option->name, text);
+    if (!instead) return bad_value(in, option, text, "one of these");
+    return error_set(in->err, ERROR_USAGE, "%s %s was removed — %s", option->name, text,
+                     instead);
+}
+
 static bool read_choice(const Parser *in, const Option *option, const char *text)
 {
     const char *name = option->value;
@@ -159,7 +167,7 @@ static bool read_choice(const Parser *in, const Option *option, const char *text
             *(int *)option->out = index;
             return true;
         }
-        if (!name[length]) return bad_value(in, option, text, "one of these");
+        if (!name[length]) return refuse_choice(in, option, text);
         name += length + 1;
     }
 }

@@ -47,7 +47,6 @@ bool scene_options_read(const SceneWords *words, const Cli *cli, Arena *arena,
     options->path_count = cli->argument_count;
     options->content_count = words->contents.count;
     options->panel_count = words->panels.count;
-    options->state_count = words->states.count;
     options->level_count = words->levels.count;
     options->light_count = words->lights.count;
     options->light_level_count = words->light_levels.count;
@@ -56,7 +55,6 @@ bool scene_options_read(const SceneWords *words, const Cli *cli, Arena *arena,
            state_options_read(&words->state, &options->state, err) &&
            parse_overrides("--content", &words->contents, arena, &options->contents, err) &&
            parse_overrides("--panel", &words->panels, arena, &options->panels, err) &&
-           parse_overrides("--display-state", &words->states, arena, &options->states, err) &&
            parse_overrides("--display-level", &words->levels, arena, &options->levels, err) &&
            parse_overrides("--light", &words->lights, arena, &options->lights, err) &&
            parse_overrides("--light-level", &words->light_levels, arena,
@@ -115,8 +113,7 @@ const char *scene_options_given(const SceneWords *words, const EnvironmentChange
         {change->has_weather_lux, "--weather-lux"}, {change->has_heading, "--heading"},
         {change->has_turbidity, "--turbidity"}, {change->no_moon, "--no-moon"},
         {change->has_visibility, "--visibility"}, {words->contents.count > 0, "--content"},
-        {words->panels.count > 0, "--panel"}, {words->states.count > 0, "--display-state"},
-        {words->levels.count > 0, "--display-level"},
+        {words->panels.count > 0, "--panel"}, {words->levels.count > 0, "--display-level"},
         {words->lights.count > 0, "--light"}, {words->light_levels.count > 0, "--light-level"},
         {words->light_ccts.count > 0, "--light-cct"},
         {words->state.variants.count > 0, "--variant"}, {words->state.has_time, "--time"}};

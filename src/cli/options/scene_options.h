@@ -29,7 +29,7 @@ typedef struct StateWords {
 
 /* As typed, NAME=VALUE each. */
 typedef struct SceneWords {
-    CliTexts contents, panels, states, levels, lights, light_levels, light_ccts;
+    CliTexts contents, panels, levels, lights, light_levels, light_ccts;
     StateWords state;
 } SceneWords;
 
@@ -48,8 +48,6 @@ typedef struct SceneWords {
     {"--content", OPTION_TEXTS, "MATERIAL=IMAGE", "what a display shows", &(words)->contents}, \
     {"--panel", OPTION_TEXTS, "MATERIAL=FILE.panel", "makes a material a display",             \
      &(words)->panels},                                                                        \
-    {"--display-state", OPTION_TEXTS, "MATERIAL|*=STATE",                                      \
-     "which of its panel's states a display has (*: all)", &(words)->states},                  \
     {"--display-level", OPTION_TEXTS, "MATERIAL|*=PERCENT",                                    \
      "how bright a display is set (*: all)", &(words)->levels},                                \
     LAMP_OPTIONS(words),                                                                       \

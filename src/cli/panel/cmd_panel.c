@@ -12,7 +12,6 @@
 static const Command *const commands[] = {
     &command_panel_import,
     &command_panel_fit,
-    &command_panel_join,
     &command_panel_info,
     &command_panel_eval,
     &command_panel_export,

@@ -9,7 +9,6 @@
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
 #include "cli/panel/panel_level.h"
-#include "cli/panel/state_facts.h"
 #include "panel/query/panel_open.h"
 #include "panel/set/export.h"
 #include "text/json_text.h"
@@ -17,7 +16,6 @@
 typedef struct ExportRequest {
     ExportOptions options;
     const char   *output, *table;
-    const char   *state; /* that was read; NULL: the file has one, without a name */
     PanelLevel    level;
 } ExportRequest;
 
@@ -40,7 +38,6 @@ static bool export_from(const char *path, ExportRequest *request, Arena *arena, 
         return false;
     const char *words = panel_level_words(&request->level, arena);
     const char *name = words ? arena_format(arena, "%s, %s", path, words) : path;
-    request->state = state_facts_name(panel, arena);
     bool ok = request->table
         ? panel_export_table(panel, request->table, &request->options, request->output, err)
         : panel_export(panel, name, &request->options, request->output, err);
@@ -52,13 +49,10 @@ static bool print_done(const ExportRequest *request, const Cli *cli, Error *err)
 {
     if (cli->json) {
         json_t *done = json_pack("{s:o}", "output", json_text(request->output));
-        if (request->state) json_object_set_new(done, "state", json_text(request->state));
         panel_level_add(&request->level, done);
         return cli_print_json(done, err);
     }
     if (cli->quiet) return true;
-    if (request->state)
-        print("state %s alone; X.panel#STATE is another\n", request->state);
     print("%s%s\n", request->output, request->table ? "" : "/MANIFEST.json");
     panel_level_print(&request->level, stdout);
     return true;

@@ -11,8 +11,7 @@
 #include "cli/options/outputs.h"
 #include "cli/panel/panel_commands.h"
 #include "cli/panel/panel_facts.h"
-#include "cli/panel/state_facts.h"
-#include "panel/fit/fit_states.h"
+#include "panel/fit/fit.h"
 #include "panel/query/panel_open.h"
 
 /* The memory and CPU time of the process. */
@@ -116,9 +115,8 @@ static bool add_facts(const char *path, json_t *report, Arena *arena, Error *err
     Panel *panel = NULL;
     if (!panel_open(path, arena, &panel, err)) return false;
     panel_facts_add(panel, report);
-    bool ok = state_facts_add(panel, path, report, arena, err);
     panel_close(panel);
-    return ok;
+    return true;
 }
 
 /* As JSON the report of a panel that is not written is the answer; stderr has the reason. */
@@ -141,7 +139,7 @@ static Outcome run_fit(int argc, char **argv, Arena *arena, Error *err)
               outputs_spare(&words.cli.outputs, set->inputs.list, set->inputs.count, err) &&
               (!words.levels || measurement_read_levels(set, words.levels, words.level_max,
                                                         arena, err)) &&
-              fit_states(set, &fit, words.output, arena, &report, err);
+              panel_fit(set, &fit, words.output, arena, &report, err);
     if (!ok && (!report || !words.cli.json)) {
         json_decref(report);
         return OUTCOME_FAILED;

@@ -10,10 +10,9 @@
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
-#include "import/import_states.h"
+#include "import/import_request.h"
 #include "import/importers.h"
 #include "import/set/import_write.h"
-#include "panel/query/panel_info.h"
 #include "text/json_text.h"
 
 static void show_progress(void *context, int done)
@@ -27,19 +26,13 @@ static bool read_files(const Cli *cli, ImportRequest *request, ImportSet *set, E
     Progress progress = progress_start(cli->progress, "import", "files", cli->argument_count);
     request->step = show_progress;
     request->context = &progress;
-    bool ok = import_run_states(cli->arguments, cli->argument_count, request, set, err);
+    bool ok = import_run(cli->arguments, cli->argument_count, request, set, err);
     if (ok) progress_end(&progress, cli->argument_count);
     else progress_clear(&progress);
     return ok;
 }
 
 /* ---- the summary ------------------------------------------------------------------------- */
-
-/* What all states share, then each of them. */
-static const ImportSet *part_of(const ImportSet *set, int k)
-{
-    return k ? &set->state[k - 1] : set;
-}
 
 static json_t *table_summary(const ImportSet *set, const ImportTable *table, Arena *arena)
 {
@@ -58,13 +51,10 @@ static json_t *summary(const ImportSet *set, const char *manifest, Arena *arena)
 {
     json_t *tables = json_array();
     double  rows = 0, masked = 0;
-    for (int k = 0; k <= set->state_count; k++) {
-        const ImportSet *of = part_of(set, k);
-        for (int i = 0; i < of->count; i++) {
-            json_array_append_new(tables, table_summary(of, &of->table[i], arena));
-            rows += of->table[i].rows;
-            masked += of->table[i].masked;
-        }
+    for (int i = 0; i < set->count; i++) {
+        json_array_append_new(tables, table_summary(set, &set->table[i], arena));
+        rows += set->table[i].rows;
+        masked += set->table[i].masked;
     }
     return json_pack("{s:o, s:o, s:f, s:f, s:o}", "manifest", json_text(manifest), "tables",
                      tables, "rows", rows, "masked", masked, "notes",
@@ -89,23 +79,18 @@ static void print_unstated(const ImportSet *set)
 static void print_summary(const ImportSet *set, const char *manifest, Arena *arena)
 {
     double rows = 0, masked = 0;
-    int    count = 0;
     print("%-32s %10s %9s %7s  %s\n", "table", "directions", "values", "masked", "from");
-    for (int k = 0; k <= set->state_count; k++) {
-        const ImportSet *of = part_of(set, k);
-        count += of->count;
-        for (int i = 0; i < of->count; i++) {
-            const ImportTable *table = &of->table[i];
-            print("%-32s %10d %9.0f %7d  %s\n", import_table_file(of, table, arena),
-                  table->rows, (double)table->rows * table->channels, table->masked,
-                  table->file);
-            rows += table->rows;
-            masked += table->masked;
-        }
+    for (int i = 0; i < set->count; i++) {
+        const ImportTable *table = &set->table[i];
+        print("%-32s %10d %9.0f %7d  %s\n", import_table_file(set, table, arena),
+              table->rows, (double)table->rows * table->channels, table->masked, table->file);
+        rows += table->rows;
+        masked += table->masked;
     }
     for (int i = 0; i < set->note_count; i++) print("note: %s\n", set->note[i]);
     print_unstated(set);
-    print("%s: %d tables, %.0f directions, %.0f masked\n", manifest, count, rows, masked);
+    print("%s: %d tables, %.0f directions, %.0f masked\n", manifest, set->count, rows,
+          masked);
 }
 
 /* ---- options ----------------------------------------------------------------------------- */
@@ -121,7 +106,7 @@ typedef struct Words {
     double      peaks_nm[3];
     bool        has_peaks;
     double      aperture_deg;
-    CliTexts    roles, skip, gloss, states, list[KEYS_MAX];
+    CliTexts    roles, skip, gloss, list[KEYS_MAX];
     const char *key[KEYS_MAX]; /* of the text tables' keys */
     double      wavelength_nm, area_mm[2];
     bool        has_area, is_isotropic, black_is_zero, accepts_repeats;
@@ -165,8 +150,6 @@ static int list_options(Words *words, Option *option, Arena *arena)
         {"--role", OPTION_TEXTS, "PATTERN=ROLE", "what files are: red:255, black, white, "
          "brdf:INCIDENCE[:AZIMUTH[:NM]], dark, reference[:INCIDENCE], skip", &words->roles},
         {"--skip", OPTION_TEXTS, "PATTERN", "files to leave out", &words->skip},
-        {"--state", OPTION_TEXTS, "NAME=PATTERN", "files of one state; others: of all states",
-         &words->states},
         {"--format", OPTION_TEXT, "NAME", "the files' format (default: found from each file)",
          &words->format},
         {"--wavelength", OPTION_NUMBER, "NM", "of reflection files that do not say theirs",
@@ -262,38 +245,6 @@ static bool add_specular(const Words *words, Arena *arena, ImportSpecular *out, 
     return add_gloss(&words->gloss, arena, &out->gloss, err);
 }
 
-/* --state private=narrow: a name that comes again has one pattern more. They take the
- * place of the declaration's. */
-static bool add_states(const CliTexts *texts, Arena *arena, ImportRequest *request, Error *err)
-{
-    ImportStateFiles *list = ARENA_NEW(arena, ImportStateFiles, texts->count);
-    int               count = 0, i = 0;
-    for (; i < texts->count; i++) {
-        const char *name, *pattern;
-        int         k = 0;
-        if (!cli_name_value("--state", texts->list[i], arena, &name, &pattern, err))
-            return false;
-        if (!panel_info_is_state_name(name))
-            return error_set(err, ERROR_USAGE, "--state is '%s', required: NAME=PATTERN with a "
-                             "name of 1 to %d letters, digits, '-' and '_'", texts->list[i],
-                             PANEL_INFO_STATE_NAME_MAX);
-        while (k < count && strcmp(list[k].name, name) != 0) k++;
-        if (k == count) {
-            list[k].name = name;
-            list[k].pattern = ARENA_NEW(arena, const char *, texts->count);
-            count++;
-        }
-        list[k].pattern[list[k].count++] = pattern;
-    }
-    if (!i) return true;
-    if (count < 2 || count > PANEL_INFO_STATES_MAX)
-        return error_set(err, ERROR_USAGE, "--state names %d state%s, required: 2 to %d", count,
-                         count == 1 ? "" : "s", PANEL_INFO_STATES_MAX);
-    request->states = list;
-    request->state_count = count;
-    return true;
-}
-
 /* The declaration file first, the command line on top of it. */
 static bool make_request(const Words *words, Arena *arena, ImportRequest *request, Error *err)
 {
@@ -302,8 +253,7 @@ static bool make_request(const Words *words, Arena *arena, ImportRequest *reques
     if (words->layout && !import_request_read(words->layout, arena, request, err)) return false;
     if (!add_keys(words, &request->text, err) ||
         !add_roles(&words->roles, arena, &request->text, err) ||
-        !add_specular(words, arena, &request->specular, err) ||
-        !add_states(&words->states, arena, request, err))
+        !add_specular(words, arena, &request->specular, err))
         return false;
     for (int i = 0; i < words->skip.count; i++) {
         if (request->skip.count == TEXT_ENTRIES_MAX)

@@ -9,7 +9,6 @@
 #include "cli/panel/panel_commands.h"
 #include "cli/panel/panel_facts.h"
 #include "cli/panel/panel_level.h"
-#include "cli/panel/state_facts.h"
 #include "panel/query/panel.h"
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_open.h"
@@ -45,16 +44,12 @@ static bool print_levels(const Panel *panel, const Cli *cli, Arena *arena, Error
     return true;
 }
 
-static bool print_report(const Panel *panel, const Cli *cli, Arena *arena, Error *err)
+static bool print_report(const Panel *panel, const Cli *cli, Error *err)
 {
     json_t *report = NULL;
     if (!panel_report(panel, &report, err)) return error_in_file(err, cli->arguments[0]);
     add_lights(panel, report);
     panel_facts_add(panel, report);
-    if (!state_facts_add(panel, cli->arguments[0], report, arena, err)) {
-        json_decref(report);
-        return false;
-    }
     return panel_print_report(report, cli->json, err);
 }
 
@@ -75,7 +70,7 @@ static Outcome run_info(int argc, char **argv, Arena *arena, Error *err)
     if (cli.help_shown) return OUTCOME_DONE;
     if (!panel_open(cli.arguments[0], arena, &panel, err)) return OUTCOME_FAILED;
     bool ok = wants_levels ? print_levels(panel, &cli, arena, err)
-                           : print_report(panel, &cli, arena, err);
+                           : print_report(panel, &cli, err);
     panel_close(panel);
     return outcome_of(ok);
 }

@@ -11,7 +11,6 @@
 #include "cli/options/outputs.h"
 #include "cli/panel/panel_commands.h"
 #include "cli/panel/panel_level.h"
-#include "cli/panel/state_facts.h"
 #include "panel/query/panel_open.h"
 #include "plot/report/report.h"
 #include "text/json_text.h"
@@ -35,19 +34,11 @@ static bool open_and_write(ReportRequest *request, const Cli *cli, Arena *arena,
         return false;
     request->level.parts = PANEL_COARSE_ALL;
     if (!panel_level_open(request->panel, &request->level, arena, &panel, err)) return false;
-    StatePanels states;
-    if ((measured && !state_facts_take(panel, measured, err)) ||
-        !state_facts_open(panel, request->panel, &request->level, arena, &states, err)) {
-        panel_close(panel);
-        return false;
-    }
     PlotInput input = {panel, request->panel, measured,
-                       panel_level_words(&request->level, arena), states.one,
-                       states.count};
+                       panel_level_words(&request->level, arena)};
     bool ok = panel_report_write(&input, &request->options, &request->output, arena, answer,
                                  err);
     if (ok) panel_level_add(&request->level, *answer);
-    state_facts_close(&states);
     panel_close(panel);
     return ok;
 }

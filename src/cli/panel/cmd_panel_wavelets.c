@@ -234,7 +234,6 @@ static Outcome run_wavelets(int argc, char **argv, Arena *arena, Error *err)
     if (words.folder) note_files(words.folder, arena, &words.cli.outputs);
     if (!reference_check_root(words.root, err) ||
         !measurement_read_below(words.cli.arguments[0], words.root, arena, set, err) ||
-        !measurement_take_state(set, NULL, err) ||
         !outputs_spare(&words.cli.outputs, set->inputs.list, set->inputs.count, err) ||
         !wavelet_study(set, &words.options, arena, study, err))
         return OUTCOME_FAILED;

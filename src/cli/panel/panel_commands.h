@@ -7,7 +7,6 @@ extern const Command command_panel;
 
 extern const Command command_panel_import;
 extern const Command command_panel_fit;
-extern const Command command_panel_join;
 extern const Command command_panel_info;
 extern const Command command_panel_eval;
 extern const Command command_panel_export;

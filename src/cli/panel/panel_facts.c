@@ -9,7 +9,6 @@
 #include "base/units.h"
 #include "cli/options/answer.h"
 #include "cli/panel/panel_question.h"
-#include "cli/panel/state_print.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_place.h"
@@ -144,18 +143,6 @@ static void add_zones(const Panel *panel, json_t *out)
     arena_release(&arena);
 }
 
-/* Absent: the file has one, without a name. */
-static void add_states(const Panel *panel, json_t *out)
-{
-    int     state, count = panel_info_states(panel, &state);
-    json_t *names = json_array();
-    for (int i = 0; i < count; i++)
-        json_array_append_new(names, json_string(panel_info_state_name(panel, i)));
-    if (count) json_object_set(out, "states", names);
-    if (count) json_object_set(out, "state", json_array_get(names, (size_t)state));
-    json_decref(names);
-}
-
 static void add_emission(const Panel *panel, const json_t *report, json_t *out)
 {
     const json_t *emission = json_object_get(report, "emission");
@@ -256,7 +243,6 @@ static void add_places(const Panel *panel, json_t *out)
 void panel_facts_add(const Panel *panel, json_t *report)
 {
     json_t *out = json_object();
-    add_states(panel, out);
     if (panel_varies(panel)) add_places(panel, out);
     if (panel_info_emits(panel)) add_emission(panel, report, out);
     if (panel_reflects(panel)) add_reflection(panel, out);
@@ -310,14 +296,6 @@ static void print_polarisation(const json_t *polarisation)
     if (!polarisation) return;
     print("polarised  %.4g %%, linearly, along azimuth %.6g degrees\n",
           100 * number(polarisation, "degree"), number(polarisation, "azimuth_deg"));
-}
-
-static void print_states(const json_t *facts)
-{
-    const json_t *names = json_object_get(facts, "states");
-    for (size_t i = 0; i < json_array_size(names); i++)
-        print("%s%s", i ? ", " : "states     ", json_string_value(json_array_get(names, i)));
-    if (names) print("; this is %s\n", json_string_value(json_object_get(facts, "state")));
 }
 
 static void print_subpixels(const json_t *stated)
@@ -410,7 +388,6 @@ static void print_facts(const json_t *report)
 {
     const json_t *facts = json_object_get(report, "display");
     const json_t *xy = json_object_get(facts, "white_xy");
-    print_states(facts);
     if (xy) {
         print("white      %.4g cd/m2, xy %.4f %.4f; ", number(facts, "white_cd_m2"),
               item(xy, 0), item(xy, 1));
@@ -519,7 +496,6 @@ static void print_text(const json_t *report)
           json_string_value(json_object_get(report, "instrument")));
     print_verdict(report);
     print_facts(report);
-    state_print(report);
     print_choices("emission", json_object_get(report, "emission"));
     print_choices("reflection", json_object_get(report, "reflection"));
     json_array_foreach(json_object_get(report, "notes"), i, value)

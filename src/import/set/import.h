@@ -94,9 +94,6 @@ typedef struct ImportSet {
     const char   *note[IMPORT_NOTES_MAX]; /* one line each: assumed, converted, left out */
     int           note_count;
     Lines         inputs;            /* files that it is made from */
-    const char   *state_name;        /* of which state of the display it is; NULL: of all */
-    struct ImportSet *state;         /* what is of one state alone, in their order */
-    int           state_count;
 } ImportSet;
 
 /* The place of a word, in any case, in a list that ends with NULL; or -1. */

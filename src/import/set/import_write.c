@@ -19,34 +19,21 @@ typedef struct SetOutput {
     Arena            scratch;
 } SetOutput;
 
-/* What the names of tables begin with: a folder, of a state its own for both kinds. */
-static const char *folder_of(const ImportSet *set, bool reflects, Arena *arena)
-{
-    if (!set->state_name) return reflects ? "brdf/" : "emission/";
-    return arena_format(arena, reflects ? "%s/brdf_" : "%s/", set->state_name);
-}
-
 const char *import_table_file(const ImportSet *set, const ImportTable *table, Arena *arena)
 {
     const char *name = import_source_name(table->source);
-    const char *emission = folder_of(set, false, arena), *brdf = folder_of(set, true, arena);
     if (table->source == IMPORT_BLACK || table->source == IMPORT_WHITE)
-        return arena_format(arena, "%s%s.csv", emission, name);
+        return arena_format(arena, "emission/%s.csv", name);
     if (table->source != IMPORT_REFLECTION)
-        return arena_format(arena, "%s%s_%03.10g.csv", emission, name, table->level);
+        return arena_format(arena, "emission/%s_%03.10g.csv", name, table->level);
     if (set->is_anisotropic)
-        return arena_format(arena, "%si%.10g_a%.10g.csv", brdf, table->incidence_deg,
+        return arena_format(arena, "brdf/i%.10g_a%.10g.csv", table->incidence_deg,
                             table->incidence_phi_deg);
-    return arena_format(arena, "%si%.10g.csv", brdf, table->incidence_deg);
+    return arena_format(arena, "brdf/i%.10g.csv", table->incidence_deg);
 }
 
-static const char *levels_file(SetOutput *out)
-{
-    return arena_format(&out->scratch, "%slevels.csv", folder_of(out->set, false,
-                                                                 &out->scratch));
-}
-
-#define SPECULAR_FILE "brdf/specular.csv" /* which is of no state alone */
+#define LEVELS_FILE "emission/levels.csv"
+#define SPECULAR_FILE "brdf/specular.csv"
 
 /* ---- tables ------------------------------------------------------------------------------ */
 
@@ -151,7 +138,7 @@ static json_t *emission_object(SetOutput *out)
         }
     }
     if (out->set->levels)
-        json_object_set_new(emission, "levels", json_string(levels_file(out)));
+        json_object_set_new(emission, "levels", json_string(LEVELS_FILE));
     return emission;
 }
 
@@ -186,7 +173,7 @@ static void add_specular(const ImportSet *set, json_t *object)
                             "aperture_deg", number(set->specular_aperture_deg)));
 }
 
-static json_t *reflection_object(const ImportSet *set, Arena *scratch)
+static json_t *reflection_object(const ImportSet *set)
 {
     json_t *object = NULL, *nm = json_array(), *incidence = json_array(),
            *azimuth = json_array();
@@ -204,10 +191,9 @@ static json_t *reflection_object(const ImportSet *set, Arena *scratch)
         json_object_set(object, "wavelengths_nm", nm);
         json_object_set(object, "incidence_deg", incidence);
         if (set->is_anisotropic) json_object_set(object, "incidence_phi_deg", azimuth);
-        const char *files = arena_format(scratch, "%si{incidence}%s.csv",
-                                         folder_of(set, true, scratch),
-                                         set->is_anisotropic ? "_a{azimuth}" : "");
-        json_object_set_new(object, "files", json_string(files));
+        json_object_set_new(object, "files",
+                            json_string(set->is_anisotropic ? "brdf/i{incidence}_a{azimuth}.csv"
+                                                            : "brdf/i{incidence}.csv"));
         add_specular(set, object);
     }
     json_decref(nm);
@@ -219,27 +205,12 @@ static json_t *reflection_object(const ImportSet *set, Arena *scratch)
 /* The name in the files or of the user; else that of their folder, or of the only file. */
 static const char *panel_name(SetOutput *out)
 {
-    const ImportSet *first = out->set->count ? out->set : &out->set->state[0];
-    const char *file = first->table[0].file, *name = path_name(file);
+    const char *file = out->set->table[0].file, *name = path_name(file);
     if (out->set->panel) return out->set->panel;
     if (out->set->count == 1 || name - file < 2) return name;
     char *folder = arena_string(&out->scratch, file, (size_t)(name - file) - 1);
     name = path_name(folder);
     return *name && *name != '.' ? name : path_name(file);
-}
-
-/* What each state has alone. */
-static json_t *states_object(SetOutput *out)
-{
-    json_t *states = json_object();
-    for (int i = 0; i < out->set->state_count; i++) {
-        SetOutput one = {.set = &out->set->state[i], .scratch = out->scratch};
-        json_t   *state = json_pack("{s:o}", "emission", emission_object(&one));
-        json_t   *reflection = reflection_object(one.set, &one.scratch);
-        if (reflection) json_object_set_new(state, "reflection", reflection);
-        json_object_set_new(states, one.set->state_name, state);
-    }
-    return states;
 }
 
 static json_t *manifest_object(SetOutput *out)
@@ -264,9 +235,8 @@ static json_t *manifest_object(SetOutput *out)
     if (set->peaks_nm[0] > 0)
         json_object_set_new(root, "peaks_nm", json_pack("[o,o,o]", number(set->peaks_nm[0]),
                             number(set->peaks_nm[1]), number(set->peaks_nm[2])));
-    json_t *reflection = reflection_object(set, &out->scratch);
+    json_t *reflection = reflection_object(set);
     if (reflection) json_object_set_new(root, "reflection", reflection);
-    if (set->state_count) json_object_set_new(root, "states", states_object(out));
     return root;
 }
 
@@ -278,28 +248,18 @@ static bool write_manifest(SetOutput *out)
     return ok;
 }
 
-/* Of the whole set, or of one of its states. */
-static bool write_tables(SetOutput *out, const ImportSet *of)
-{
-    const ImportSet *whole = out->set;
-    bool ok = true;
-    out->set = of;
-    for (int i = 0; i < of->count && ok; i++) ok = write_table(out, &of->table[i]);
-    ok = ok && (!of->levels || write_text(out, levels_file(out),
-                                          level_table_text(of->levels, &out->scratch)));
-    out->set = whole;
-    return ok;
-}
-
 bool import_write(const ImportSet *set, const char *manifest, Error *err)
 {
     SetOutput out = {.set = set};
     if (!set_writer_open(manifest, &set->inputs, &out.writer, err)) return false;
     Arena arena = arena_reserve((size_t)16 << 30);
     out.scratch = arena;
-    bool ok = write_tables(&out, set);
-    for (int i = 0; i < set->state_count && ok; i++) ok = write_tables(&out, &set->state[i]);
-    ok = ok && write_spectra(&out) &&
+    bool ok = true;
+    for (int i = 0; i < set->count && ok; i++) ok = write_table(&out, &set->table[i]);
+    ok = ok &&
+         (!set->levels || write_text(&out, LEVELS_FILE,
+                                     level_table_text(set->levels, &out.scratch))) &&
+         write_spectra(&out) &&
          (!set->specular || write_text(&out, SPECULAR_FILE,
                                        specular_table_text(set->specular, &out.scratch))) &&
          write_manifest(&out);

@@ -535,11 +535,11 @@ static bool add_map(FitRun *run, const Measurement *set, const FitParts *parts,
     return panel && fit_places_add_map(set, panel, run->arena, places, run->err);
 }
 
-static bool fit_whole(FitRun *run, const Measurement *set, FitPlaces *places, FittedPanel *out)
+static bool fit_whole(FitRun *run, const Measurement *set, FitPlaces *places, FitTarget *out,
+                      json_t **report)
 {
-    FitParts  parts;
-    FitTarget target = {.path = run->path};
-    json_t   *spots = json_array();
+    FitParts parts;
+    json_t  *spots = json_array();
     if (!fit_spots(run, set, places, spots) || !fit_parts(run, &places->own, &parts)) {
         json_decref(spots);
         return false;
@@ -547,35 +547,26 @@ static bool fit_whole(FitRun *run, const Measurement *set, FitPlaces *places, Fi
     parts.places = places;
     parts.spots = spots;
     bool ok = add_map(run, set, &parts, places) &&
-              finish_panel(&parts, &target, run->arena, &out->report, run->err);
-    out->file = (FileBytes){target.bytes, target.size};
+              finish_panel(&parts, out, run->arena, report, run->err);
     json_decref(spots);
-    return ok;
-}
-
-bool panel_fit_bytes(const Measurement *measurement, const FitOptions *options,
-                     const char *path, Arena *arena, FittedPanel *out, Error *err)
-{
-    FitRun    run = {.options = options, .path = path, .arena = arena, .err = err};
-    FitPlaces places;
-    fit_places_plan(measurement, arena, &places);
-    int steps = STEPS * (1 + places.panels);
-    run.progress = progress_start(options->progress, "fit", "steps", steps);
-    *out = (FittedPanel){.report = NULL};
-    bool ok = fit_whole(&run, measurement, &places, out);
-    if (ok) progress_end(&run.progress, steps);
-    else progress_clear(&run.progress);
     return ok;
 }
 
 bool panel_fit(const Measurement *measurement, const FitOptions *options, const char *path,
                Arena *arena, json_t **report, Error *err)
 {
-    FittedPanel fitted;
+    FitRun    run = {.options = options, .path = path, .arena = arena, .err = err};
+    FitTarget target = {.path = path};
+    FitPlaces places;
+    *report = NULL;
     if (!file_check_writable(path, err)) return false; /* a fit takes a while */
-    bool ok = panel_fit_bytes(measurement, options, path, arena, &fitted, err);
-    *report = fitted.report;
-    if (!ok || file_write(path, fitted.file.data, fitted.file.size, err)) return ok;
+    fit_places_plan(measurement, arena, &places);
+    int steps = STEPS * (1 + places.panels);
+    run.progress = progress_start(options->progress, "fit", "steps", steps);
+    bool ok = fit_whole(&run, measurement, &places, &target, report);
+    if (ok) progress_end(&run.progress, steps);
+    else progress_clear(&run.progress);
+    if (!ok || file_write(path, target.bytes, target.size, err)) return ok;
     json_decref(*report);
     *report = NULL;
     return false;

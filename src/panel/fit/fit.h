@@ -15,20 +15,11 @@
 #pragma once
 #include <jansson.h>
 
-#include "base/file.h"
 #include "panel/fit/common/fit_options.h"
 #include "panel/set/measurement.h"
 
 /* Fits, checks against the tables and writes the file at once (nothing half-written stays).
- * *report: what `panel info` shows, owned by the caller (json_decref). The measurement is of
- * one state; fit_states.h takes any. */
+ * *report: what `panel info` shows, owned by the caller (json_decref); NULL after other
+ * failures than ERROR_UNUSABLE. */
 bool panel_fit(const Measurement *measurement, const FitOptions *options, const char *path,
                Arena *arena, json_t **report, Error *err);
-
-/* The same without writing; path: for messages. */
-typedef struct FittedPanel {
-    FileBytes file;   /* its bytes */
-    json_t   *report; /* NULL after other failures than ERROR_UNUSABLE */
-} FittedPanel;
-bool panel_fit_bytes(const Measurement *measurement, const FitOptions *options,
-                     const char *path, Arena *arena, FittedPanel *out, Error *err);

@@ -52,8 +52,8 @@ typedef enum PanelSectionKind {
     PANEL_REACH = 15,          /* PanelReachStored[tables]; absent: the cone of all tables */
     PANEL_ZONES = 16,          /* PanelZonesStored and what follows it; absent: one backlight,
                                   always full */
-    PANEL_STATES = 17,         /* PanelStateStored of each state; absent: there is one */
-    PANEL_STATE_FILE = 18      /* index 1 on: a panel file of its own, of that state */
+    PANEL_STATES = 17          /* several states of a display, once written: refused (18 held
+                                  their files) */
 } PanelSectionKind;
 
 typedef struct PanelSection {
@@ -217,14 +217,6 @@ typedef struct PanelMapHead {
 } PanelMapHead;
 #define PANEL_MAP_SIDE_MAX 8192
 #define PANEL_MAP_LEAST_SCALE 1e-20f
-
-/* A display that shines otherwise at a switch: private, shared. State 0 is what the file holds
- * itself, which is all that a reader sees who knows nothing of states; state k is the file in
- * section PANEL_STATE_FILE of index k, which has no states of its own. */
-typedef struct PanelStateStored {
-    char name[32]; /* letters, digits, '-' and '_'; zeros behind it, one at least */
-} PanelStateStored;
-#define PANEL_STATES_MAX 16
 
 #define PANEL_TABLES_MAX 1152 /* incidences times azimuths */
 #define PANEL_AZIMUTHS_MAX 72

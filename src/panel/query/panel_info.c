@@ -124,31 +124,3 @@ int panel_spots(const Panel *panel, float place[PANEL_EVENNESS_SPOTS][2], int ma
     if (places->map) map[0] = places->map->width, map[1] = places->map->height;
     return places->spots;
 }
-
-/* ---- states ---------------------------------------------------------------------------- */
-
-int panel_info_states(const Panel *panel, int *state)
-{
-    *state = panel->state;
-    return panel->states;
-}
-
-const char *panel_info_state_name(const Panel *panel, int i)
-{
-    return panel->state_names[i].name;
-}
-
-_Static_assert(PANEL_INFO_STATES_MAX == PANEL_STATES_MAX, "as many as a file may have");
-_Static_assert(PANEL_INFO_STATE_NAME_MAX == sizeof(PanelStateStored) - 1, "as long as there");
-
-bool panel_info_is_state_name(const char *name)
-{
-    size_t length = 0;
-    for (; name[length]; length++) {
-        char c = name[length];
-        bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                        (c >= '0' && c <= '9') || c == '-' || c == '_';
-        if (!is_plain || length == PANEL_INFO_STATE_NAME_MAX) return false;
-    }
-    return length > 0;
-}

@@ -26,19 +26,6 @@ int panel_info_azimuths(const Panel *panel, double phi[PANEL_INFO_AZIMUTHS_MAX])
 double panel_info_reflection_cone(const Panel *panel);
 bool panel_info_has_hulls(const Panel *panel);
 
-/* ---- states ---------------------------------------------------------------------------- */
-
-/* How many states the file has (panel_open.h); 0: one, without a name. Which of them this is,
- * and their names. */
-int         panel_info_states(const Panel *panel, int *state);
-const char *panel_info_state_name(const Panel *panel, int i);
-
-#define PANEL_INFO_STATES_MAX 16
-#define PANEL_INFO_STATE_NAME_MAX 31 /* bytes */
-
-/* 1 to so many letters, digits, '-' and '_'? */
-bool panel_info_is_state_name(const char *name);
-
 /* ---- emission -------------------------------------------------------------------------- */
 
 /* Something was measured that it emits? */

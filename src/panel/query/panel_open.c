@@ -3,14 +3,12 @@
 #include "panel/query/panel_open.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/file.h"
 #include "base/units.h"
 #include "hemisphere/tree/tree_stop.h"
 #include "panel/query/panel_emission.h"
-#include "panel/query/panel_info.h"
 #include "panel/query/panel_open_emission.h"
 #include "panel/query/panel_open_reflection.h"
 #include "panel/query/panel_opened.h"
@@ -436,98 +434,28 @@ static bool open_places(const PanelBytes *bytes, Arena *arena, Panel *panel)
     return true;
 }
 
+/* Read as its first state alone it would answer for a display that nobody chose. */
+static bool refuse_states(const PanelBytes *bytes)
+{
+    PanelBytes at;
+    bool       found;
+    return panel_find_section(bytes, PANEL_STATES, 0, &at, &found) &&
+           (!found || error_at(bytes->err, ERROR_INPUT, bytes->name, "",
+                               "has several states of a display, which are no longer read; "
+                               "required: a panel file of each (`panel fit`), chosen by "
+                               "`--panel NAME=FILE`"));
+}
+
 bool panel_from_bytes(const void *data, size_t size, const char *name, Arena *arena,
                       Panel **out, Error *err)
 {
     PanelBytes  bytes = {data, size, name, err};
     PanelHeader header;
     Panel      *panel;
-    if (!open_one(&bytes, arena, &header, &panel) || !open_places(&bytes, arena, panel) ||
-        !check_version(&bytes, &header, panel))
+    if (!open_one(&bytes, arena, &header, &panel) || !refuse_states(&bytes) ||
+        !open_places(&bytes, arena, panel) || !check_version(&bytes, &header, panel))
         return false;
     panel_open_warps(panel);
-    *out = panel;
-    return true;
-}
-
-/* ---- states ------------------------------------------------------------------------------ */
-
-_Static_assert(sizeof(PanelStateStored) == 32, "the file's layout");
-
-static bool is_state_name(const PanelStateStored *stored)
-{
-    static const PanelStateStored zeros;
-    size_t length = strnlen(stored->name, sizeof *stored);
-    return length < sizeof *stored && panel_info_is_state_name(stored->name) &&
-           !memcmp(stored->name + length, zeros.name, sizeof zeros - length);
-}
-
-/* Names and how many there are; 0: the file has none. */
-static bool read_states(const PanelBytes *bytes, Panel *panel)
-{
-    PanelBytes at;
-    bool       found;
-    if (!panel_find_section(bytes, PANEL_STATES, 0, &at, &found)) return false;
-    if (!found) return true;
-    size_t count = at.size / sizeof(PanelStateStored);
-    if (at.size % sizeof(PanelStateStored) || count < 2 || count > PANEL_STATES_MAX)
-        return panel_refuse(bytes, "states", "have a wrong number of bytes");
-    const PanelStateStored *names = (const PanelStateStored *)(const void *)at.data;
-    for (size_t i = 0; i < count; i++) {
-        if (!is_state_name(&names[i])) return panel_refuse(bytes, "states", "a name is none");
-        for (size_t k = 0; k < i; k++)
-            if (!strcmp(names[i].name, names[k].name))
-                return panel_refuse(bytes, "states", "two have one name");
-        PanelBytes own;
-        if (i && !panel_need_section(bytes, PANEL_STATE_FILE, (uint32_t)i, &own)) return false;
-    }
-    panel->states = (int)count;
-    panel->state_names = names;
-    return true;
-}
-
-static bool open_whole(const PanelBytes *bytes, Arena *arena, Panel **out)
-{
-    return panel_from_bytes(bytes->data, bytes->size, bytes->name, arena, out, bytes->err) &&
-           check_sampling(bytes, *out) && read_states(bytes, *out);
-}
-
-static bool refuse_state(const PanelBytes *bytes, const Panel *panel, const char *state)
-{
-    char names[PANEL_STATES_MAX * (sizeof(PanelStateStored) + 2)] =
-        "no state: this file has one only";
-    for (int i = 0, length = 0; i < panel->states; i++)
-        length += snprintf(names + length, sizeof names - (size_t)length, "%s%s",
-                           i ? ", " : "", panel->state_names[i].name);
-    return error_at(bytes->err, ERROR_INPUT, bytes->name, "",
-                    "has no state '%.60s', required: %s", state, names);
-}
-
-static bool open_other_state(const PanelBytes *bytes, int state, Arena *arena, Panel **out)
-{
-    const Panel *whole = *out;
-    PanelBytes   own;
-    if (!panel_need_section(bytes, PANEL_STATE_FILE, (uint32_t)state, &own)) return false;
-    if (!open_whole(&own, arena, out)) return error_prefix(bytes->err, "a state's own file");
-    if ((*out)->states)
-        return panel_refuse(bytes, "states", "a state's own file has states again");
-    (*out)->states = whole->states;
-    (*out)->state_names = whole->state_names;
-    (*out)->state = state;
-    return true;
-}
-
-bool panel_open_state(const PanelOpenArgs *args, Arena *arena, Panel **out, Error *err)
-{
-    PanelBytes bytes = {args->data, args->size, args->name, err};
-    Panel     *panel;
-    int        state = 0;
-    if (!open_whole(&bytes, arena, &panel)) return false;
-    while (args->state && state < panel->states &&
-           strcmp(panel->state_names[state].name, args->state) != 0)
-        state++;
-    if (args->state && state == panel->states) return refuse_state(&bytes, panel, args->state);
-    if (state && !open_other_state(&bytes, state, arena, &panel)) return false;
     *out = panel;
     return true;
 }
@@ -535,37 +463,23 @@ bool panel_open_state(const PanelOpenArgs *args, Arena *arena, Panel **out, Erro
 bool panel_open_memory(const void *data, size_t size, const char *name, Arena *arena,
                        Panel **out, Error *err)
 {
-    PanelOpenArgs args = {data, size, name, NULL};
-    return panel_open_state(&args, arena, out, err);
+    PanelBytes bytes = {data, size, name, err};
+    return panel_from_bytes(data, size, name, arena, out, err) && check_sampling(&bytes, *out);
 }
 
 /* A copy, not a mapping: a file that shrinks under a mapping kills the process, and one that
  * changes would be queried unchecked. */
-bool panel_open_named(const char *file, const char *state, Arena *arena, Panel **out,
-                      Error *err)
+bool panel_open(const char *path, Arena *arena, Panel **out, Error *err)
 {
-    Arena         copy = arena_reserve(PANEL_FILE_BYTES_MAX + 4096);
-    FileBytes     bytes = {0};
-    bool          ok = file_read(file, PANEL_FILE_BYTES_MAX, &copy, &bytes, err);
-    PanelOpenArgs args = {bytes.data, bytes.size, file, state};
-    if (!ok || !panel_open_state(&args, arena, out, err)) {
+    Arena     copy = arena_reserve(PANEL_FILE_BYTES_MAX + 4096);
+    FileBytes bytes = {0};
+    if (!file_read(path, PANEL_FILE_BYTES_MAX, &copy, &bytes, err) ||
+        !panel_open_memory(bytes.data, bytes.size, path, arena, out, err)) {
         arena_release(&copy);
         return false;
     }
     (*out)->copy = copy;
     return true;
-}
-
-const char *panel_open_file(const char *path, Arena *arena)
-{
-    const char *hash = strrchr(path, '#');
-    return hash && !file_exists(path) ? arena_string(arena, path, (size_t)(hash - path)) : path;
-}
-
-bool panel_open(const char *path, Arena *arena, Panel **out, Error *err)
-{
-    const char *file = panel_open_file(path, arena), *hash = strrchr(path, '#');
-    return panel_open_named(file, file == path ? NULL : hash + 1, arena, out, err);
 }
 
 void panel_close(Panel *panel)

@@ -13,14 +13,8 @@
 #include "base/error.h"
 #include "panel/query/panel.h"
 
-/* Opens and checks a .panel file (version, checksum, every offset). "X.panel#STATE" is that
- * state of X.panel, unless a file has that name; else a file of several states is its first. */
+/* Opens and checks a .panel file (version, checksum, every offset). */
 bool panel_open(const char *path, Arena *arena, Panel **out, Error *err);
-
-/* What of such a path is the file's, and a state of that by its name (NULL: the first). */
-const char *panel_open_file(const char *path, Arena *arena);
-bool        panel_open_named(const char *file, const char *state, Arena *arena, Panel **out,
-                             Error *err);
 
 #define PANEL_FILE_BYTES_MAX ((size_t)256 << 20)
 
@@ -29,16 +23,6 @@ bool        panel_open_named(const char *file, const char *state, Arena *arena, 
 bool panel_open_memory(const void *data, size_t size, const char *name, Arena *arena,
                        Panel **out, Error *err);
 void panel_close(Panel *panel); /* NULL is fine */
-
-/* The same of one of its states. */
-typedef struct PanelOpenArgs {
-    const void *data;
-    size_t      size;
-    const char *name;  /* of the file, for messages */
-    const char *state; /* NULL: the first */
-} PanelOpenArgs;
-
-bool panel_open_state(const PanelOpenArgs *args, Arena *arena, Panel **out, Error *err);
 
 /* As panel_open_memory, before the sampling of the reflection is there. */
 bool panel_from_bytes(const void *bytes, size_t size, const char *name, Arena *arena,

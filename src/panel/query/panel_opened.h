@@ -152,8 +152,6 @@ struct Panel {
     Tree         reflection_tree;
     PanelSampling sampling;
     const PanelPlaces *places; /* NULL: the same everywhere */
-    int          states, state; /* how many the file has, 0: none with a name; which it is */
-    const PanelStateStored *state_names; /* [states], in the file */
     int16_t      wavelength_index[SPECTRAL_COUNT]; /* interval that begins at or below a nm */
     float        wavelength_scale[PANEL_WAVELENGTHS_MAX]; /* 1 / interval's width */
 };

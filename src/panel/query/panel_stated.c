@@ -6,7 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "panel/query/panel_info.h"
 #include "panel/query/panel_report.h"
 
 #define SIMULATED "simulated" /* what begins the instrument's name (panel/set/simulate.c) */
@@ -52,8 +51,6 @@ PanelStated panel_stated(const Panel *panel, Arena *arena)
     PanelStated out = {0};
     Error       ignored;
     json_t     *report;
-    int         state, states = panel_info_states(panel, &state);
-    if (states) out.state = arena_format(arena, "%s", panel_info_state_name(panel, state));
     if (!panel_report(panel, &report, &ignored)) return out;
     const json_t *tables = json_object_get(report, "tables");
     out.verdict = kept_text(json_object_get(report, "verdict"), arena);

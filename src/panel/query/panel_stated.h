@@ -28,7 +28,6 @@ typedef struct PanelStated {
     const char *assumed;    /* of the emission's spectra; NULL: they were measured, or an
                                older file */
     bool        is_synthetic;
-    const char *state;      /* which of its file's it is; NULL: there is one, without a name */
 } PanelStated;
 
 PanelStated panel_stated(const Panel *panel, Arena *arena);

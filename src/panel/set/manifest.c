@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/count.h"
-#include "panel/query/panel_info.h"
 #include "panel/set/primary_bands.h"
 #include "record/rows.h"
 
@@ -268,82 +267,6 @@ static bool check_spots(const JsonView *root, const Manifest *m, Error *err)
     return true;
 }
 
-/* ---- states ------------------------------------------------------------------------------ */
-
-#define OWNER ManifestState
-static const RecordRow STATE[] = {
-    PARTS,
-    LIST("spots", 0, spot, spot_count, 1, MEASUREMENT_SPOTS_MAX, spot_format,
-         "Places that were measured in this state, as the manifest's own."),
-    PART("uniformity", uniformity, has_uniformity, uniformity_format,
-         "How even this state shines."),
-    PATH("primaries", 0, primaries, "Spectra of the primaries in this state."),
-    PART("polarisation", traits, has_polarisation, polarisation_format,
-         "Of the light in this state."),
-    {0}};
-#undef OWNER
-
-static bool check_state(const JsonView *view, void *item, Error *err)
-{
-    ManifestState *state = item;
-    bool           emits = state->emission.is_there;
-    state->path = view->path;
-    if (!panel_info_is_state_name(state->name))
-        return error_at(err, ERROR_INPUT, view->file, view->path, "is no state's name, "
-                        "required: 1 to %d letters, digits, '-' and '_'",
-                        PANEL_INFO_STATE_NAME_MAX);
-    for (int i = 0; i < state->spot_count; i++) emits |= state->spot[i].emission.is_there;
-    return emits || error_at(err, ERROR_INPUT, view->file, view->path, "has no 'emission', "
-                             "required: one in each state, or spots that have one");
-}
-
-static const RecordFormat state_format = {
-    "state", sizeof(ManifestState), STATE, .check = check_state,
-    .rules = "{'anyOf': [{'required': ['emission']}, {'required': ['spots']}]}",
-    .doc = "The display as it shines at another switch. What it leaves out of reflection, "
-           "uniformity, primaries and polarisation, the manifest's own says."};
-
-Manifest manifest_of_state(const Manifest *whole, const ManifestState *state)
-{
-    Manifest     out = *whole;
-    Measurement *set = &out.set;
-    out.state_count = 0;
-    out.emission = state->emission;
-    out.spot = state->spot;
-    out.spot_count = state->spot_count;
-    if (state->reflection.is_there) out.reflection = state->reflection;
-    if (state->has_uniformity) out.uniformity = state->uniformity;
-    if (state->primaries) out.primaries = state->primaries;
-    if (state->has_polarisation) {
-        set->traits.polarisation_degree = state->traits.polarisation_degree;
-        set->traits.polarisation_azimuth_deg = state->traits.polarisation_azimuth_deg;
-    }
-    for (int i = 0; i < out.spot_count; i++) {
-        set->spots_emit |= out.spot[i].emission.is_there;
-        set->spots_reflect |= out.spot[i].reflection.is_there;
-    }
-    return out;
-}
-
-/* What stands beside them, and spectra that a state measured. */
-static bool check_states(const JsonView *root, const Manifest *m, Error *err)
-{
-    static const char *const assumed[] = {"backlight", "peaks_nm"};
-    for (int i = 0; i < m->state_count; i++) {
-        const ManifestState *state = &m->state[i];
-        Manifest             alone = manifest_of_state(m, state);
-        if (!check_spots(root, &alone, err)) return false;
-        for (int k = 0; k < COUNT_OF(assumed) && state->primaries; k++)
-            if (record_has(root, assumed[k]))
-                return error_at(err, ERROR_INPUT, root->file, state->path, "has 'primaries', "
-                                "but the manifest '%s', which is for a set without them",
-                                assumed[k]);
-    }
-    if (!m->state_count || (!m->emission.is_there && !m->spot_count)) return true;
-    return record_fails(root, "states", err, "stands beside '%s', required: that in each state "
-                        "and not beside them", m->emission.is_there ? "emission" : "spots");
-}
-
 /* ---- the whole --------------------------------------------------------------------------- */
 
 #define OWNER Manifest
@@ -362,10 +285,6 @@ static const RecordRow MANIFEST[] = {
            "maximum, degrees; separates the mirror from the haze."),
     DISPLAY_TRAITS_ROWS(OWNER, set.traits),
     PARTS,
-    {"states", RECORD_MAP, RECORD_MANY(OWNER, state, state_count),
-     RECORD_COUNT(2, PANEL_INFO_STATES_MAX), .of = &state_format,
-     .doc = "In place of emission: a display that shines otherwise at a switch, by the name of "
-            "each state, such as private and shared. The first is the file's own."},
     LIST("spots", 0, spot, spot_count, 1, MEASUREMENT_SPOTS_MAX, spot_format,
          "Places of the active area that were measured, each once. What a spot leaves out, the "
          "manifest's own emission or reflection says there."),
@@ -418,11 +337,11 @@ static bool check(const JsonView *root, void *item, Error *err)
         set->spots_emit |= m->spot[i].emission.is_there;
         set->spots_reflect |= m->spot[i].reflection.is_there;
     }
-    if (!m->emission.is_there && !m->reflection.is_there && !m->spot_count && !m->state_count)
+    if (!m->emission.is_there && !m->reflection.is_there && !m->spot_count)
         return record_misses(root, "emission", err);
     if (!display_traits_check(root, set->pixels, set->size_mm, &set->traits, err) ||
-        !check_spots(root, m, err) || !check_states(root, m, err) ||
-        !check_emitted(root, m->emission.is_there || set->spots_emit || m->state_count, err))
+        !check_spots(root, m, err) ||
+        !check_emitted(root, m->emission.is_there || set->spots_emit, err))
         return false;
     if (m->uniformity.camera_mm > 0 && !(set->size_mm[0] > 0))
         return record_fails(root, "uniformity/camera_mm", err, "is there, but the manifest has "
@@ -435,15 +354,12 @@ static bool check(const JsonView *root, void *item, Error *err)
 const RecordFormat manifest_format = {
     "measurement_set", sizeof(Manifest), MANIFEST, start, check,
     .rules = "{'anyOf': [{'required': ['spots']}, {'required': ['emission']}, "
-             "{'required': ['reflection']}, {'required': ['states']}], "
+             "{'required': ['reflection']}], "
              "'allOf': [{'if': {'anyOf': [{'required': ['polarisation']}, "
              "{'required': ['subpixels']}, {'required': ['local_dimming']}, "
              "{'required': ['uniformity']}]}, "
              "'then': {'anyOf': [{'required': ['emission']}, "
-             "{'required': ['spots']}, {'required': ['states']}]}}, "
-             "{'if': {'required': ['states']}, 'then': {'properties': {'emission': false, "
-             "'spots': false, 'states': {'propertyNames': {'pattern': "
-             "'^[A-Za-z0-9_-]{1,31}$'}}}}}], "
+             "{'required': ['spots']}]}}], "
              "'dependentRequired': {'local_dimming': ['size_mm']}, "
              "'dependentSchemas': {'subpixels': {'properties': {'pixels': {'items': "
              "{'type': 'integer'}}}}}}",

@@ -49,19 +49,6 @@ typedef struct ManifestSpot {
     ManifestReflection reflection;
 } ManifestSpot;
 
-/* The display at another switch. What it leaves out the manifest's own says. */
-typedef struct ManifestState {
-    const char        *name, *path;
-    ManifestEmission   emission;
-    ManifestReflection reflection;
-    const ManifestSpot *spot;
-    int                spot_count;
-    UniformityFiles    uniformity;
-    const char        *primaries; /* NULL: the manifest's */
-    DisplayTraits      traits;    /* its polarisation alone */
-    bool               has_uniformity, has_polarisation;
-} ManifestState;
-
 typedef struct Manifest {
     Measurement         set; /* all but what tables hold */
     ManifestEmission    emission;
@@ -70,11 +57,6 @@ typedef struct Manifest {
     int                 spot_count;
     UniformityFiles     uniformity;
     const char         *primaries; /* their spectra; NULL: not measured */
-    ManifestState      *state;     /* in the file's order */
-    int                 state_count; /* 0: the display has one, without a name */
 } Manifest;
-
-/* The manifest as if it were of one of its states alone. */
-Manifest manifest_of_state(const Manifest *whole, const ManifestState *state);
 
 extern const RecordFormat manifest_format;

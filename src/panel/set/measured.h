@@ -52,16 +52,7 @@ typedef struct Measurement {
     struct MeasuredSpot *spot;
     bool        spots_emit, spots_reflect; /* some of them */
     const UniformityMap *map; /* NULL: none */
-    int state_count; /* 0: one, without a name. Else the sets of its states, the first of which
-                        is the file's own; what emits stands in them alone */
-    struct MeasuredState *state;
 } Measurement;
-
-/* Measurements at one setting of a switch, whole. */
-typedef struct MeasuredState {
-    const char  *name;
-    Measurement *set;
-} MeasuredState;
 
 /* Measurements at a place of the active area. The set's own tables, which then exist, stand
  * in for those that a spot lacks. */

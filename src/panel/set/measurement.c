@@ -2,14 +2,12 @@
 #include "panel/set/measurement.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/count.h"
 #include "base/file.h"
 #include "base/units.h"
-#include "panel/query/panel_info.h"
 #include "panel/set/angle_table.h"
 #include "panel/set/level_table.h"
 #include "panel/set/manifest.h"
@@ -226,9 +224,6 @@ bool measurement_read_levels(Measurement *set, const char *file, double level_ma
                              Arena *arena, Error *err)
 {
     LevelTable *levels = ARENA_NEW(arena, LevelTable, 1);
-    if (set->state_count)
-        return error_at(err, ERROR_INPUT, set->file, "/states", "has states, each with tables "
-                        "of its own: name '%s' as 'levels' in the emission of each", file);
     if (set->spot_count)
         return error_at(err, ERROR_INPUT, set->file, "/spots", "has spots, each with tables of "
                         "its own: name '%s' as 'levels' in the emission of each", file);
@@ -447,56 +442,6 @@ static bool read_tables(const JsonView *root, Manifest *from, Error *err)
     return true;
 }
 
-/* ---- states ------------------------------------------------------------------------------ */
-
-/* With what the whole set has read already; a reflection of its own replaces that. */
-static bool read_state(const JsonView *root, const Manifest *whole, const ManifestState *from,
-                       MeasuredState *out, Error *err)
-{
-    Manifest *alone = ARENA_NEW(root->arena, Manifest, 1);
-    *alone = manifest_of_state(whole, from);
-    if (from->reflection.is_there) alone->set.specular = NULL;
-    else alone->reflection.is_there = false; /* it is in the set */
-    *out = (MeasuredState){from->name, &alone->set};
-    return read_tables(root, alone, err);
-}
-
-static bool read_states(const JsonView *root, Manifest *whole, Error *err)
-{
-    Measurement *set = &whole->set;
-    set->state = ARENA_NEW(root->arena, MeasuredState, whole->state_count);
-    for (int i = 0; i < whole->state_count; i++)
-        if (!read_state(root, whole, &whole->state[i], &set->state[i], err)) return false;
-    set->state_count = whole->state_count;
-    /* A state's set names all files, also of the states behind it. */
-    for (int i = 0; i < set->state_count; i++) set->state[i].set->inputs = set->inputs;
-    return true;
-}
-
-#define NAMES_BYTES (PANEL_INFO_STATES_MAX * (PANEL_INFO_STATE_NAME_MAX + 3))
-
-bool measurement_take_state(Measurement *set, const char *name, Error *err)
-{
-    char names[NAMES_BYTES];
-    if (!set->state_count)
-        return !name || error_at(err, ERROR_INPUT, set->file, "", "has no state '%.60s', "
-                                 "required: no state: this set has one only", name);
-    for (int i = 0, length = 0; i < set->state_count; i++) {
-        const MeasuredState *state = &set->state[i];
-        if (name && !strcmp(name, state->name)) {
-            *set = *state->set;
-            return true;
-        }
-        length += snprintf(names + length, sizeof names - (size_t)length, "%s%s",
-                           i ? ", " : "", state->name);
-    }
-    if (name)
-        return error_at(err, ERROR_INPUT, set->file, "", "has no state '%.60s', required: %s",
-                        name, names);
-    return error_at(err, ERROR_INPUT, set->file, "", "has the states %s, required: one of "
-                    "them, as %.200s#%s", names, path_name(set->file), set->state[0].name);
-}
-
 /* ---- a file ------------------------------------------------------------------------------ */
 
 /* A lone CSV: white only. */
@@ -519,10 +464,7 @@ bool measurement_read_below(const char *path, const char *folder, Arena *arena,
     JsonView     root;
     Manifest    *manifest = ARENA_NEW(arena, Manifest, 1);
     Measurement *set = &manifest->set;
-    const char  *hash = strrchr(path, '#');
     bool         ok;
-    if (hash && file_exists(path)) hash = NULL; /* that is a file's name */
-    if (hash) path = arena_string(arena, path, (size_t)(hash - path));
     manifest_format.start(manifest);
     set->file = arena_string(arena, path, strlen(path));
     set->inputs.arena = arena;
@@ -534,9 +476,9 @@ bool measurement_read_below(const char *path, const char *folder, Arena *arena,
         root.root = folder;
         root.named = &set->inputs;
         ok = record_read(&root, &manifest_format, manifest, err) &&
-             read_tables(&root, manifest, err) && read_states(&root, manifest, err);
+             read_tables(&root, manifest, err);
         json_view_close(&root);
     }
     if (ok) *out = *set;
-    return ok && (!hash || measurement_take_state(out, hash + 1, err));
+    return ok;
 }

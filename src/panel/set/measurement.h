@@ -9,17 +9,12 @@
 
 /* Reads MANIFEST.json and every table it names; a path that ends in .csv is one white-only
  * table (theta, phi and X, Y, Z or Y, x, y). Tables lie below the parent of the manifest's
- * folder. "MANIFEST.json#STATE" is one state of a set of several, unless a file has that
- * name. */
+ * folder. */
 bool measurement_read(const char *path, Arena *arena, Measurement *out, Error *err);
 
 /* The same; tables may also lie below `folder` (--root). NULL: no such folder. */
 bool measurement_read_below(const char *path, const char *folder, Arena *arena,
                             Measurement *out, Error *err);
-
-/* A set of several states becomes that of the one with this name; NULL, which a set without
- * states takes alone, is refused. */
-bool measurement_take_state(Measurement *set, const char *name, Error *err);
 
 /* Gives a set of white alone the levels of a gamma table (level_table.h), in place of what it
  * had. level_max: its highest code (0: as in level_table.h). Its full level, unless relative,

@@ -58,7 +58,7 @@ typedef struct PanelCharts {
 
 /* Each in the file of its name. */
 extern const PanelCharts emission_charts, curve_charts, angle_charts, colour_charts,
-    reflection_charts, fit_charts, place_charts, halo_charts, state_charts;
+    reflection_charts, fit_charts, place_charts, halo_charts;
 
 /* A chart of primaries or levels of a set that is white only states so and leaves the
  * sheet. */

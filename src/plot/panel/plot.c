@@ -18,7 +18,7 @@ PanelChartList *plot_charts(const PlotData *data, PlotKind kind, Arena *arena)
 {
     static const PanelCharts *const all[] = {&emission_charts, &curve_charts, &angle_charts,
                                              &colour_charts, &reflection_charts, &fit_charts,
-                                             &place_charts, &halo_charts, &state_charts};
+                                             &place_charts, &halo_charts};
     PanelChartList *list = ARENA_NEW(arena, PanelChartList, 1);
     for (int i = 0; i < COUNT_OF(all); i++)
         if (is_among(kind, all[i]->first, all[i]->last)) all[i]->add(list, data);
@@ -73,9 +73,6 @@ static bool fails_empty(const PlotData *s, PlotKind kind, Error *err)
     if (kind == PLOT_HALO)
         return error_at(err, ERROR_INPUT, file, "", "has one backlight that is always full: "
                         "its set had no 'local_dimming'");
-    if (kind == PLOT_STATES)
-        return error_at(err, ERROR_INPUT, file, "", "has one state alone: its set had no "
-                        "'states', and panel join made no file of several");
     if (kind == PLOT_CONTRAST)
         return error_at(err, ERROR_INPUT, file, "", "its black emits nothing, so there is no "
                         "contrast ratio to draw in the dark; --ambient LUX draws one in the "
@@ -111,8 +108,7 @@ PlotData *plot_query(const PlotInput *input, const PlotOptions *options, Arena *
         .wants_maps = is_among(options->kind, PLOT_LUMINANCE, PLOT_COLOUR_SHIFT),
         .threads = options->threads, .contours = options->contours,
         .ambient = options->ambient,
-        .wants_reflectance = options->wants_reflectance,
-        .states = input->states, .state_count = input->state_count}, arena);
+        .wants_reflectance = options->wants_reflectance}, arena);
     if (can_be_lit(data, err)) return data;
     json_decref(*report);
     return NULL;

@@ -27,8 +27,6 @@ typedef struct PlotInput {
     const char        *file;     /* the panel's, as the user named it */
     const Measurement *measured; /* NULL: none */
     const char        *reading;  /* how the panel is read, for headings; NULL: as it is */
-    const PlotState   *states;   /* of the file, in its order */
-    int                state_count; /* 0: one, without a name */
 } PlotInput;
 
 /* By the ending of path: .svg or .png. *charts: how many it shows. */

@@ -103,7 +103,7 @@ const char *plot_kind_name(PlotKind kind)
 {
     static const char *const NAMES[] = {"all", "luminance", "contrast", "colour-shift",
         "grey-inversion", "grey-levels", "sections", "chromaticity", "spectra", "brdf",
-        "brdf-spectrum", "brdf-map", "mirror", "fit", "uniformity", "halo", "states"};
+        "brdf-spectrum", "brdf-map", "mirror", "fit", "uniformity", "halo"};
     return NAMES[kind];
 }
 

@@ -30,13 +30,13 @@ typedef enum PlotKind {
     PLOT_ALL, PLOT_LUMINANCE, PLOT_CONTRAST, PLOT_COLOUR_SHIFT, PLOT_GREY_INVERSION,
     PLOT_GREY_LEVELS, PLOT_SECTIONS, PLOT_CHROMATICITY, PLOT_SPECTRA, PLOT_BRDF,
     PLOT_BRDF_SPECTRUM, PLOT_BRDF_MAP, PLOT_MIRROR,
-    PLOT_FIT, PLOT_UNIFORMITY, PLOT_HALO, PLOT_STATES, PLOT_KIND_COUNT
+    PLOT_FIT, PLOT_UNIFORMITY, PLOT_HALO, PLOT_KIND_COUNT
 } PlotKind;
 
 /* The names of the kinds in their order, as one types them: "all|luminance|...". */
 #define PLOT_KINDS                                                                             \
     "all|luminance|contrast|colour-shift|grey-inversion|grey-levels|sections|chromaticity|"    \
-    "spectra|brdf|brdf-spectrum|brdf-map|mirror|fit|uniformity|halo|states"
+    "spectra|brdf|brdf-spectrum|brdf-map|mirror|fit|uniformity|halo"
 
 const char *plot_kind_name(PlotKind kind);
 
@@ -83,12 +83,6 @@ typedef enum Pattern {
 
 #define PLOT_REFLECTANCES 91
 
-/* A display's file in one of its states. */
-typedef struct PlotState {
-    const char  *name;
-    const Panel *panel;
-} PlotState;
-
 /* The panel and what is drawn of it. */
 typedef struct PlotSource {
     const Panel       *panel;
@@ -102,8 +96,6 @@ typedef struct PlotSource {
     int                threads;
     PlotContours       contours;      /* lines that the user requests in place of ours */
     PlotAmbient        ambient;       /* light in which contrast is computed besides the dark */
-    const PlotState   *states;        /* of the file, in its order */
-    int                state_count;   /* 0: one, without a name */
 } PlotSource;
 
 typedef struct PlotData {

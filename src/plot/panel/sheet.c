@@ -116,8 +116,7 @@ static const char *extrapolation_text(Canvas *canvas, const SheetSpec *spec)
     double cone = degrees_from_radians(s->cone), last = degrees_from_radians(s->last_incidence);
     bool   is_fit = has_kind(spec, PLOT_FIT, PLOT_FIT);
     bool   emission = s->emits && cone < 89.95 &&
-                      (is_fit || has_kind(spec, PLOT_LUMINANCE, PLOT_SECTIONS) ||
-                       has_kind(spec, PLOT_STATES, PLOT_STATES));
+                      (is_fit || has_kind(spec, PLOT_LUMINANCE, PLOT_SECTIONS));
     bool   reflection = s->reflects && (is_fit || has_kind(spec, PLOT_BRDF, PLOT_MIRROR));
     if (emission && reflection)
         return arena_format(canvas->arena, "not measured, extrapolated: emission beyond θ "

@@ -18,7 +18,6 @@
 #include "plot/report/level_tables.h"
 #include "plot/report/light_tables.h"
 #include "plot/report/place_tables.h"
-#include "plot/report/state_tables.h"
 #include "plot/report/report_figures.h"
 #include "plot/report/viewing_tables.h"
 #include "spectrum/gamut.h"
@@ -152,7 +151,6 @@ static Report *make_tables(const PlotData *data, Arena *arena)
     report_reflection(report, data);
     report_ambient(report, data);
     report_places(report, data);
-    report_states(report, data);
     report_errors(report, data);
     return report;
 }

@@ -89,7 +89,6 @@ static const struct { PlotKind first, last; const char *title; } CHAPTERS[] = {
     {PLOT_BRDF, PLOT_MIRROR, "Reflection"},
     {PLOT_UNIFORMITY, PLOT_UNIFORMITY, "Over the active area"},
     {PLOT_HALO, PLOT_HALO, "Local dimming"},
-    {PLOT_STATES, PLOT_STATES, "States"},
     {PLOT_FIT, PLOT_FIT, "Measured against fitted"}};
 
 /* Charts of what was assumed and not measured are for panel plot. */

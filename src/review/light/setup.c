@@ -90,8 +90,6 @@ static void set_change(const ReviewChange *change, SceneOptions *scene)
     scene->change_count = change->scene_count;
     scene->panels = change->panels;
     scene->panel_count = change->panel_count;
-    scene->states = change->states;
-    scene->state_count = change->state_count;
 }
 
 static void add_inputs(const ReviewRequest *request, bool with_request, Text *text)

@@ -68,8 +68,7 @@ PUBLIC_TABLE(panel_json, CasePanel,
     OWN(TEXT, CasePanel, verdict), OWN(TEXT, CasePanel, reason),
     AS("coarse", FLAG, CasePanel, is_coarse), AS("not_usable", FLAG, CasePanel, is_unusable),
     OWN(FIGURE, CasePanel, emission_error), OWN(FIGURE, CasePanel, reflection_error),
-    LATER("spectra_assumed", TEXT, CasePanel, assumed),
-    {"state", RECORD_TEXT, RECORD_NULL | RECORD_BRIEF, RECORD_AT(CasePanel, state)});
+    LATER("spectra_assumed", TEXT, CasePanel, assumed));
 
 TABLE(luminance_json, CaseLuminances,
     OWN(FIGURE, CaseLuminances, foreground), OWN(FIGURE, CaseLuminances, background),

@@ -236,7 +236,6 @@ static const CasePanel *panel_of(const Review *review, const char *display)
  * of every case of it. */
 static void add_stated(Text *text, const CasePanel *panel, Arena *arena)
 {
-    if (panel->state) text_format(text, ", state '%s'", panel->state);
     text_format(text, ", %s", panel->verdict ? panel->verdict : "no verdict of its own");
     if (panel->is_coarse && !panel->is_unusable) text_add(text, ", coarse");
     if (panel->reason && !panel->is_unusable) text_format(text, " (%s)", panel->reason);

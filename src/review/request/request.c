@@ -272,7 +272,7 @@ static bool has_same_sensors(const ReviewRequest *request, const ReviewVariant *
 static bool is_of_levels(const ReviewRequest *request, const ReviewVariant *variant)
 {
     const ReviewChange *c = &variant->change;
-    return !c->scene_count && !c->panel_count && !c->state_count && !c->content_count &&
+    return !c->scene_count && !c->panel_count && !c->content_count &&
            !variant->scene_count && !variant->more_count && !variant->eye_moves &&
            has_same_sensors(request, variant);
 }

@@ -248,8 +248,6 @@ typedef struct ReviewChange {
     int                  scene_count;
     const SceneOverride *panels;   /* by display: a file */
     int                  panel_count;
-    const SceneOverride *states;   /* by display: of its panel's */
-    int                  state_count;
     const ReviewContent *contents; /* in every condition */
     int                  content_count;
     const ReviewFixedLevel *brightness; /* multiplies the level that a display has from

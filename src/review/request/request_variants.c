@@ -29,12 +29,6 @@ static const RecordRow PANEL = {.kind = RECORD_FILE, RECORD_AT(SceneOverride, va
 static const RecordFormat panel_format = {"panel", sizeof(SceneOverride), .value = &PANEL,
                                           .check = check_panel};
 
-/* Named for the messages of its scene, as a panel is. */
-static const RecordRow STATE = {.kind = RECORD_TEXT, .flags = RECORD_FILLED,
-                                RECORD_AT(SceneOverride, value)};
-static const RecordFormat state_format = {"state", sizeof(SceneOverride), .value = &STATE,
-                                          .check = check_panel};
-
 static bool check_brightness(const JsonView *view, void *item, Error *err)
 {
     const ReviewFixedLevel *b = item;
@@ -191,8 +185,6 @@ typedef struct VariantSaid {
 static const RecordRow VARIANT[] = {
     BY_NAME("panels", of.change.panels, of.change.panel_count, panel_format,
             "By display: its panel."),
-    BY_NAME("states", of.change.states, of.change.state_count, state_format,
-            "By display: which of its panel's states it has, such as private."),
     BY_NAME("contents", of.change.contents, of.change.content_count, review_content_format,
             "By display: what it shows, in every condition."),
     {"levels", RECORD_MAP, RECORD_MANY(OWNER, of.levels, of.level_count),
@@ -268,8 +260,6 @@ static void make_displays(Making *m)
     for (int i = 0; i < change->panel_count; i++)
         say(m, "panel of %s: %s", change->panels[i].material,
             path_name(change->panels[i].value));
-    for (int i = 0; i < change->state_count; i++)
-        say(m, "%s in its state '%s'", change->states[i].material, change->states[i].value);
     for (int i = 0; i < change->content_count; i++)
         say(m, "%s shows %s", change->contents[i].display, path_name(change->contents[i].path));
     for (int i = 0; i < m->variant->level_count; i++)
@@ -410,7 +400,7 @@ static void make_variant(const JsonView *view, const VariantSaid *said, ReviewVa
     const ReviewChange *c = &said->of.change;
     int changes = 2 * (said->coating_count + said->glazing_count) + said->material_count +
                   said->node_count + said->hood_count + said->finish_count + 1;
-    int words = changes + c->panel_count + c->state_count + c->content_count +
+    int words = changes + c->panel_count + c->content_count +
                 said->of.level_count + c->brightness_count + said->eye_count +
                 said->of.more_count + 1;
     Making m = {view, said, out, ARENA_NEW(view->arena, SceneChange, changes)};

@@ -133,8 +133,7 @@ static CasePanel panel_of(const Panel *panel, Arena *arena)
 {
     PanelStated stated = panel_stated(panel, arena);
     return (CasePanel){stated.verdict, stated.reason, stated.is_coarse, stated.is_unusable,
-                       stated.emission_error, stated.reflection_error, stated.assumed,
-                       stated.state};
+                       stated.emission_error, stated.reflection_error, stated.assumed};
 }
 
 static const char *copied(const char *text, Arena *arena)
@@ -148,7 +147,6 @@ CasePanel symbol_panel(const SetupSymbol *symbol, Arena *arena)
     panel.verdict = copied(panel.verdict, arena);
     panel.reason = copied(panel.reason, arena);
     panel.assumed = copied(panel.assumed, arena);
-    panel.state = copied(panel.state, arena);
     return panel;
 }
 

@@ -74,8 +74,6 @@ static const RecordFormat subpixels = {
 static const RecordRow DISPLAY[] = {
     A_FILE("panel", "The fitted panel file, relative to the glTF. Required unless the command "
                     "line names one."),
-    TEXT("state", "Of a panel file with several, such as private and shared: which of them; "
-                  "its first unless given."),
     OBJECT("content", texture_info,
            "What the display shows: code values as the panel receives them, looked up nearest, "
            "alpha ignored. Without it the display shows full white."),

@@ -13,6 +13,7 @@
 #include "scene/gltf/document.h"
 #include "scene/gltf/extras.h"
 #include "text/nearest_word.h"
+#include "text/removed.h"
 
 #define MEMBERS_MAX 64 /* of one object that are compared with an unknown one */
 
@@ -285,6 +286,11 @@ static void check_unknown(const DocumentCheck *check, const GltfValue *member,
     const char *near = nearest_key(member->key, names, count, 3);
     char hint[100] = "";
     if (schema->is_ours) {
+        const char *instead = removed_instead(schema->name, member->key);
+        if (instead) {
+            check_fails(check, member, "this key was removed: %s", instead);
+            return;
+        }
         if (!near) near = nearest_word_meant(member->key, names, count);
         check_fails(check, member, "unknown key; the nearest known one is '%s'",
                     near ? near : nearest_word(member->key, names, count));

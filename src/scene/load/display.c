@@ -44,13 +44,6 @@ static const Subpixels *subpixels_build(Loader *load, const GltfValue *given)
     return out;
 }
 
-/* NULL: its panel's first. */
-static const char *state_build(Loader *load, const GltfValue *extension)
-{
-    const char *state = tree_text(extension, "state", "");
-    return state[0] ? load_keep(load, state) : NULL;
-}
-
 void display_build(GltfFile *file, const GltfValue *extension, int material_id)
 {
     Loader *load = file->load;
@@ -64,7 +57,6 @@ void display_build(GltfFile *file, const GltfValue *extension, int material_id)
                 (Display){.name = material->name,
                           .material_id = material_id,
                           .panel_path = load_keep(load, path),
-                          .state = state_build(load, extension),
                           .content = texture_slot(file, tree_member(extension, "content")),
                           .level = tree_float(extension, "level", 1),
                           .any_size = tree_boolean(extension, "any_size", false),
@@ -137,15 +129,8 @@ static void set_panel(Loader *load, int display_id, const char *option, const ch
 {
     Display *display = list_item(&load->displays, display_id);
     display->panel_path = load_keep(load, value);
-    display->state = NULL; /* another file has states of its own */
     *(DisplayPlace *)list_item(&load->display_places, display_id) =
         (DisplayPlace){option, ""};
-}
-
-static void set_state(Loader *load, int display_id, const char *option, const char *value)
-{
-    (void)option;
-    ((Display *)list_item(&load->displays, display_id))->state = load_keep(load, value);
 }
 
 static void set_content(Loader *load, int display_id, const char *option, const char *value)
@@ -264,7 +249,6 @@ void displays_override(Loader *load)
 {
     const SceneOptions *o = load->options;
     apply(load, (Overrides){"--panel", o->panels, o->panel_count, set_panel});
-    apply(load, (Overrides){"--display-state", o->states, o->state_count, set_state});
     apply(load, (Overrides){"--content", o->contents, o->content_count, set_content});
     apply(load, (Overrides){"--display-level", o->levels, o->level_count, set_level});
 }
@@ -305,11 +289,7 @@ static const Panel *find_panel(const Loader *load, int before, const Display *li
 {
     for (int i = 0; i < before; i++) {
         const Display *display = list_item(&load->displays, i);
-        bool is_same_state = display->state && like->state
-                                 ? !strcmp(display->state, like->state)
-                                 : display->state == like->state;
-        if (!strcmp(display->panel_path, like->panel_path) && is_same_state)
-            return display->panel;
+        if (!strcmp(display->panel_path, like->panel_path)) return display->panel;
     }
     return NULL;
 }
@@ -324,10 +304,10 @@ static void open_panel(Loader *load, int id)
     display->panel = find_panel(load, id, display);
     if (display->panel) return;
     ARENA_NEW(load->arena, uint64_t, 0); /* the next bytes are aligned as a panel needs it */
-    if (load_read(load, display->panel_path, load->arena, &bytes, &err)) {
-        PanelOpenArgs args = {bytes.data, bytes.size, display->panel_path, display->state};
-        if (panel_open_state(&args, load->arena, &panel, &err)) display->panel = panel;
-    }
+    if (load_read(load, display->panel_path, load->arena, &bytes, &err) &&
+        panel_open_memory(bytes.data, bytes.size, display->panel_path, load->arena, &panel,
+                          &err))
+        display->panel = panel;
     if (display->panel) return;
     problems_add(load->problems, SEVERITY_ERROR, place->file, place->pointer,
                  "display \"%s\": %s: %s", display->name, display->panel_path, err.text);
