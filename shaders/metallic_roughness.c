@@ -93,7 +93,6 @@
  */
 #include "shaders/metallic_roughness.h"
 
-#include "base/units.h"
 #include "shaders/metallic/metallic_eval.h"
 #include "shaders/polarisation.h"
 

@@ -4,7 +4,6 @@
 
 #include "base/count.h"
 #include "print/print.h"
-#include "base/reference.h"
 #include "base/units.h"
 #include "cli/commands.h"
 #include "cli/material_list.h"

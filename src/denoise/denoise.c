@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "base/file.h"
-#include "base/parallel.h"
 #include "base/program.h"
 #include "denoise/balance.h"
 #include "denoise/network.h"

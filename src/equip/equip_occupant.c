@@ -3,7 +3,6 @@
 
 #include <math.h>
 
-#include "base/count.h"
 #include "equip/equip_shipped.h"
 #include "text/json_text.h"
 #include "text/text.h"

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/count.h"
 
 #define DEPTH_MOST 32 /* sections and templates within each other */
 #define NAME_MOST 64

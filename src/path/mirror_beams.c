@@ -9,7 +9,6 @@
 #include "mirror/mirrors_build.h"
 #include "path/sheets.h"
 #include "shaders/facets/microfacet.h"
-#include "spectrum/photometry.h"
 
 #define LEAST_RAYS 8       /* to every mirror's triangle, and by its share of all their area: */
 #define RAYS_BY_AREA 25000

@@ -2,7 +2,6 @@
 /* HOT: no allocation, no lock, no libm. */
 #include "path/sunlit.h"
 
-#include "base/units.h"
 #include "scene/point/ray_ends.h"
 #include "path/direct.h"
 #include "path/emitted.h"

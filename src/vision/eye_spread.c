@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "base/mathd.h"
-#include "base/units.h"
 
 static double fourth_power(double x)
 {

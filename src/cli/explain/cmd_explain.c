@@ -37,7 +37,7 @@ typedef struct SceneQuestion {
     const Outputs    *outputs;
 } SceneQuestion;
 
-#define SUMMARY "what a symbol, a display or a pixel sends, and by which ways light comes to it"
+#define SUMMARY "by which ways light comes to a symbol, a display or a pixel"
 #define BOUNCES 64
 #define WAYS 10
 #define SEED 0x6578706cu /* of what is no pixel, with --seed 0 */

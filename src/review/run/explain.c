@@ -166,8 +166,6 @@ bool explain_review(const ReviewRequest *request, const ExplainOptions *options,
 
 #define PANES 16 /* before a display, at most */
 
-/* ---- what is there ----------------------------------------------------------------------- */
-
 /* Leaves the targets that show a display, if at least half of them do. */
 static bool aim_at_displays(const ExplainPlace *place, ProbeAim *aim, Arena *arena)
 {
