@@ -24,7 +24,7 @@ STATUSES = (
     ("2", "the command line is wrong"),
     ("3", "an input is missing, malformed or not supported"),
     ("4", "an output cannot be written"),
-    ("5", "a part that needs an instruction set which this machine lacks"),
+    ("5", "of another instruction set or version: a part, a checkpoint, --isa"),
     ("130, 143, 129", "interrupted (INT, TERM, HUP); what was done is saved where the line on "
                       "stderr says so"))
 ENVIRONMENT = (

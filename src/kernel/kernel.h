@@ -79,5 +79,5 @@ typedef struct Kernel {
 } Kernel;
 
 /* isa: a name from above, or NULL for the best that this processor and program have. Fails,
- * naming what there is, on another name or on one that the processor lacks. */
+ * naming what there is: ERROR_MACHINE where another processor has it, else ERROR_USAGE. */
 bool kernel_choose(const char *isa, const Kernel **out, Error *err);

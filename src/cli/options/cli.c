@@ -452,7 +452,7 @@ bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, C
         {"--progress", OPTION_CHOICE, "auto|bar|plain|json|none",
          "how progress is shown on stderr (default auto)", &progress},
         {"--threads", OPTION_INTEGER, "N", "threads (default: what the scheduler allows)",
-         &threads, 1, PARALLEL_THREADS_MAX, 0, &cli.threads_given},
+         &threads, .low = 1, .high = PARALLEL_THREADS_MAX},
         {"--help", OPTION_FLAG, NULL, "this text; also -h", &cli.help_shown},
         {"--version", OPTION_FLAG, NULL, "of the program and its libraries; also -V",
          &cli.help_shown},

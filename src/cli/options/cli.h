@@ -35,7 +35,6 @@ typedef struct Cli {
     bool         json, quiet;
     ProgressMode progress;   /* PROGRESS_NONE when quiet */
     int          threads;    /* at least 1 */
-    bool         threads_given;
     const char **arguments;  /* words that are no options */
     int          argument_count;
     Outputs      outputs;
