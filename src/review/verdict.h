@@ -116,8 +116,6 @@ typedef struct CaseCause {
     double contrast_without;  /* the case's contrast if this light were not; NaN: none */
     const CaseRay *rays;      /* some of it, drawn with a chance that goes with their light */
     int    ray_count;
-    int    light;             /* its rays have the colour of light 1, 2, ...; 0: one of their
-                                 own */
 } CaseCause;
 
 /* The share of one thing in the reflected light. */
@@ -321,8 +319,6 @@ typedef struct ReviewCase {
     const Vec3 *rim;             /* once around the symbol, m; of a case without a frame
                                     of its own none */
     int rim_count;
-    const char *outlook;         /* picture of what the display sees from the symbol; or NULL */
-    const char *outlook_words;   /* what is in it */
 } ReviewCase;
 
 CaseGlare review_glare_unknown(void); /* all NaN */

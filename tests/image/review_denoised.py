@@ -40,7 +40,7 @@ def figures_of(folder, name):
 
 
 def is_picture(name):
-    return name.endswith(".png") and not re.search("-(luminance|contrast|outlook).png$", name)
+    return name.endswith(".png") and not re.search("-(luminance|contrast).png$", name)
 
 
 def check_figures(report, with_it, without):

@@ -7,7 +7,6 @@
 #include "base/units.h"
 #include "panel/query/panel_opened.h"
 #include "review/chain/chains.h"
-#include "review/chain/outlook.h"
 #include "world_fixture.h"
 
 #define MOST 10
@@ -268,55 +267,6 @@ TEST(a_coating_takes_its_share_of_the_mirror)
     assert_true(plain.mirror.cd_m2 > 0.05 * plain.all.cd_m2);
     assert_foretold("a coating", plain.all.cd_m2 - 0.75 * plain.mirror.cd_m2, plain.all.sigma,
                     &left.all);
-}
-
-/* ---- what a display sees ----------------------------------------------------------------- */
-
-static Outlook look_out(World *world)
-{
-    static ReadingTools tools;
-    tools = tools_of(2);
-    OutlookArgs args = {&world->context, &tools, vec3(0, 0, 1e-4f), vec3(0, 0, 1),
-                      outlook_up(vec3(0, 0, 1)), eye};
-    return outlook_take(&args, &world->arena);
-}
-
-TEST(an_outlook_is_what_a_luxmeter_reads)
-{
-    SCOPED_WORLD world = room(grey, 0);
-    world_ready(&world, 16);
-    Outlook     outlook = look_out(&world);
-    LitPoint    head = {vec3(0, 0, 1e-4f), vec3(0, 0, 1), false};
-    ProbeAim    aim = {.context = &world.context, .meter = &head, .seed = 9};
-    ReadingGoal goal = {.precision = 0.005, .most = 1 << 16};
-    ReadingTools tools = tools_of(2);
-    Reading     lux = reading_take(&aim, &goal, &tools, world.arena);
-    double      sum = outlook.rest;
-    bool        sees_pane = false;
-    for (int i = 0; i < outlook.share_count; i++) {
-        sum += outlook.shares[i].share;
-        sees_pane |= !strcmp(outlook.shares[i].what, "sky through pane (test)");
-    }
-    assert_close(sum, 1, 1e-6);
-    assert_true(sees_pane);
-    if (!(fabs(outlook.lux / lux.reflected - 1) < 0.03))
-        fail_msg("%g lx, a luxmeter reads %g", outlook.lux, lux.reflected);
-    assert_string_equal(outlook.mirror_what, "back (test)");
-    assert_true(outlook.mirror_y > OUTLOOK_SIZE / 2); /* the eye is above */
-}
-
-TEST(under_a_sky_alone_all_is_sky)
-{
-    SCOPED_WORLD world = world_start();
-    builder_part(world.scene, builder_material(0.5f));
-    builder_quad(world.scene, vec3(0, 0, 0), vec3(0.2f, 0, 0), vec3(0, 0.1f, 0));
-    builder_sky(world.scene, 100);
-    world_ready(&world, 4);
-    Outlook outlook = look_out(&world);
-    assert_int_equal(outlook.share_count, 1);
-    assert_string_equal(outlook.shares[0].what, "sky");
-    assert_close(outlook.lux / (100 * PI), 1, 0.002);
-    assert_close(outlook.mirror_cd_m2, 100, 0.5);
 }
 
 TEST_PROGRAM(NULL, NULL)

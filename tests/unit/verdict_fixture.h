@@ -269,8 +269,8 @@ static inline Review fixture_odd_review(Arena *arena)
          NAN, VERDICT_TOO_CLOSE, NAN, NULL},
         {WILD_NAME, "glare", WILD_NAME, WILD_NAME, 0.1, true, true, true, 1e-9, 1e-10, 1e12,
          1e8 - 1, VERDICT_PASS, 70, WILD_NAME}};
-    static const CaseCause  CAUSES[] = {{CHAIN, 3, NAN, NAN, NAN, NAN, NAN, NULL, 0, 0},
-                                       {CHAIN, 0, 1, 0, 0, 0, 1, NULL, 0, 3}};
+    static const CaseCause  CAUSES[] = {{CHAIN, 3, NAN, NAN, NAN, NAN, NAN, NULL, 0},
+                                       {CHAIN, 0, 1, 0, 0, 0, 1, NULL, 0}};
     static const CaseRemedy REMEDIES[] = {
         {.kind = REMEDY_TILT, .what = WILD_NAME, .contrast_ratio = NAN, .level = NAN,
          .then = {WILD_NAME, "glare", WILD_NAME, WILD_NAME, 2, false, false, false, NAN, NAN,

@@ -32,7 +32,7 @@ const char *const review_files_fixed[REVIEW_FILES_FIXED] = {
 
 /* Behind a frame's name. */
 static const char *const of_frame[] = {".png",          ".exr",         ".layers.js",
-                                       "-luminance.png", "-contrast.png", "-outlook.png"};
+                                       "-luminance.png", "-contrast.png"};
 #define OF_VARIANT "-variant-"
 
 /* ---- names ------------------------------------------------------------------------------- */

@@ -192,14 +192,6 @@ static void add_case_pictures(const ReviewFolder *folder, const ReviewCase *c,
                                  .beside = folder->is_self_contained ? NULL : name};
         add_picture(list, picture, arena);
     }
-    if (!c->outlook) return;
-    ReviewPicture outlook = {
-        .of = c, .title = "What the display sees",
-        .caption = arena_format(arena, "Looking out from the symbol's middle, half a sphere. "
-                                       "%s", c->outlook_words),
-        .file = arena_format(arena, "%s/%s", folder->name, c->outlook),
-        .beside = folder->is_self_contained ? NULL : c->outlook};
-    add_picture(list, outlook, arena);
 }
 
 /* In the page's order: cases by rank, then sweeps. */

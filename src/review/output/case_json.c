@@ -241,7 +241,7 @@ PUBLIC_TABLE(case_json, ReviewCase,
     LATER("empty_seat", TEXT, ReviewCase, empty_seat),
     LATER("empty_seat_share", FIGURE, ReviewCase, empty_seat_share),
     LIST("remedies", MUST, ReviewCase, remedies, remedy_count, remedy_json),
-    OWN(TEXT, ReviewCase, frame), OWN(TEXT, ReviewCase, outlook), OWN(TEXT, ReviewCase, when));
+    OWN(TEXT, ReviewCase, frame), OWN(TEXT, ReviewCase, when));
 
 FOLLOWS(ReviewCase, contrast_high, contrast_low);
 FOLLOWS(ReviewCase, sun_elevation_deg, sun_azimuth_deg);

@@ -12,7 +12,7 @@
 #include "review/output/review_facts.h"
 #include "review/output/review_link.h"
 #include "review/output/pane_outlines.h"
-#include "review/output/ray_file.h"
+#include "review/output/review_rays.h"
 #include "review/output/review_levels.h"
 #include "review/output/review_road.h"
 #include "review/output/review_privacy.h"

@@ -90,15 +90,6 @@ static bool find_symbol(const SetupSymbol *symbols, int count, const char *wante
 
 /* ---- a symbol of a review ---------------------------------------------------------------- */
 
-Outlook setup_outlook(const Setup *setup, const SetupSymbol *symbol, Vec3 eye, Arena *arena)
-{
-    SymbolPoint middle = symbol_middle(symbol);
-    OutlookArgs  args = {&setup->context, &setup->tools,
-                       symbol_point_start(setup->scene, &middle), middle.ng,
-                       outlook_up(middle.ng), eye};
-    return outlook_take(&args, arena);
-}
-
 static bool explain_symbol(const CaseTools *tools, const SetupSymbol *symbol,
                            const ReviewEye *eye, Arena *arena, Explained *out, Error *err)
 {

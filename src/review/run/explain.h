@@ -12,7 +12,6 @@
  */
 #pragma once
 #include "review/chain/causes.h"
-#include "review/chain/outlook.h"
 #include "review/profile.h"
 #include "review/run/cases.h"
 
@@ -36,9 +35,6 @@ typedef struct Explained {
     PixelLight  light;    /* of a pixel */
     long        paths;
 } Explained;
-
-/* The half space that a symbol's middle faces; the eye stands before it. */
-Outlook setup_outlook(const Setup *setup, const SetupSymbol *symbol, Vec3 eye, Arena *arena);
 
 bool explain_review(const ReviewRequest *request, const ExplainOptions *options, Arena *arena,
                     Explained *out, Error *err);

@@ -15,7 +15,6 @@
 #include "render/render.h"
 #include "render/signals.h"
 #include "render/train.h"
-#include "review/chain/outlook.h"
 #include "review/keep/frame_kept.h"
 #include "review/light/setup.h"
 #include "review/request/request_check.h"
@@ -358,24 +357,7 @@ static void add_rim(const SetupSymbol *symbol, ReviewCase *c, Arena *arena)
     c->rim = rim;
 }
 
-static bool add_outlook(const FrameArgs *args, const SetupSymbol *symbol, ReviewCase *c,
-                        Arena *arena, Error *err)
-{
-    Arena       scratch = arena_reserve((size_t)1 << 28);
-    Vec3        eye = scene_from_world(args->setup->scene->origin, c->eye_m);
-    Outlook     outlook = setup_outlook(args->setup, symbol, eye, &scratch);
-    Picture     picture = outlook_picture(&outlook, &scratch);
-    PictureFile file = {.bits = 8, .is_srgb = true};
-    c->outlook_words = outlook_words(&outlook, arena);
-    c->outlook = arena_format(arena, "frames/%s-outlook.png", args->name);
-    file.description = c->outlook_words;
-    const char *path = arena_format(arena, "%s/%s", args->folder, c->outlook);
-    bool        ok = picture_write(path, &picture, file, scratch, err);
-    arena_release(&scratch);
-    return ok;
-}
-
-/* Where its causes' rays lie in the frame, and what the display sees from the symbol. */
+/* Where its causes' rays and its symbol lie in the frame. */
 static bool add_sights(const FrameArgs *args, ReviewCase *c, Arena *arena, Error *err)
 {
     Arena        own = arena_reserve((size_t)1 << 34);
@@ -390,11 +372,8 @@ static bool add_sights(const FrameArgs *args, ReviewCase *c, Arena *arena, Error
         CaseView *view = ARENA_NEW(arena, CaseView, 1);
         *view = view_of(&seen);
         c->view = view;
-        for (int i = 0; i < count && ok; i++) {
-            if (strcmp(symbols[i].name, c->symbol)) continue;
-            add_rim(&symbols[i], c, arena);
-            ok = add_outlook(args, &symbols[i], c, arena, err);
-        }
+        for (int i = 0; i < count; i++)
+            if (!strcmp(symbols[i].name, c->symbol)) add_rim(&symbols[i], c, arena);
     }
     arena_release(&own);
     return ok;
