@@ -68,7 +68,7 @@ GOOD = {
     "precision": {"contrast": 0.02, "clear": 0.05, "paths": 65536, "seed": 3},
     "frames": {"size": [64, 36], "noise": 0.1, "worst": 2, "denoise": False},
     "variants": {
-        "all": {"panels": {"screen": "both.panel"}, "contents": {"screen": "letters.png"},
+        "all": {"panels": {"screen": "ips.panel"}, "contents": {"screen": "letters.png"},
                 "levels": {"night": {"*": 0.05}}, "brightness": {"screen": 1.5, "*": 1},
                 "coatings": {"coated": {"stack": "mgf2"}}, "glazings": {"coated": None},
                 "materials": {"coated": {"doubleSided": True}},
@@ -115,7 +115,6 @@ def write_files(requests):
     def path(name):
         return os.path.join(folder, name)
     shutil.copy(PANEL, path("ips.panel"))
-    requests.run("panel", "join", "shared=ips.panel", "private=ips.panel", "-o", "both.panel")
     dash = dashboard()
     for node, name in enumerate(("face", "shelf")):
         dash.document["nodes"][node]["name"] = name
