@@ -123,11 +123,6 @@ float bsdf_sharpest(const Bsdf *bsdf)
     return facts_of(bsdf).alpha;
 }
 
-float bsdf_index(const Bsdf *bsdf)
-{
-    return facts_of(bsdf).index;
-}
-
 float bsdf_shift(const Bsdf *bsdf, float cosine)
 {
     const BsdfBoundary *of = &models[bsdf->kind]->boundary;

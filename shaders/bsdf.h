@@ -102,9 +102,6 @@ bool bsdf_is(const Bsdf *bsdf, BsdfTrait trait);
 /* GGX alpha of its lobe; INFINITY: it has none. */
 float bsdf_sharpest(const Bsdf *bsdf);
 
-/* Mean index behind a boundary that refracts, over that outside; 0: it refracts nothing. */
-float bsdf_index(const Bsdf *bsdf);
-
 /* Shift along a pane, m, of a ray that goes straight through it, in the direction in which the
  * ray runs along the pane (below 0: back). cosine: of its angle to the normal, (0, 1]. 0: the
  * surface has no thickness. */

@@ -53,7 +53,6 @@ typedef struct BsdfFacts {
     bool  scatters;     /* has a part that light samples can hit */
     bool  sends_across; /* sends light diffusely to its other side */
     float alpha;        /* GGX alpha of its lobe; INFINITY: it has none */
-    float index;        /* mean index behind a boundary that refracts, over that outside */
 } BsdfFacts;
 
 /* Known of the queries to come; a model takes what it has a use for. */

@@ -330,7 +330,6 @@ static void solid_facts(const void *parameters, BsdfFacts *facts)
 {
     const Dielectric *d = parameters;
     facts->scatters = !is_delta(d);
-    facts->index = d->ior;
 }
 
 static Spectrum solid_mirror(const void *parameters, Vec3 wo)

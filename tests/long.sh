@@ -153,7 +153,6 @@ start 'pictures as light' hdri python3 tests/image/hdri.py $program
 start 'luminaires as lamps' lamps python3 tests/image/lamps.py $program
 start 'groups of lights' lights python3 tests/image/lights.py $program
 start 'polarised light' polarised python3 tests/image/polarised.py $program
-start 'sub-pixels' subpixels python3 tests/image/subpixels.py $program
 start 'displays by their part of a pixel' display-area \
     python3 tests/image/display_area.py $program
 gather

@@ -92,13 +92,6 @@ class ParhelionMaterial(bpy.types.PropertyGroup):
                          description="Backlight; multiplies all that the display emits")
     uv_map: IntProperty(name="UV map", default=0, min=0, max=7,
                         description="Place of the content's UV map in the mesh's list")
-    subpixels: EnumProperty(name="Sub-pixels", items=[
-        ("panel", "As the panel says", ""), ("stripe", "Stripes", ""),
-        ("pentile", "Diamonds", ""), ("none", "Even", "")])
-    fill: FloatProperty(name="Fill", default=1, min=0.01, max=1)
-    columns: IntProperty(name="Columns", default=0, min=0, max=65536,
-                         description="Pixels; 0: as many as the content has")
-    rows: IntProperty(name="Rows", default=0, min=0, max=65536)
     layers: CollectionProperty(type=ParhelionGlassLayer)
     haze_share: FloatProperty(name="Haze", default=0, min=0, max=1, precision=4,
                               description="Share of the light that dirt scatters forward")
@@ -180,12 +173,6 @@ def display_of(marks, folder):
            "level": plain(marks.level)}
     if marks.content:
         out["content"] = {"uri": picture_uri(marks.content, folder), "texCoord": marks.uv_map}
-    if marks.subpixels != "panel":
-        out["subpixels"] = {"layout": marks.subpixels}
-        if marks.subpixels != "none":
-            out["subpixels"]["fill"] = plain(marks.fill)
-        if marks.subpixels != "none" and marks.columns and marks.rows:
-            out["subpixels"].update(columns=marks.columns, rows=marks.rows)
     return out
 
 
@@ -778,11 +765,8 @@ class PARHELION_PT_material(bpy.types.Panel):
         layout.prop(marks, "kind")
         if marks.kind == "DISPLAY":
             layout.prop(marks, "panel")
-            for name in ("content", "level", "uv_map", "subpixels"):
+            for name in ("content", "level", "uv_map"):
                 layout.prop(marks, name)
-            if marks.subpixels in ("stripe", "pentile"):
-                for name in ("fill", "columns", "rows"):
-                    layout.prop(marks, name)
         if marks.kind == "GLAZING":
             draw_layers(layout, marks, "layers", ("thickness_mm", "ior", "transmission", "file",
                                                   "wedge_mrad", "toward"))

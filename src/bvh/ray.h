@@ -17,9 +17,3 @@ typedef struct Hit {
     float    u, v;     /* barycentric weights of vertices 1 and 2 */
     uint32_t triangle; /* index into Scene.triangles */
 } Hit;
-
-/* The cone around a ray that a frame's pixel covers: its width across the ray, m, is `width`
- * at the ray's origin and grows by `spread` a metre. Both 0: the ray is of no frame. */
-typedef struct RayCone {
-    float width, spread;
-} RayCone;

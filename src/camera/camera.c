@@ -103,20 +103,6 @@ Ray camera_pixel_ray(const Camera *camera, int x, int y, Vec2 at, const Sampler 
     return camera_ray(camera, place.x, place.y);
 }
 
-static RayCone fisheye_cone(const Camera *camera)
-{
-    float pixel = 2 * camera->half_height / (float)camera->height; /* radii */
-    float per_radius = camera->fisheye == FISHEYE_EQUISOLID ? 1.41421356f : 0.5f * PI_F;
-    return (RayCone){0, pixel * per_radius};
-}
-
-RayCone camera_cone(const Camera *camera)
-{
-    if (camera->fisheye) return fisheye_cone(camera);
-    float pixel = 2 * camera->half_height / (float)camera->height;
-    return camera->is_perspective ? (RayCone){0, pixel} : (RayCone){pixel, 0};
-}
-
 SceneCamera camera_look_at(Vec3 eye, Vec3 target, float yfov)
 {
     Vec3 z = vec3_normalize(vec3_sub(eye, target)); /* from the scene to the camera */

@@ -38,11 +38,6 @@ bool camera_sees_pixel(const Camera *camera, int x, int y);
  * further pairs are made where `at` is out of view. */
 Ray camera_pixel_ray(const Camera *camera, int x, int y, Vec2 at, const Sampler *sampler);
 
-/* A pixel's cone around the frame's middle ray; others are a little narrower. An equisolid
- * fisheye's have the same solid angle everywhere: at its rim they are 1.41 times wider along
- * the radius and narrower across. */
-RayCone camera_cone(const Camera *camera);
-
 /* A camera at `eye` that looks at `target`, both in the scene's metres, +Y up (-Z where it
  * looks along Y); yfov: radians, full vertical angle. The two points must differ. */
 SceneCamera camera_look_at(Vec3 eye, Vec3 target, float yfov);

@@ -136,14 +136,11 @@ void probe_trace(const ProbeAim *asked, int first, int end, const PathListener *
     for (int path = first; path < end; path++) {
         ProbePath one;
         HistoryCollector by_way = history_collector(listener, NULL);
-        PixelRay  pixel = pixel_ray(&by_way.base);
         PolarisedRows rows;
         start_path(aim, path, statistics, &one);
         one.start.collector = &by_way.base;
         one.start.manner.is_spared = one.start.manner.has_sheets =
             listener->reach >= PATH_BY_MIRRORS;
-        if (!aim->meter && pixel_ray_is_wanted(aim->context))
-            one.start.collector = &pixel.base;
         if (listener->is_polarised && aim->context->eye) {
             rows = polarised_rows(aim->context->eye, NULL, one.start.collector);
             one.start.collector = &rows.base;

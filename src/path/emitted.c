@@ -2,7 +2,6 @@
 /* HOT: no allocation, no lock, no libm. */
 #include "path/emitted.h"
 
-#include "light/subpixels.h"
 #include "path/path_collector.h"
 #include "sunlit/sunlit_way.h"
 
@@ -96,36 +95,6 @@ void emitted_distant(PathState *path)
 
 /* ---- emitters ---------------------------------------------------------------------------- */
 
-/* Is this a display with sub-pixels, seen by the eye itself: straight, in mirrors or through
- * clear glass? Surfaces that scatter see its even light. */
-static bool comes_close(const PathState *path, const Surface *surface, uint32_t triangle,
-                        Vec3 wo, CloseView *out)
-{
-    const Scene        *scene = path->context->scene;
-    const RayFootprint *footprint = collect_footprint(path);
-    int                 display_id = scene->materials[surface->material_id].display_id;
-    if (!footprint || display_id == NO_ID || !scene->displays[display_id].subpixels)
-        return false;
-    const Display *display = &scene->displays[display_id];
-    Frame          frame = display_frame(scene, display, triangle, &surface->point);
-    *out = (CloseView){.scene = scene, .display = display, .point = &surface->point,
-                       .triangle = triangle, .local = frame_to_local(&frame, wo)};
-    footprint_across(footprint, path->straight, &frame, out->across);
-    out->beside = footprint_exact(footprint, scene, surface, &display->content, wo,
-                                  path->straight);
-    return true;
-}
-
-Spectrum emitted_seen(const PathState *path, const Surface *surface, uint32_t triangle,
-                       Vec3 wo)
-{
-    CloseView close;
-    if (comes_close(path, surface, triangle, wo, &close))
-        return subpixels_spectrum(&close, path->wavelengths);
-    return triangle_emission(path->context->scene, triangle, &surface->point, wo,
-                             path->wavelengths);
-}
-
 static PathFound found_on(const Surface *surface, const Hit *hit, Vec3 wo, float weight)
 {
     return (PathFound){.set = LIGHTS_EMITTERS, .source_id = surface->part_id,
@@ -140,12 +109,8 @@ static void add_display_xyz(PathState *path, const Surface *surface, const Hit *
     const Scene *scene = path->context->scene;
     int          display_id = scene->materials[surface->material_id].display_id;
     float        xyz[3];
-    CloseView    close;
-    if (comes_close(path, surface, hit->triangle, wo, &close))
-        subpixels_xyz(&close, xyz);
-    else
-        display_emission_xyz(scene, &scene->displays[display_id], hit->triangle,
-                             &surface->point, wo, xyz);
+    display_emission_xyz(scene, &scene->displays[display_id], hit->triangle, &surface->point,
+                         wo, xyz);
     PathFound found = found_on(surface, hit, wo, weight);
     found.radiance = spectrum_all(0);
     found.xyz = xyz;
@@ -174,6 +139,7 @@ void emitted_add(PathState *path, const Surface *surface, const Hit *hit, Vec3 w
     }
     PathFound found = found_on(surface, hit, wo, weight);
     found.radiance = path->throughput * spectrum_all(weight) *
-                     emitted_seen(path, surface, hit->triangle, wo);
+                     triangle_emission(scene, hit->triangle, &surface->point, wo,
+                                       path->wavelengths);
     path_gather(path, &found);
 }

@@ -17,11 +17,6 @@ void emitted_distant(PathState *path);
  * too. */
 LitPoint emitted_lit_point(const PathState *path, const Surface *surface);
 
-/* Radiance that a triangle's point emits towards wo, as this path sees it: a display's
- * sub-pixels where it comes close. */
-Spectrum emitted_seen(const PathState *path, const Surface *surface, uint32_t triangle,
-                       Vec3 wo);
-
 /* The last vertex and the surface that the path meets now. */
 SunlitPair emitted_pair(const PathState *path, const Surface *surface);
 

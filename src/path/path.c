@@ -238,19 +238,12 @@ void path_follow(PathState *path, const Surface *surface, Vec3 wo, const BsdfSam
 
 /* ---- contexts ---------------------------------------------------------------------------- */
 
-static bool has_subpixels(const Scene *scene)
-{
-    for (int i = 0; i < scene->display_count; i++)
-        if (scene->displays[i].subpixels) return true;
-    return false;
-}
-
 PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
                                int max_bounces, Arena *arena)
 {
     PathContext context = {.scene = scene, .bvh = bvh, .max_bounces = max_bounces,
                            .tables = surface_tables_build(scene, false, arena),
-                           .has_subpixels = has_subpixels(scene), .strategy = PATH_MIS};
+                           .strategy = PATH_MIS};
     return path_context_relight(&context, lights, arena);
 }
 

@@ -9,7 +9,6 @@
  * Threads  one thread's, like the path.
  */
 #pragma once
-#include "path/footprint.h"
 #include "path/path_state.h"
 
 #define SHADOW_HITS 16 /* that a shadow ray keeps */
@@ -100,7 +99,6 @@ typedef struct CollectorKind {
                   straight behind, through a hole or a window */
     void (*on_light)(PathCollector *c, PathState *path, const PathFound *light); /* it counts */
     void (*finish)(PathCollector *c, PathState *path); /* all is found */
-    const RayFootprint *(*footprint)(const PathCollector *c); /* of the ray; NULL: not known */
 } CollectorKind;
 
 struct PathCollector {
@@ -220,13 +218,6 @@ static inline void path_gather(PathState *path, PathFound *light)
 static inline void collect_finish(PathState *path)
 {
     COLLECT(finish, (c, path));
-}
-
-static inline const RayFootprint *collect_footprint(const PathState *path)
-{
-    for (const PathCollector *c = path->collector; c; c = c->next)
-        if (c->kind->footprint) return c->kind->footprint(c);
-    return NULL;
 }
 
 #undef COLLECT

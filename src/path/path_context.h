@@ -31,9 +31,6 @@ typedef struct PathContext {
                                   out: the caller adds it */
     bool is_probe; /* light via the first surface counts, however dark that is: roulette
                       compares with the throughput behind it; in a frame only behind displays */
-    bool    has_subpixels; /* some display has: the frame's rays carry a footprint */
-    RayCone cone; /* the frame's pixel: displays with sub-pixels show them to its rays where it
-                     is narrow enough; zero: these are no frame's rays */
     const PolarisedEye *eye; /* rays from it carry how light is polarised; NULL: unpolarised */
 } PathContext;
 

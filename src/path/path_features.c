@@ -3,8 +3,6 @@
 
 #include "base/units.h"
 #include "light/emission.h"
-#include "light/subpixels.h"
-#include "path/footprint.h"
 #include "spectrum/photometry.h"
 
 /* Reflectance under D65 as linear Rec.709: the mean over paths is exact. */
@@ -56,33 +54,10 @@ static void emission_seen(const SeenDisplay *view, bool is_full, const float cod
     spectrum_add_xyz(view->wavelengths, through * sent, xyz);
 }
 
-/* The same of its sub-pixels, for an eye that is close. */
-static void subpixels_of_content(const PathContext *context, const SeenDisplay *view,
-                                 float xyz[3])
-{
-    SubpixelMix mix;
-    CloseView   close = {.scene = context->scene, .display = view->display,
-                         .point = view->point, .triangle = view->path->first.triangle,
-                         .local = view->direction};
-    RayFootprint footprint = footprint_of_cone(context->cone, view->path->direction);
-    footprint_across(&footprint, view->path->first.t, &view->frame, close.across);
-    subpixels_seen(&close, &mix);
-    for (int j = 0; j < 3; j++) xyz[j] = 0;
-    for (int i = 0; i < mix.count && i < SUBPIXEL_TERMS; i++) { /* gcc 14 sees one bound */
-        float one[3];
-        emission_seen(view, false, mix.codes[i], one);
-        for (int j = 0; j < 3; j++) xyz[j] += mix.weight[i] * one[j];
-    }
-}
-
 static void content_seen(const PathContext *context, const SeenDisplay *view,
                          const Surface *surface, float xyz[3])
 {
     float codes[3];
-    if (view->display->subpixels) {
-        subpixels_of_content(context, view, xyz);
-        return;
-    }
     display_codes(context->scene, view->display, &surface->point, codes);
     emission_seen(view, false, codes, xyz);
 }

@@ -265,7 +265,6 @@ bool render_prepare(const Scene *scene, const SceneCamera *camera, const RenderO
     setup.context = path_context_build(scene, setup.bvh, lights, options->max_bounces, arena);
     if (options->no_mirrors) setup.context.beams.mirrors = NULL;
     setup.camera = camera_from_scene(camera, options->width, options->height);
-    setup.context.cone = camera_cone(&setup.camera);
     setup.context.eye = place_eye(options->eye, &setup.camera, arena);
     if (setup.context.eye) setup.context.tables = surface_tables_build(scene, true, arena);
     setup.build_seconds = monotonic_seconds() - begun_s;

@@ -174,8 +174,6 @@ typedef struct Display {
     DisplayFinish finish;
     float place_from_uv[4]; /* of a panel that varies or has zones: a place of its active area
                                (panel_place.h) is {u [0] + [1], v [2] + [3]} of the content's */
-    const Subpixels *subpixels; /* its pixels are the columns and rows over the content's U and
-                                   V from 0 to 1; NULL: none, its light is even */
     const Backlight *backlight; /* of a panel with local dimming, for the content (places as
                                    above); NULL: it is full everywhere */
 } Display;

@@ -53,6 +53,9 @@ const RemovedWord removed_words[] = {
     {"import_declaration", "states", "import the files of each state as a set of its own"},
     {"measurement_set", "states", "write a manifest of each state, and fit a panel of each"},
     {"--kind", "states", "plot the panel file of each state"},
+    {"PARHELION_display", "subpixels", "leave it out: a display's light is even over a pixel"},
+    {"measurement_set", "subpixels", "leave it out: a display's light is even over a pixel"},
+    {"recipe", "subpixels", "leave it out: a display's light is even over a pixel"},
     {NULL, NULL, NULL},
 };
 

@@ -9,7 +9,8 @@
 typedef struct RemovedWord {
     const char *where; /* of an option its command ("render", "panel fit"); of a command
                           "parhelion" or the group that had it ("panel"); of a key the name of
-                          the format that had it (RecordFormat.name); of a value the option or
+                          the format that had it (RecordFormat.name), of our extensions of
+                          glTF theirs; of a value the option or
                           key that took it ("--layers") */
     const char *word;
     const char *instead; /* what to do, one clause */

@@ -90,7 +90,6 @@ static void make_context(Bench *bench, Arena *arena)
     SceneCamera  camera = scene->camera_count ? scene->cameras[0] : camera_frame_scene(scene);
     bench->camera = camera_from_scene(&camera, SIDE, SIDE);
     bench->context = path_context_build(scene, bench->bvh, bench->lights, 64, arena);
-    bench->context.cone = camera_cone(&bench->camera);
 }
 
 static bool measure(Bench *bench, Arena *arena, Error *err)

@@ -58,7 +58,6 @@ def build():
     marks = cluster.parhelion
     marks.kind, marks.panel, marks.level = "DISPLAY", here("panels", "oled.panel"), 0.5
     marks.content = here("pictures", "codes.png")
-    marks.subpixels, marks.fill, marks.columns, marks.rows = "stripe", 0.6, 1600, 800
     upright("screen", cluster, -0.1, -0.05, 0.2, 0.1)
     pane = new_material("windscreen")
     pane.parhelion.kind = "GLAZING"

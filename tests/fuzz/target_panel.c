@@ -130,10 +130,6 @@ void fuzz_panel(const uint8_t *data, size_t size, Arena *arena)
     PanelPolarisation polarised = panel_polarisation(panel);
     fuzz_claim(polarised.degree >= 0 && polarised.degree <= 1 && polarised.azimuth >= 0 &&
                    polarised.azimuth < PI_F, "the polarisation is one");
-    Subpixels divided = panel_subpixels(panel);
-    fuzz_claim(divided.layout <= SUBPIXELS_PENTILE && divided.fill >= 0 && divided.fill <= 1 &&
-                   divided.pixels[0] >= 0 && !divided.pixels[0] == !divided.pixels[1],
-               "the sub-pixels are some");
     panel_info_wavelengths(panel, nm);
     panel_info_incidences(panel, number);
     panel_info_azimuths(panel, number);

@@ -11,7 +11,6 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 SHIPPED = os.path.join(ROOT, "assets", "panels")
 RECIPE = {
     "panel": "small", "refractive_index": 1.5,
-    "subpixels": {"layout": "stripe", "fill": 0.6, "columns": 960, "rows": 360},
     "emission": {
         "red": {"luminance_cd_m2": 100, "peaks_nm": [628, 610, 545], "fwhm_nm": [26, 60, 60],
                 "weights": [1, 0.25, 0.02], "shift": [-0.1, -0.12, 0.1]},

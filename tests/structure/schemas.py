@@ -95,7 +95,7 @@ RECIPE = {"emission": {"red": SPECTRUM, "green": SPECTRUM, "blue": SPECTRUM, "le
           "reflection": {"incidence_deg": [30], "wavelengths_nm": [550], "floor_albedo": 0.05},
           "instrument": {"theta_step_deg": 10, "phi_step_deg": 30},
           "polarisation": {"degree": 0.98, "azimuth_deg": -30},
-          "subpixels": {"layout": "pentile", "fill": 0.6}, "size_mm": [300, 200],
+          "size_mm": [300, 200],
           "local_dimming": {"zones": [30, 20], "spread": {"sigma_mm": 7.5},
                             "drive": {"rule": "mean", "least": 0.25}, "compensates": False}}
 WRONG_ZONES = [("local_dimming", 3), ("local_dimming", {}), ("local_dimming/zones", None),
@@ -107,12 +107,6 @@ WRONG_ZONES = [("local_dimming", 3), ("local_dimming", {}), ("local_dimming/zone
                ("local_dimming/spread", {"sigma_mm": 7, "radius_mm": [0, 30], "value": [1, 0]}),
                ("local_dimming/drive/rule", "median"), ("local_dimming/drive/least", 1.5),
                ("local_dimming/drive", {"codes": [0, 255]}), ("local_dimming/compensates", 1)]
-WRONG_SUBPIXELS = [("subpixels", "stripe"), ("subpixels", {}), ("subpixels", {"fill": 0.5}),
-                   ("subpixels/layout", "none"), ("subpixels/layout", 1),
-                   ("subpixels/fill", 0), ("subpixels/fill", "all"), ("subpixels/columns", 9),
-                   ("subpixels", {"layout": "stripe", "columns": 9.5, "rows": 4}),
-                   ("subpixels", {"layout": "stripe", "columns": 0, "rows": 4}),
-                   ("subpixels", {"layout": "stripe", "shape": "round"})]
 DECLARATION = load(os.path.join(ROOT, "tests/unit/records/import.json"))
 WRONG_RECIPES = [("emission/red/peaks_nm", []), ("emission/red/peaks_nm", None),
                  ("emission/green", None), ("emission/gama", 2.2), ("emission/gamma", 9),
@@ -124,7 +118,7 @@ WRONG_RECIPES = [("emission/red/peaks_nm", []), ("emission/red/peaks_nm", None),
                  ("polarisation", 45), ("polarisation/degree", None),
                  ("polarisation/azimuth_deg", None), ("polarisation/degree", -0.1),
                  ("polarisation/azimuth_deg", 361), ("polarisation/azimuth", 1),
-                 *WRONG_SUBPIXELS, *WRONG_ZONES]
+                 *WRONG_ZONES]
 WRONG_DECLARATIONS = [("delimiter", "pipe"), ("azimuth_zero", "north"), ("azimut_zero", "top"),
                       ("level_max", 0), ("skip", "log_*"), ("isotropic", "yes"),
                       ("symmetry", "round"), ("wavelength_nm", 200), ("levels", 7),
@@ -161,8 +155,7 @@ WRONG_MANIFESTS = [("emission/black", None), ("emission/red", {}), ("emission/re
                    ("uniformity", {"file": "map.csv", "bend_deg": 180}),
                    ("uniformity", {"file": "map.csv", "camera_mm": 1}),
                    ("uniformity", {"file": "map.csv", "white": "map.csv"}),
-                   ("pixels", [9.5, 4]), *WRONG_SUBPIXELS, *WRONG_ZONES,
-                   ("size_mm", None)]
+                   *WRONG_ZONES, ("size_mm", None)]
 WRONG_PROFILES = [("title", None), ("title", ""), ("limit", []), ("veil", "yes"),
                   ("ambient", None), ("ambient/night_below_lx", -1),
                   ("ambient/dusk_below_lx", 3), ("limits", None), ("limits", {}),
@@ -269,7 +262,7 @@ def check_formats(report, program, folder, schema_of):
     # The set of the last good recipe lies where the manifests are looked for.
     refuses(program, ("panel", "simulate", "DOCUMENT", "-o", "FOLDER"), folder, RECIPE)
     manifest = load(os.path.join(folder, "MANIFEST.json"))
-    for key in ("polarisation", "subpixels", "local_dimming"):
+    for key in ("polarisation", "local_dimming"):
         report.claim(manifest[key] == RECIPE[key],
                      f"the manifest does not say the recipe's {key}")
     check_format(report, sets, manifest, WRONG_MANIFESTS,

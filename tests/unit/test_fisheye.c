@@ -127,16 +127,4 @@ TEST(a_whole_pixel_has_the_samples_of_any_camera)
     }
 }
 
-/* The middle pixel's own width and height as angles. */
-TEST(the_cone_is_the_middle_pixels)
-{
-    for (Fisheye kind = FISHEYE_EQUIDISTANT; kind <= FISHEYE_EQUISOLID; kind++) {
-        Camera camera = fisheye_of(kind);
-        Vec3 a = camera_ray(&camera, SIZE / 2 - 0.5f, SIZE / 2).direction;
-        Vec3 b = camera_ray(&camera, SIZE / 2 + 0.5f, SIZE / 2).direction;
-        assert_close(camera_cone(&camera).spread, vec3_length(vec3_sub(a, b)), 1e-3);
-        assert_near(camera_cone(&camera).width, 0, 0);
-    }
-}
-
 TEST_PROGRAM(NULL, NULL)

@@ -89,12 +89,6 @@ TEST(rows_at_the_normal_are_averaged_and_equal_doubles_pass)
 #define POLARISED(text)                                                                        \
     "{\"emission\": {\"white\": \"good.csv\"}, \"polarisation\": " text "}"
 
-#define DIVIDED(text)                                                                          \
-    "{\"emission\": {\"white\": \"good.csv\"}, \"subpixels\": " text "}"
-#define DIVIDED_OF(pixels, text)                                                               \
-    "{\"emission\": {\"white\": \"good.csv\"}, \"pixels\": " pixels ", \"subpixels\": " text "}"
-#define STRIPE_OF(members) "{\"layout\": \"stripe\", " members "}"
-
 TEST(manifests_name_the_key)
 {
     static const struct { const char *text, *parts[3]; } cases[] = {
@@ -132,33 +126,6 @@ TEST(manifests_name_the_key)
          {"/polarisation/azimuth", "unknown key", "'azimuth_deg'"}},
         {"{\"polarisation\": {\"degree\": 1, \"azimuth_deg\": 45}, " BRDF_ONLY "}",
          {"/polarisation", "no 'emission'", ""}},
-        {DIVIDED("\"stripe\""), {"/subpixels", "is a text", "required: an object"}},
-        {DIVIDED("{}"), {"/subpixels", "'layout' is missing", ""}},
-        {DIVIDED("{\"layout\": 3}"), {"/subpixels/layout", "is a number", "a text"}},
-        {DIVIDED("{\"layout\": \"delta\"}"),
-         {"/subpixels/layout", "is 'delta', required: another word",
-          "there are stripe, pentile"}},
-        {DIVIDED("{\"layout\": \"none\"}"), {"/subpixels/layout", "is 'none'", "required"}},
-        {DIVIDED(STRIPE_OF("\"fill\": 0")), {"/subpixels/fill", "0", "0.01 to 1"}},
-        {DIVIDED(STRIPE_OF("\"fill\": 1.5")), {"/subpixels/fill", "1.5", "0.01 to 1"}},
-        {DIVIDED(STRIPE_OF("\"fill\": \"all\"")), {"/subpixels/fill", "is a text", "a number"}},
-        {DIVIDED(STRIPE_OF("\"fil\": 1")), {"/subpixels/fil", "unknown key", "'fill'"}},
-        {DIVIDED(STRIPE_OF("\"columns\": 9")), {"/subpixels/columns", "without 'rows'", ""}},
-        {DIVIDED(STRIPE_OF("\"rows\": 9")), {"/subpixels/rows", "without 'columns'", ""}},
-        {DIVIDED(STRIPE_OF("\"columns\": 9.5, \"rows\": 4")),
-         {"/subpixels/columns", "is 9.5", "a whole number"}},
-        {DIVIDED(STRIPE_OF("\"columns\": 9, \"rows\": 0")),
-         {"/subpixels/rows", "0", "1 to 65536"}},
-        {DIVIDED(STRIPE_OF("\"columns\": 9, \"rows\": [4]")),
-         {"/subpixels/rows", "is an array", "a number"}},
-        {DIVIDED_OF("[9, 5]", STRIPE_OF("\"columns\": 9, \"rows\": 4")),
-         {"/subpixels/rows", "is 4", "'pixels' says 5"}},
-        {DIVIDED_OF("[9.5, 5]", "{\"layout\": \"stripe\"}"),
-         {"/pixels", "holds 9.5", "whole numbers"}},
-        {DIVIDED_OF("[9]", "{\"layout\": \"stripe\"}"),
-         {"/pixels", "has 1 values", "required: 2"}},
-        {"{\"subpixels\": {\"layout\": \"stripe\"}, " BRDF_ONLY "}",
-         {"/subpixels", "no 'emission'", ""}},
         {"{\"a\": 1,\n \"a\": 2}", {"MANIFEST.json: line 2", "not valid JSON", "duplicate"}},
         {"[1]", {"MANIFEST.json", "is an array", "required: an object"}},
     };
@@ -205,97 +172,11 @@ TEST(polarisation_is_kept_and_costs_nothing_where_there_is_none)
     }
 }
 
-/* "pixels" may be given as columns and rows. */
-TEST(sub_pixels_are_kept_with_the_displays_pixels)
-{
-    static const struct { const char *text; Subpixels wanted; } cases[] = {
-        {DIVIDED("{\"layout\": \"stripe\"}"), {SUBPIXELS_STRIPE, 1, {0, 0}}},
-        {DIVIDED_OF("[1920, 720]", "{\"layout\": \"pentile\", \"fill\": 0.25}"),
-         {SUBPIXELS_PENTILE, 0.25f, {1920, 720}}},
-        {DIVIDED(STRIPE_OF("\"fill\": 0.01, \"columns\": 65536, \"rows\": 1")),
-         {SUBPIXELS_STRIPE, 0.01f, {65536, 1}}},
-        {DIVIDED_OF("[7, 8]", STRIPE_OF("\"fill\": 0.6, \"columns\": 7, \"rows\": 8")),
-         {SUBPIXELS_STRIPE, 0.6f, {7, 8}}},
-    };
-    FileBytes none, some;
-    fixture_file(&folder, "good.csv", "theta,phi,X,Y,Z\n0,0,95,100,108\n50,0,60,70,75\n");
-    Panel *plain = fitted("{\"emission\": {\"white\": \"good.csv\"}}", &none);
-    assert_int_equal(panel_subpixels(plain).layout, SUBPIXELS_NONE);
-    panel_close(plain);
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        Panel    *panel = fitted(cases[i].text, &some);
-        Subpixels found = panel_subpixels(panel);
-        assert_memory_equal(&found, &cases[i].wanted, sizeof found);
-        assert_true(some.size > none.size);
-        if (!i) assert_int_equal(some.size, none.size + 32); /* place and section */
-        panel_close(panel);
-    }
-}
-
-/* A copy of a panel that has some, and where its table of contents names a kind. */
-static unsigned char *divided_copy(const FileBytes *bytes, PanelSectionKind kind,
-                                   PanelSection **found)
-{
-    unsigned char *copy = malloc(bytes->size);
-    memcpy(copy, bytes->data, bytes->size);
-    *found = (PanelSection *)(copy + sizeof(PanelHeader));
-    while ((*found)->kind != kind) ++*found;
-    return copy;
-}
-
-/* Why such a copy, its checksum made to fit, is refused; NULL: it is not. Releases it. */
-static const char *refusal_of(unsigned char *copy, size_t size, Subpixels *found)
-{
-    static Error err;
-    Arena  scratch = folder.arena;
-    Panel *panel;
-    repair_checksum(copy, size);
-    bool is_opened = panel_from_bytes(copy, size, "x.panel", &scratch, &panel, &err);
-    if (is_opened) *found = panel_subpixels(panel);
-    free(copy);
-    return is_opened ? NULL : err.text;
-}
-
-/* Every byte of the section, at values that matter: what is accepted is what stands there. */
-TEST(sub_pixels_of_a_file_are_in_range_or_refused)
-{
-    static const unsigned char values[] = {0, 1, 2, 3, 0x3c, 0x3f, 0x7f, 0x80, 0xbf, 0xff};
-    int           accepted = 0, count = (int)(sizeof(PanelSubpixelsStored) * sizeof values);
-    PanelSection *toc;
-    Subpixels     found;
-    FileBytes     bytes;
-    fixture_file(&folder, "good.csv", "theta,phi,X,Y,Z\n0,0,95,100,108\n50,0,60,70,75\n");
-    panel_close(fitted(DIVIDED_OF("[1920, 720]", "{\"layout\": \"pentile\"}"), &bytes));
-    for (int i = 0; i < count; i++) {
-        PanelSubpixelsStored stored;
-        unsigned char *copy = divided_copy(&bytes, PANEL_SUBPIXELS, &toc);
-        copy[toc->offset + (size_t)i / sizeof values] = values[(size_t)i % sizeof values];
-        memcpy(&stored, copy + toc->offset, sizeof stored);
-        const char *text = refusal_of(copy, bytes.size, &found);
-        bool in_range = (stored.layout == 1 || stored.layout == 2) && stored.fill >= 0.01f &&
-                        stored.fill <= 1 && !memcmp(stored.reserved, "\0\0", 3) &&
-                        stored.pixels[0] - 1 < 65536 && stored.pixels[1] - 1 < 65536;
-        assert_int_equal(text == NULL, in_range);
-        accepted += in_range;
-        if (text) assert_non_null(strstr(text, "out of range"));
-        else assert_int_equal(found.pixels[0], (int)stored.pixels[0]);
-    }
-    assert_true(accepted > 20 && count - accepted > 80);
-    unsigned char *copy = divided_copy(&bytes, PANEL_SUBPIXELS, &toc);
-    toc->size = 12;
-    assert_non_null(strstr(refusal_of(copy, bytes.size, &found), "a wrong number of bytes"));
-    copy = divided_copy(&bytes, PANEL_EMISSION, &toc);
-    toc->kind = 999;
-    assert_non_null(strstr(refusal_of(copy, bytes.size, &found), "stand without an emission"));
-}
-
 #define PRIMARY "{\"peaks_nm\": [600], \"fwhm_nm\": [20], \"weights\": [1]}"
 #define PRIMARIES                                                                              \
     "{\"red\": " PRIMARY ", \"green\": " PRIMARY ", \"blue\": " PRIMARY "}"
 #define RECIPE(polarisation)                                                                   \
     "{\"emission\": " PRIMARIES ", \"polarisation\": " polarisation "}"
-#define DIVIDED_RECIPE(text) "{\"emission\": " PRIMARIES ", " text "}"
-
 #define PLACES(keys) "{\"emission\": " PRIMARIES ", \"places\": {" keys "}}"
 
 TEST(recipes_name_the_key)
@@ -325,13 +206,6 @@ TEST(recipes_name_the_key)
         {RECIPE("{\"degree\": 1, \"azimuth_deg\": 361}"),
          {"/polarisation/azimuth_deg", "required: a number from -360 to 360"}},
         {RECIPE("{\"degree\": 1, \"angle\": 3}"), {"/polarisation/angle", "unknown key"}},
-        {DIVIDED_RECIPE("\"subpixels\": 3"), {"/subpixels", "required: an object"}},
-        {DIVIDED_RECIPE("\"subpixels\": {\"layout\": \"bayer\"}"),
-         {"/subpixels/layout", "is 'bayer', required: another word: there are stripe, "
-          "pentile"}},
-        {DIVIDED_RECIPE("\"pixels\": [800, 480], \"subpixels\": "
-                        STRIPE_OF("\"columns\": 8, \"rows\": 480")),
-         {"/subpixels/columns", "is 8, but 'pixels' says 800"}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         SyntheticPanel recipe;

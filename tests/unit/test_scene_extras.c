@@ -26,8 +26,6 @@ static const FaultCase FAULTS[] = {
     {MARKED("{'panel':'none.panel','content':{'index':0}}"), PLACE "/content/index",
      "is 0, but there are 0 in textures"},
     {MARKED("{'panel':'none.panel','content':3}"), PLACE "/content", "is 3, an object"},
-    {MARKED("{'panel':'none.panel','subpixels':{}}"), PLACE "/subpixels",
-     "\"layout\" is missing"},
     {MARKED("{'panel':'../../none.panel'}"), PLACE "/panel", "--root"},
     {MARKED("{}"), PLACE, "\"panel\" is missing"},
     {MARKED("7"), PLACE, "is 7, an object is required"},
@@ -37,8 +35,6 @@ static const FaultCase FAULTS[] = {
     {MARKED(IN_TEXT("")), PLACE "/panel", "display \"cluster\": "},
     {MARKED(IN_TEXT("," Q "level" Q ":-1")), PLACE "/level", "is -1, a number of at least 0"},
     {MARKED(IN_TEXT("," Q "levl" Q ":1")), PLACE "/levl", "nearest known one is 'level'"},
-    {MARKED(IN_TEXT("," Q "subpixels" Q ":{" Q "layout" Q ":3}")), PLACE "/subpixels/layout",
-     "is 3, one of stripe|pentile|none"},
     {MARKED("'none.panel'"), PLACE, "is a text that is no JSON object: not valid JSON"},
     {MARKED("''"), PLACE, "is a text that is no JSON object: not valid JSON"},
     {MARKED("'{" Q "panel" Q ":'"), PLACE, "is a text that is no JSON object: not valid JSON"},
@@ -90,21 +86,18 @@ static const Display *shown(const char *members)
 TEST_WITH(a_display_is_the_same_whichever_way_it_is_written, maker_reset, NULL)
 {
 #define LIST                                                                                   \
-    "'panel':'none.panel','level':0.25,'subpixels':{'layout':'stripe','columns':9,'rows':4}"
+    "'panel':'none.panel','level':0.25,'max_level':2"
     static const char *const ways[] = {
         "'extensionsUsed':['PARHELION_display'],'materials':[{'name':'cluster','extensions':"
         "{'PARHELION_display':{" LIST "}}}]",
         MARKED("{" LIST "}"),
-        MARKED(IN_TEXT("," Q "level" Q ":0.25," Q "subpixels" Q ":{" Q "layout" Q ":" Q
-                       "stripe" Q "," Q "columns" Q ":9," Q "rows" Q ":4}")),
+        MARKED(IN_TEXT("," Q "level" Q ":0.25," Q "max_level" Q ":2")),
     };
     for (int i = 0; i < COUNT_OF(ways); i++) {
         const Display *display = shown(ways[i]);
         const char    *name = strrchr(display->panel_path, '/');
         assert_string_equal(name ? name + 1 : display->panel_path, "none.panel");
         assert_near(display->level, 0.25, 0);
-        assert_int_equal(display->subpixels->layout, SUBPIXELS_STRIPE);
-        assert_int_equal(display->subpixels->pixels[0], 9);
     }
 }
 

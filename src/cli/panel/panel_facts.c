@@ -109,19 +109,6 @@ static void add_polarisation(const Panel *panel, json_t *out)
                                                            "azimuth_deg", azimuth));
 }
 
-/* Absent: nobody said. */
-static void add_subpixels(const Panel *panel, json_t *out)
-{
-    Subpixels stated = panel_subpixels(panel);
-    if (stated.layout == SUBPIXELS_NONE) return;
-    json_t *list = json_pack("{s:s, s:f}", "layout", display_traits_layout(stated.layout),
-                             "fill", round((double)stated.fill * 1e6) / 1e6);
-    if (stated.pixels[0])
-        json_object_update_new(list, json_pack("{s:i, s:i}", "columns", stated.pixels[0],
-                                               "rows", stated.pixels[1]));
-    json_object_set_new(out, "subpixels", list);
-}
-
 static const double HALO_MM[] = {10, 20, 40}; /* from the square's middle */
 
 /* Absent: the backlight is one, always full. */
@@ -161,7 +148,6 @@ static void add_emission(const Panel *panel, const json_t *report, json_t *out)
                                                     gamma_of(panel, 1), gamma_of(panel, 2)));
     }
     add_polarisation(panel, out);
-    add_subpixels(panel, out);
     add_zones(panel, out);
     json_object_set_new(out, "half_luminance_deg", cones(panel, (ConeQuestion){false, 0.5}));
     if (black > 0)
@@ -298,16 +284,6 @@ static void print_polarisation(const json_t *polarisation)
           100 * number(polarisation, "degree"), number(polarisation, "azimuth_deg"));
 }
 
-static void print_subpixels(const json_t *stated)
-{
-    if (!stated) return;
-    print("sub-pixels %s, %.4g %% of the area shines",
-          json_string_value(json_object_get(stated, "layout")), 100 * number(stated, "fill"));
-    if (json_object_get(stated, "columns"))
-        print(", %.0f x %.0f pixels", number(stated, "columns"), number(stated, "rows"));
-    print("\n");
-}
-
 static void print_spread(const json_t *spread)
 {
     const json_t *radius = json_object_get(spread, "radius_mm");
@@ -396,7 +372,6 @@ static void print_facts(const json_t *report)
     }
     print_gamut(facts);
     print_polarisation(json_object_get(facts, "polarisation"));
-    print_subpixels(json_object_get(facts, "subpixels"));
     print_zones(json_object_get(facts, "local_dimming"));
     print_cone(facts, "half_luminance_deg", "half white");
     print_cone(facts, "contrast_10_deg", "10 : 1    ");

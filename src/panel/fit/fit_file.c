@@ -331,16 +331,6 @@ static void write_polarised(FitWriter *writer, const DisplayTraits *traits)
     if (stored.degree > 0) write_section(writer, PANEL_POLARISED, 0, &piece, 1);
 }
 
-static void write_subpixels(FitWriter *writer, const Measurement *set)
-{
-    const Subpixels     *stated = &set->traits.subpixels;
-    PanelSubpixelsStored stored = {.layout = (uint8_t)stated->layout, .fill = stated->fill,
-                                   .pixels = {(uint32_t)set->pixels[0],
-                                              (uint32_t)set->pixels[1]}};
-    FitPiece piece = {&stored, sizeof stored};
-    if (stated->layout != SUBPIXELS_NONE) write_section(writer, PANEL_SUBPIXELS, 0, &piece, 1);
-}
-
 static int put_pairs(const ZoneTable *table, float *out)
 {
     for (int i = 0; i < table->rows; i++) {
@@ -440,7 +430,6 @@ void *fit_file_bytes(const FitParts *parts, Arena *arena, size_t *size)
     bool has_frame = parts->reflection && parts->reflection->model->surface.stored.frame;
     bool has_places = parts->places && fit_places_are_there(parts->places);
     if (has_places) write_places(&writer, parts->places);
-    if (parts->emission) write_subpixels(&writer, parts->set);
     bool has_zones = parts->emission && write_zones(&writer, &parts->set->traits.zones);
     return finish(&writer, has_zones    ? PANEL_VERSION_ZONES
                            : has_places ? PANEL_VERSION_PLACES

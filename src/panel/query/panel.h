@@ -19,16 +19,3 @@ typedef struct PanelPolarisation {
     float degree;  /* 0 to 1; 0: unpolarised, or not in the file */
     float azimuth; /* 0 with degree 0 */
 } PanelPolarisation;
-
-typedef enum SubpixelLayout {
-    SUBPIXELS_NONE, /* pixels are not divided: the light is even */
-    SUBPIXELS_STRIPE,
-    SUBPIXELS_PENTILE
-} SubpixelLayout;
-
-/* How a display's pixels are divided (light/subpixels.h). */
-typedef struct Subpixels {
-    SubpixelLayout layout;
-    float          fill;      /* share of the area that emits, (0, 1] */
-    int            pixels[2]; /* columns and rows of the display; 0: not known */
-} Subpixels;

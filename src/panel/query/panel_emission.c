@@ -28,11 +28,6 @@ PanelPolarisation panel_polarisation(const Panel *panel)
     return panel->polarisation;
 }
 
-Subpixels panel_subpixels(const Panel *panel)
-{
-    return panel->subpixels;
-}
-
 /* ---- mean ------------------------------------------------------------------------------ */
 
 /* At any code, by the same curve between whole codes. */

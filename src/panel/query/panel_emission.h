@@ -24,8 +24,6 @@ Spectrum panel_emission_spectrum(const Panel *panel, Vec3 direction, const float
 /* The same at every angle, code and wavelength. */
 PanelPolarisation panel_polarisation(const Panel *panel);
 
-/* SUBPIXELS_NONE, and all else 0: not in the file. */
-Subpixels panel_subpixels(const Panel *panel);
 
 /* Luminance in cd m^-2 averaged over the hemisphere with the cosine (luminous exitance / pi),
  * for codes rgb: what light sampling needs to weigh displays against other lights. */

@@ -48,7 +48,7 @@ typedef enum PanelSectionKind {
     PANEL_SPOTS = 11,          /* PanelSpotsHead and what follows it; absent: one everywhere */
     PANEL_SPOT_FILE = 12,      /* index 1 on: a panel file of its own, of one spot */
     PANEL_MAP = 13,            /* PanelMapHead and what follows it */
-    PANEL_SUBPIXELS = 14,      /* PanelSubpixelsStored; absent: the light is even */
+                               /* 14 was how pixels are divided: passed over */
     PANEL_REACH = 15,          /* PanelReachStored[tables]; absent: the cone of all tables */
     PANEL_ZONES = 16,          /* PanelZonesStored and what follows it; absent: one backlight,
                                   always full */
@@ -160,16 +160,6 @@ typedef struct PanelReachStored {
 typedef struct PanelPolarisedStored {
     float degree, azimuth;
 } PanelPolarisedStored;
-
-/* PANEL_SUBPIXELS: how each pixel is divided. Readers that know nothing of it show even light,
- * which has the same mean. */
-typedef struct PanelSubpixelsStored {
-    uint8_t  layout, reserved[3]; /* SubpixelLayout, 1 or 2; 0 */
-    float    fill;                /* share of the area that emits, PANEL_LEAST_FILL to 1 */
-    uint32_t pixels[2];           /* columns and rows; both 0: not known */
-} PanelSubpixelsStored;
-#define PANEL_LEAST_FILL 0.01f
-#define PANEL_PIXELS_MAX 65536
 
 /* PANEL_ZONES: local dimming (panel/zones/dimming_zones.h says what the numbers mean).
  *

@@ -336,36 +336,6 @@ static bool open_polarised(const PanelBytes *bytes, Panel *panel)
     return true;
 }
 
-static bool subpixels_are_in_range(const PanelSubpixelsStored *stored)
-{
-    bool is_counted = stored->pixels[0] || stored->pixels[1];
-    if (stored->layout != SUBPIXELS_STRIPE && stored->layout != SUBPIXELS_PENTILE) return false;
-    for (int k = 0; k < 3; k++)
-        if (stored->reserved[k]) return false;
-    for (int k = 0; k < 2 && is_counted; k++)
-        if (stored->pixels[k] < 1 || stored->pixels[k] > PANEL_PIXELS_MAX) return false;
-    return stored->fill >= PANEL_LEAST_FILL && stored->fill <= 1;
-}
-
-static bool open_subpixels(const PanelBytes *bytes, Panel *panel)
-{
-    PanelBytes at;
-    bool       found;
-    PanelSubpixelsStored stored;
-    if (!panel_find_section(bytes, PANEL_SUBPIXELS, 0, &at, &found)) return false;
-    if (!found) return true;
-    if (at.size != sizeof stored)
-        return panel_refuse(bytes, "sub-pixels", "have a wrong number of bytes");
-    memcpy(&stored, at.data, sizeof stored);
-    if (!subpixels_are_in_range(&stored))
-        return panel_refuse(bytes, "sub-pixels", "a number is out of range");
-    if (!panel->emission)
-        return panel_refuse(bytes, "sub-pixels", "stand without an emission");
-    panel->subpixels = (Subpixels){(SubpixelLayout)stored.layout, stored.fill,
-                                   {(int)stored.pixels[0], (int)stored.pixels[1]}};
-    return true;
-}
-
 /* All of a file but its places and the warps. */
 static bool open_one(const PanelBytes *bytes, Arena *arena, PanelHeader *header, Panel **out)
 {
@@ -385,8 +355,7 @@ static bool open_one(const PanelBytes *bytes, Arena *arena, PanelHeader *header,
     panel->figures_size = figures.size;
     if (!panel_open_emission(bytes, geodesic, arena, panel) ||
         !panel_open_reflection(bytes, geodesic, arena, panel) ||
-        !open_polarised(bytes, panel) || !open_subpixels(bytes, panel) ||
-        !panel_open_zones(bytes, arena, panel))
+        !open_polarised(bytes, panel) || !panel_open_zones(bytes, arena, panel))
         return false;
     if (!panel->emission && !panel->reflection)
         return panel_refuse(bytes, "table of contents", "neither emits nor reflects");

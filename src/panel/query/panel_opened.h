@@ -146,7 +146,6 @@ struct Panel {
     Tree         emission_tree;
     const PanelPrimaries *primaries; /* with emission */
     PanelPolarisation polarisation;  /* of the emission */
-    Subpixels    subpixels;          /* the same */
     const DimmingZones *zones;       /* NULL: the backlight is one, always full */
     const PanelReflection *reflection; /* NULL: reflects nothing */
     Tree         reflection_tree;

@@ -267,16 +267,6 @@ static void add_polarisation(const Panel *panel, json_t *manifest)
                                       tidy_degrees((double)p.azimuth)));
 }
 
-/* The pixels' number is among the names. */
-static void add_subpixels(const Panel *panel, json_t *manifest)
-{
-    Subpixels stated = panel_subpixels(panel);
-    if (stated.layout == SUBPIXELS_NONE) return;
-    json_object_set_new(manifest, "subpixels",
-                        json_pack("{s:s, s:f}", "layout", display_traits_layout(stated.layout),
-                                  "fill", round((double)stated.fill * 1e6) / 1e6));
-}
-
 static void add_zones(const Panel *panel, json_t *manifest)
 {
     const DimmingZones *zones = panel_zones(panel);
@@ -422,7 +412,6 @@ static bool write_set(Export *export, const char *name)
     json_t *manifest = json_object();
     const Panel *panel = export->panel;
     add_polarisation(panel, manifest);
-    add_subpixels(panel, manifest);
     add_zones(panel, manifest);
     bool ok = add_names(export, name, manifest) &&
               is_white_only(panel, &export->is_white_only, export->err) &&

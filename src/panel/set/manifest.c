@@ -305,20 +305,20 @@ static void start(void *item)
     Manifest *manifest = item;
     *manifest = (Manifest){.set = {.panel = "", .instrument = "", .date = "",
         .operator_name = "", .conditions = "", .note = "", 
-        .traits = {.fill = 1, .zones.compensates = true}}};
+        .traits = {.zones.compensates = true}}};
 }
 
 /* Keys that say something of the emitted light; two of them in place of its spectra. */
 static bool check_emitted(const JsonView *root, bool emits, Error *err)
 {
-    static const char *const keys[] = {"polarisation", "subpixels", "local_dimming",
-                                       "backlight", "peaks_nm"};
+    static const char *const keys[] = {"polarisation", "local_dimming", "backlight",
+                                       "peaks_nm"};
     for (int i = 0; i < COUNT_OF(keys); i++) {
         if (!record_has(root, keys[i])) continue;
         if (!emits)
             return record_fails(root, keys[i], err, "tells of the emitted light, but the set "
                                                     "has no 'emission'");
-        if (i >= 3 && record_has(root, "primaries"))
+        if (i >= 2 && record_has(root, "primaries"))
             return record_fails(root, keys[i], err, "is for a set without 'primaries': their "
                                                     "spectra are measured");
     }
@@ -339,7 +339,7 @@ static bool check(const JsonView *root, void *item, Error *err)
     }
     if (!m->emission.is_there && !m->reflection.is_there && !m->spot_count)
         return record_misses(root, "emission", err);
-    if (!display_traits_check(root, set->pixels, set->size_mm, &set->traits, err) ||
+    if (!display_traits_check(root, set->size_mm, &set->traits, err) ||
         !check_spots(root, m, err) ||
         !check_emitted(root, m->emission.is_there || set->spots_emit, err))
         return false;
@@ -356,12 +356,9 @@ const RecordFormat manifest_format = {
     .rules = "{'anyOf': [{'required': ['spots']}, {'required': ['emission']}, "
              "{'required': ['reflection']}], "
              "'allOf': [{'if': {'anyOf': [{'required': ['polarisation']}, "
-             "{'required': ['subpixels']}, {'required': ['local_dimming']}, "
-             "{'required': ['uniformity']}]}, "
+             "{'required': ['local_dimming']}, {'required': ['uniformity']}]}, "
              "'then': {'anyOf': [{'required': ['emission']}, "
              "{'required': ['spots']}]}}], "
-             "'dependentRequired': {'local_dimming': ['size_mm']}, "
-             "'dependentSchemas': {'subpixels': {'properties': {'pixels': {'items': "
-             "{'type': 'integer'}}}}}}",
+             "'dependentRequired': {'local_dimming': ['size_mm']}}",
     .doc = "Which tables of one panel there are: what panel import and panel simulate write "
            "and panel fit reads."};

@@ -358,16 +358,12 @@ static int count_tables(const SyntheticPanel *panel)
 
 /* ---- the set ----------------------------------------------------------------------------- */
 
-/* In the words of the recipe; the pixels' number stands under "pixels". */
+/* In the words of the recipe. */
 static void add_traits(Text *text, const DisplayTraits *traits)
 {
     if (traits->polarisation_degree > 0)
         text_format(text, ",\n  \"polarisation\": {\"degree\": %.10g, \"azimuth_deg\": %.10g}",
                     traits->polarisation_degree, traits->polarisation_azimuth_deg);
-    if (traits->subpixels.layout != SUBPIXELS_NONE)
-        text_format(text, ",\n  \"subpixels\": {\"layout\": \"%s\", \"fill\": %.7g}",
-                    display_traits_layout(traits->subpixels.layout),
-                    (double)traits->subpixels.fill);
     if (traits->has_zones) {
         json_t *zones = dimming_keys_json(&traits->zones);
         char   *words = json_dumps(zones, JSON_COMPACT | JSON_REAL_PRECISION(9));

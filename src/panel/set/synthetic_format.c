@@ -243,7 +243,7 @@ static void start(void *item)
                                .incidence_count = 6, .wavelength_count = 31};
     for (int i = 0; i < 6; i++) r->incidence_deg[i] = 10 * (i + 1);
     for (int i = 0; i < 31; i++) r->wavelength_nm[i] = 400 + 10 * i;
-    panel->traits = (DisplayTraits){.fill = 1, .zones.compensates = true};
+    panel->traits = (DisplayTraits){.zones.compensates = true};
     panel->instrument = (SyntheticInstrument){.theta_max_deg = 88, .theta_step_deg = 1,
         .phi_step_deg = 2, .brdf_theta_step_deg = NAN, .brdf_phi_step_deg = NAN, .fwhm_deg = 2,
         .seed = 1};
@@ -261,7 +261,7 @@ static bool check(const JsonView *view, void *item, Error *err)
         return error_at(err, ERROR_INPUT, view->file, "/places/haze_slope", "is %g: at an edge "
                         "haze_share %g would be %g, required: at most 1",
                         panel->places.haze_slope, panel->reflection.haze_share, most);
-    return display_traits_check(view, panel->pixels, panel->size_mm, &panel->traits, err);
+    return display_traits_check(view, panel->size_mm, &panel->traits, err);
 }
 
 const RecordFormat synthetic_format = {

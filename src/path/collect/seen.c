@@ -158,42 +158,6 @@ PolarisedRows polarised_rows(const PolarisedEye *eye, float *stokes, PathCollect
     return rows;
 }
 
-/* ---- sub-pixels -------------------------------------------------------------------------- */
-
-static void start_pixel(PathCollector *c, PathState *path)
-{
-    PixelRay *ray = (PixelRay *)c;
-    ray->footprint = footprint_of_cone(path->context->cone, path->ray.direction);
-    ray->is_known = true;
-}
-
-static void turn_pixel(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
-                       const BsdfSample *next)
-{
-    PixelRay *ray = (PixelRay *)c;
-    ray->is_known = ray->is_known && footprint_turn(&ray->footprint, path->context->scene,
-                                                    surface, wo, next, path->straight);
-}
-
-static const RayFootprint *footprint(const PathCollector *c)
-{
-    const PixelRay *ray = (const PixelRay *)c;
-    return ray->is_known ? &ray->footprint : NULL;
-}
-
-bool pixel_ray_is_wanted(const PathContext *context)
-{
-    return context->has_subpixels && context->cone.width + context->cone.spread > 0;
-}
-
-PixelRay pixel_ray(PathCollector *next)
-{
-    static const CollectorKind kind = {
-        .size = sizeof(PixelRay), .start = start_pixel, .turn = turn_pixel,
-        .footprint = footprint};
-    return (PixelRay){.base = {&kind, next}};
-}
-
 /* ---- a part of what a display reflects --------------------------------------------------- */
 
 /* Share of a part in what a display sends on from way->wi, per lane. */
@@ -270,9 +234,8 @@ static ReflectedPart display_part(PartShare *share_of, float xyz[3], PathCollect
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-_Static_assert(COLLECTOR_ROOM(PolarisedRows) + COLLECTOR_ROOM(PixelRay) +
-                       2 * COLLECTOR_ROOM(ReflectedPart) + COLLECTOR_ROOM(HistoryCollector) <=
-                   COLLECTORS_MAX_BYTES,
+_Static_assert(COLLECTOR_ROOM(PolarisedRows) + 2 * COLLECTOR_ROOM(ReflectedPart) +
+                       COLLECTOR_ROOM(HistoryCollector) <= COLLECTORS_MAX_BYTES,
                "what an eye sees is collected by more than a sheet has room for");
 
 void path_seen(const PathStart *start, Ray ray, const SeenRequest *request, SeenLight *out)
@@ -281,7 +244,6 @@ void path_seen(const PathStart *start, Ray ray, const SeenRequest *request, Seen
     const PolarisedEye *eye = context->eye;
     PathStart      own = *start;
     PolarisedRows  rows;
-    PixelRay       pixel;
     ReflectedPart    part, guess;
     HistoryCollector by_way;
     for (int i = 0; i < 3; i++) out->stokes[i] = out->lambertian[i] = out->extrapolated[i] = 0;
@@ -296,10 +258,6 @@ void path_seen(const PathStart *start, Ray ray, const SeenRequest *request, Seen
     if (request->with_extrapolated) {
         guess = display_part(extrapolated_share, out->extrapolated, own.collector);
         own.collector = &guess.base;
-    }
-    if (pixel_ray_is_wanted(context)) {
-        pixel = pixel_ray(own.collector);
-        own.collector = &pixel.base;
     }
     if (eye) {
         rows = polarised_rows(eye, eye->with_stokes ? out->stokes : NULL, own.collector);

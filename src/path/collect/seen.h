@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* seen.h -- what an eye or a frame's pixel sees along a ray, with all that its context has:
- * polarised light, sub-pixels; and what is requested besides.
+ * polarised light; and what is requested besides.
  *
  * Threads  one thread's, like the path.
  */
@@ -37,16 +37,3 @@ typedef struct PolarisedRows {
 
 /* Before the collectors that take light, which is weighed then. */
 PolarisedRows polarised_rows(const PolarisedEye *eye, float *stokes, PathCollector *next);
-
-/* The footprint of a pixel along a frame's ray (path/footprint.h), until that scatters: for
- * displays with sub-pixels. path_seen has it. */
-typedef struct PixelRay {
-    PathCollector base;
-    RayFootprint  footprint;
-    bool          is_known;
-} PixelRay;
-
-/* Do the context's rays need a footprint? */
-bool pixel_ray_is_wanted(const PathContext *context);
-
-PixelRay pixel_ray(PathCollector *next);

@@ -234,7 +234,6 @@ static bool render(const FrameArgs *args, FrameKept *kept, const SceneCamera *ca
     Arena       *arena = kept->arena;
     if (!frame_kept_begin(kept, options, err)) return false;
     render.camera = camera_from_scene(camera, options->width, options->height);
-    render.context.cone = camera_cone(&render.camera);
     render.context.guide =
         train_guide(&setup->context, &render.camera, &train, arena, &render.training);
     if (!review_goes_on(setup->tools.journal, err) ||

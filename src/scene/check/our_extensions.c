@@ -52,25 +52,6 @@ static const RecordRow TEXTURE_INFO[] = {
     COMMON};
 static const RecordFormat texture_info = {"textureInfo", 1, TEXTURE_INFO, .doc = NULL};
 
-static const char *const LAYOUTS[] = {"stripe", "pentile", "none", NULL};
-static const RecordRow SUBPIXELS[] = {
-    CHOICE("layout", MUST, LAYOUTS,
-           "stripe: red, green and blue from left to right. pentile: diamonds, a green and a "
-           "red or blue one for each pixel; columns 0 and 1, 2 and 3, ... share red and blue. "
-           "none: even light, whatever the panel says."),
-    NUMBER("fill", 0, 0.01, 1, "Share of the area that emits, 1 unless given; the rest is "
-                               "black matrix."),
-    WHOLE("columns", 1, 65536,
-          "Pixels over the content's width; with rows. Without both a pixel of the content is "
-          "one of the display's; a display without content needs them."),
-    WHOLE("rows", 1, 65536, "Pixels over the content's height; with columns."),
-    COMMON};
-static const RecordFormat subpixels = {
-    "subpixels", 1, SUBPIXELS,
-    .rules = "{'dependentRequired': {'columns': ['rows'], 'rows': ['columns']}, "
-             "'if': {'properties': {'layout': {'const': 'none'}}}, "
-             "'then': {'properties': {'fill': false, 'columns': false, 'rows': false}}}"};
-
 static const RecordRow DISPLAY[] = {
     A_FILE("panel", "The fitted panel file, relative to the glTF. Required unless the command "
                     "line names one."),
@@ -84,11 +65,6 @@ static const RecordRow DISPLAY[] = {
            "How far the panel can be driven, in times of what was measured: a level above 1 "
            "has to say so."),
     FLAG("any_size", "A width or height outside 5 mm to 1.5 m is meant."),
-    OBJECT("subpixels", subpixels,
-           "How a pixel is divided, for eyes that are close: shown to the camera's rays, "
-           "straight, in mirrors and through clear glass, where a pixel spans more than two "
-           "pixels of the frame. Means stay. Without it the panel says how; if it says "
-           "nothing, the light is even."),
     COMMON};
 const RecordFormat display_extension = {
     "PARHELION_display", 1, DISPLAY,
@@ -267,21 +243,6 @@ const RecordFormat glazing_extension = {
 
 /* ---- for the check ----------------------------------------------------------------------- */
 
-static void check_subpixels(const DocumentCheck *check, const GltfValue *value)
-{
-    const GltfValue *columns = tree_member(value, "columns");
-    const GltfValue *rows = tree_member(value, "rows");
-    if (!columns != !rows)
-        check_fails(check, columns ? columns : rows, "is there without \"%s\"",
-                    columns ? "rows" : "columns");
-    if (strcmp(tree_text(value, "layout", ""), "none") != 0) return;
-    static const char *const beside[] = {"fill", "columns", "rows"};
-    for (int i = 0; i < COUNT_OF(beside); i++) {
-        const GltfValue *member = tree_member(value, beside[i]);
-        if (member) check_fails(check, member, "is there beside the layout \"none\"");
-    }
-}
-
 const Schema our_schemas[] = {
     [OUR_DISPLAY] = {"PARHELION_display", true, check_display, .format = &display_extension},
     [OUR_ENVIRONMENT] = {"PARHELION_environment", true, check_environment,
@@ -289,7 +250,6 @@ const Schema our_schemas[] = {
     [OUR_SPECTRUM] = {"PARHELION_spectrum", true, .format = &spectrum_extension},
     [OUR_COATING] = {"PARHELION_coating", true, check_coating, .format = &coating_extension},
     [OUR_GLAZING] = {"PARHELION_glazing", true, check_glazing, .format = &glazing_extension},
-    {"subpixels", true, check_subpixels, .format = &subpixels},
     {"sun", true, .format = &sun},
     {"layer", true, check_layer, .format = &thin_layer},
     {"layer", true, check_glazing_layer, .format = &layer},

@@ -26,24 +26,6 @@ static int add_display(Loader *load, Display display, const char *file, const ch
     return material->display_id = load->displays.count - 1;
 }
 
-static SubpixelLayout layout_of(const GltfValue *given)
-{
-    const char *word = tree_text(given, "layout", "");
-    if (strcmp(word, "stripe") == 0) return SUBPIXELS_STRIPE;
-    return strcmp(word, "pentile") == 0 ? SUBPIXELS_PENTILE : SUBPIXELS_NONE;
-}
-
-/* NULL: the scene states none, the panel decides (displays_finish). */
-static const Subpixels *subpixels_build(Loader *load, const GltfValue *given)
-{
-    if (!given) return NULL;
-    Subpixels *out = ARENA_NEW(load->arena, Subpixels, 1);
-    *out = (Subpixels){.layout = layout_of(given),
-                       .fill = tree_float(given, "fill", 1),
-                       .pixels = {tree_int(given, "columns", 0), tree_int(given, "rows", 0)}};
-    return out;
-}
-
 void display_build(GltfFile *file, const GltfValue *extension, int material_id)
 {
     Loader *load = file->load;
@@ -59,9 +41,7 @@ void display_build(GltfFile *file, const GltfValue *extension, int material_id)
                           .panel_path = load_keep(load, path),
                           .content = texture_slot(file, tree_member(extension, "content")),
                           .level = tree_float(extension, "level", 1),
-                          .any_size = tree_boolean(extension, "any_size", false),
-                          .subpixels = subpixels_build(load, tree_member(extension,
-                                                                         "subpixels"))},
+                          .any_size = tree_boolean(extension, "any_size", false)},
                 file->path, pointer);
 }
 
@@ -336,40 +316,6 @@ static void check_content(Loader *load, int id)
         warn_of_words(load, display, place);
 }
 
-/* The scene's own word holds, else the panel's. */
-static void choose_subpixels(Loader *load, int id)
-{
-    Display *display = list_item(&load->displays, id);
-    if (!display->subpixels && display->panel) {
-        Subpixels *stated = ARENA_NEW(load->arena, Subpixels, 1);
-        *stated = panel_subpixels(display->panel);
-        display->subpixels = stated;
-    }
-    if (display->subpixels && display->subpixels->layout == SUBPIXELS_NONE)
-        display->subpixels = NULL;
-}
-
-/* Where their number is not given, a pixel of the content is one of the display's. */
-static void count_pixels(Loader *load, int id)
-{
-    Display *display = list_item(&load->displays, id);
-    const DisplayPlace *place = list_item(&load->display_places, id);
-    if (!display->subpixels || display->subpixels->pixels[0]) return;
-    if (display->content.texture_id == NO_ID) {
-        problems_add(load->problems, SEVERITY_ERROR, place->file, place->pointer,
-                     "display \"%s\": its \"subpixels\" need \"columns\" and \"rows\" where "
-                     "neither panel nor content tells them",
-                     display->name);
-        return;
-    }
-    const Texture *texture = list_item(&load->textures, display->content.texture_id);
-    Subpixels     *counted = ARENA_NEW(load->arena, Subpixels, 1);
-    *counted = *display->subpixels;
-    counted->pixels[0] = texture->image.width;
-    counted->pixels[1] = texture->image.height;
-    display->subpixels = counted;
-}
-
 /* The content's coordinates fix the panel's right and up, so they must not be mirrored. */
 static void check_coordinates(Loader *load, const PartDraft *draft)
 {
@@ -461,8 +407,6 @@ void displays_finish(Loader *load)
     for (int i = 0; i < load->displays.count; i++) {
         open_panel(load, i);
         check_content(load, i);
-        choose_subpixels(load, i);
-        count_pixels(load, i);
     }
     for (int i = 0; i < load->displays.count; i++) {
         find_place(load, i);
