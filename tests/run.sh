@@ -79,7 +79,7 @@ start 'panes, and displays behind them' panes python3 tests/image/panes.py $prog
 start 'its Python module' library-module python3 tests/library/module.py .build/release
 start 'variants and animations' states python3 tests/image/states.py $program
 start "glTF's faults by their codes" gltf-codes python3 tests/hostile/gltf_codes.py $program
-start 'legibility in frames' legibility python3 tests/image/legibility.py $program
+start "displays' contrast in frames" display-contrast python3 tests/image/contrast.py $program
 start 'displays the right way round' marked python3 tests/image/marked.py $program
 start 'materials without data' no-data python3 tests/hostile/no_data.py $program
 start "the panel library's ABI" library-abi python3 tests/library/abi.py .build/release

@@ -12,6 +12,7 @@
 #include "image/light/light_file.h"
 #include "image/exposure.h"
 #include "text/json_text.h"
+#include "text/removed.h"
 
 typedef struct DevelopWords {
     const char    *frame, *output;
@@ -36,8 +37,8 @@ static bool parse(int argc, char **argv, Arena *arena, DevelopWords *out, Error 
          "ends of the scale of false colours, to compare frames (default: what fits)",
          .out = o->range, .count = 2},
         {"--layer", OPTION_TEXT, "NAME",
-         "another layer or channel: normal, depth.Z, display.emitted; or what follows from "
-         "layers: display.contrast, display.weber ...", .out = &o->layer},
+         "another layer or channel: normal, depth.Z, display.emitted, display.contrast",
+         .out = &o->layer},
         {"--bits", OPTION_INTEGER, "8|16", "of a PNG or TIFF (default 8)", .out = &bits,
          .low = 8, .high = 16},
     };
@@ -53,6 +54,9 @@ static bool parse(int argc, char **argv, Arena *arena, DevelopWords *out, Error 
     o->bits = (int)bits;
     if (!out->output)
         return error_set(err, ERROR_USAGE, "no output is named — add -o FRAME.png");
+    const char *instead = o->layer ? removed_instead("--layer", o->layer) : NULL;
+    if (instead)
+        return error_set(err, ERROR_USAGE, "--layer %s was removed: %s", o->layer, instead);
     ExposureRequest unused;
     return picture_check_name(out->output, o->bits, err) &&
            eye_option_check(&out->eye, err) &&

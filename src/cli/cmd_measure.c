@@ -160,17 +160,12 @@ static void print_extrapolated(const FrameMeasurement *m)
 
 static void print_display(const FrameMeasurement *m)
 {
-    print_figure("  Weber", m->weber, "");
-    print_figure("  Michelson", m->michelson, "");
     print("  white %.6g, black %.6g, reflected %.6g cd/m2", m->white, m->black, m->reflected);
     if (!isnan(m->mirror)) print(": %.6g by the mirror", m->mirror);
     if (!isnan(m->lambertian)) print(", %.6g lambertian", m->lambertian);
     print("\n");
     print_extrapolated(m);
-    if (!m->has_errors) return;
-    print("  shown %.6g cd/m2; what is seen is off by\n", m->shown);
-    print_figure("  luminance", m->luminance_error, " of what is shown");
-    print_figure("  colour", m->colour_error, " in u'v'");
+    if (!isnan(m->shown)) print("  shown %.6g cd/m2\n", m->shown);
 }
 
 /* How a display's rim counts. */
@@ -289,12 +284,7 @@ static json_t *json_contrast(const FrameMeasurement *m)
     if (!isnan(m->extrapolated_shown))
         json_object_set_new(out, "extrapolated_emitted_share",
                             json_real(m->extrapolated_shown));
-    set_figure(out, "weber", "weber_interval", m->weber);
-    set_figure(out, "michelson", "michelson_interval", m->michelson);
-    if (!m->has_errors) return out;
-    json_object_set_new(out, "shown_cd_m2", json_figure(m->shown));
-    set_figure(out, "luminance_error", "luminance_error_interval", m->luminance_error);
-    set_figure(out, "colour_error_uv", "colour_error_uv_interval", m->colour_error);
+    if (!isnan(m->shown)) json_object_set_new(out, "shown_cd_m2", json_figure(m->shown));
     return out;
 }
 

@@ -40,7 +40,6 @@
  *                                         that is not id.display's, its variance, its share,
  *                                         its number
  *   display.contrast                      (white + reflected) / (black + reflected), NaN off
- *   display.{weber,michelson,luminance_error,colour_error} follow from these: legibility.h
  *   display.extrapolated.{emitted,reflected}   shares of these luminances by directions that
  *                                         were not measured, NaN off
  *   display.coverage                      share of the pixel's samples that saw a display

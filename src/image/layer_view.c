@@ -11,7 +11,6 @@
 #include "base/sort.h"
 #include "image/colour.h"
 #include "image/false_colour.h"
-#include "image/legibility.h"
 #include "image/srgb.h"
 
 #define MAX_PIXELS ((long long)1 << 28)
@@ -128,7 +127,6 @@ static const char *layer_names(const FrameImage *frame, Arena *arena)
 static bool unknown_layer(const FrameImage *frame, const char *layer, Arena scratch, Error *err)
 {
     const char *names = layer_names(frame, &scratch);
-    names = arena_format(&scratch, "%s%s", names, legibility_names(frame, &scratch));
     if (!layer[0])
         return error_set(err, ERROR_INPUT, "has no channels R, G, B or Y; it has: %s", names);
     return error_set(err, ERROR_USAGE, "has no layer \"%s\"; it has: %s", layer, names);
@@ -177,19 +175,6 @@ static bool find_layer(const FrameImage *frame, const char *name, LayerView *vie
         if (find_number(frame, channel, view)) return true;
     }
     return false;
-}
-
-/* A layer that follows from others. */
-static bool find_derived(const FrameImage *frame, const char *name, LayerView *view,
-                         Arena *arena, Error *err)
-{
-    const LegibilityLayer *layer = legibility_layer(name);
-    if (!layer) return unknown_layer(frame, name, *arena, err);
-    view->planes[0] = legibility_plane(frame, layer, arena, err);
-    view->show = SHOW_NUMBER;
-    view->unit = layer->unit;
-    view->is_log = layer->is_log;
-    return view->planes[0] != NULL;
 }
 
 /* ---- into Rec.709 -------------------------------------------------------------------- */
@@ -244,8 +229,7 @@ bool layer_view_find(const FrameImage *frame, const char *layer, Arena *arena, L
     if (!layer) layer = "";
     view.has_gaps = !strncmp(layer, "display.", 8) || !strncmp(layer, "halves", 6) ||
                     !strncmp(layer, "stokes.", 7);
-    if (!find_layer(frame, layer, &view) && !find_derived(frame, layer, &view, arena, err))
-        return false;
+    if (!find_layer(frame, layer, &view)) return unknown_layer(frame, layer, *arena, err);
     if (width < 1 || height < 1 || width * height > MAX_PIXELS || width > 65536)
         return error_set(err, ERROR_INPUT, "a display window of %lld x %lld pixels, at most "
                          "%lld pixels are supported", width, height, MAX_PIXELS);

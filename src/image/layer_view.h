@@ -29,9 +29,8 @@ typedef struct LayerView {
 } LayerView;
 
 /* layer: NULL or "" for the frame's own R, G, B; a layer ("normal", "display.emitted",
- * "light.sun"), one channel ("depth.Z"), or what follows from layers (legibility.h). Planes
- * are in Rec.709 for any primaries of the file. An unknown name is an error that lists the
- * layers there are. */
+ * "light.sun") or one channel ("depth.Z"). Planes are in Rec.709 for any primaries of the file.
+ * An unknown name is an error that lists the layers there are. */
 bool layer_view_find(const FrameImage *frame, const char *layer, Arena *arena, LayerView *out,
                      Error *err);
 

@@ -5,12 +5,15 @@
 #include <string.h>
 
 #include "base/confidence.h"
-#include "base/count.h"
 #include "image/frame_view.h"
-#include "image/legibility.h"
 #include "measure/pixel_noise.h"
 #include "measure/region_planes.h"
 #include "spectrum/photometry.h"
+
+/* The light that a display sends to the eye, luminances, cd m^-2. */
+typedef struct DisplayLight {
+    double white, black, shown, reflected;
+} DisplayLight;
 
 /* Sums over the pixels, each times its part. */
 typedef struct Sums {
@@ -28,30 +31,23 @@ typedef struct Sums {
     double least, greatest;
 } Sums;
 
-static void xyz_at(const LayerView *view, size_t i, double xyz[3])
-{
-    float rgb[3] = {view->planes[0][i], view->planes[1][i], view->planes[2][i]}, out[3];
-    xyz_from_rgb(rgb, out);
-    for (int c = 0; c < 3; c++) xyz[c] = (double)out[c];
-}
-
 static double luminance_at(const LayerView *view, size_t i)
 {
-    double xyz[3];
-    xyz_at(view, i, xyz);
-    return xyz[1];
+    float rgb[3] = {view->planes[0][i], view->planes[1][i], view->planes[2][i]}, xyz[3];
+    xyz_from_rgb(rgb, xyz);
+    return (double)xyz[1];
 }
 
 /* ---- one pixel after the other ------------------------------------------------------- */
 
 static bool display_light(const RegionPlanes *planes, size_t i, DisplayLight *out)
 {
-    *out = (DisplayLight){luminance_at(&planes->white, i), luminance_at(&planes->black, i),
-                          {0, 0, 0}, {0, 0, 0}};
-    xyz_at(&planes->reflected, i, out->reflected);
-    if (planes->has_shown) xyz_at(&planes->shown, i, out->shown);
-    return isfinite(out->white) && isfinite(out->black) && isfinite(out->reflected[1]) &&
-           isfinite(out->shown[1]);
+    *out = (DisplayLight){.white = luminance_at(&planes->white, i),
+                          .black = luminance_at(&planes->black, i),
+                          .shown = planes->has_shown ? luminance_at(&planes->shown, i) : 0,
+                          .reflected = luminance_at(&planes->reflected, i)};
+    return isfinite(out->white) && isfinite(out->black) && isfinite(out->reflected) &&
+           isfinite(out->shown);
 }
 
 /* What counts of a pixel. */
@@ -110,18 +106,17 @@ static bool add_display(const RegionPlanes *planes, size_t i, double weight, Sum
     if (!(weight > 0) || !display_light(planes, i, &light)) return false;
     sums->light.white += weight * light.white;
     sums->light.black += weight * light.black;
-    for (int c = 0; c < 3; c++) {
-        sums->light.shown[c] += weight * light.shown[c];
-        sums->light.reflected[c] += weight * light.reflected[c];
+    sums->light.shown += weight * light.shown;
+    sums->light.reflected += weight * light.reflected;
+    for (int c = 0; c < 3; c++)
         sums->reflected_rgb[c] += weight * (double)planes->reflected.planes[c][i];
-    }
     if (planes->has_mirror) sums->mirror += weight * luminance_at(&planes->mirror, i);
     if (planes->has_lambertian)
         sums->lambertian += weight * luminance_at(&planes->lambertian, i);
     for (int k = 0; k < 2; k++)
         if (planes->extrapolated[k])
             sums->extrapolated[k] += weight * (double)planes->extrapolated[k][i] *
-                                     (k ? light.reflected : light.shown)[1];
+                                     (k ? light.reflected : light.shown);
     sums->display_area += weight;
     sums->display_pixels++;
     return true;
@@ -317,23 +312,16 @@ static void measure_colour(const double rgb[3], const double variance[3], FrameM
         *figures[k] = about(mean[k], SIGMAS_95 * sqrt(spread[k]), out);
 }
 
-/* The interval of a figure that falls as the reflected light, the only noisy one, rises from
- * r.low to r.high. */
-static Measured falling(double (*figure)(const DisplayLight *light), const DisplayLight *light,
-                        Measured r)
+static double contrast_with(double white, double black, double reflected)
 {
-    DisplayLight dim = *light, bright = *light;
-    dim.reflected[1] = r.low;
-    bright.reflected[1] = r.high;
-    double low = figure(&bright), high = figure(&dim);
-    return (Measured){figure(light), fmin(low, high), fmax(low, high)};
+    return (white + reflected) / (black + reflected);
 }
 
-static void measure_ratios(const DisplayLight *light, Measured reflected, FrameMeasurement *out)
+/* It falls as the reflected light, the only noisy one, rises from r.low to r.high. */
+static Measured contrast_of(double white, double black, Measured r)
 {
-    out->contrast = falling(legibility_contrast, light, reflected);
-    out->weber = falling(legibility_weber, light, reflected);
-    out->michelson = falling(legibility_michelson, light, reflected);
+    double low = contrast_with(white, black, r.high), high = contrast_with(white, black, r.low);
+    return (Measured){contrast_with(white, black, r.value), fmin(low, high), fmax(low, high)};
 }
 
 static Measured reflected_interval(double reflected, const Sums *sums)
@@ -342,35 +330,6 @@ static Measured reflected_interval(double reflected, const Sums *sums)
     double width = SIGMAS_95 * sqrt(sums->display_noise.luminance) / n;
     return (Measured){reflected, fmax(reflected - width, 0),
                       reflected + width + sums->reflected_missing / n};
-}
-
-/* By the slopes along the noisy channels; where there is no error, its own size. */
-static double colour_error_width(const DisplayLight *light, const double variance[3])
-{
-    double spread = 0, middle = legibility_colour_error(light);
-    for (int c = 0; c < 3; c++) {
-        float        rgb[3] = {0, 0, 0}, xyz[3];
-        DisplayLight moved = *light;
-        rgb[c] = (float)sqrt(variance[c]);
-        xyz_from_rgb(rgb, xyz);
-        for (int k = 0; k < 3; k++) moved.reflected[k] += (double)xyz[k];
-        double change = legibility_colour_error(&moved) - middle;
-        spread += change * change;
-    }
-    return SIGMAS_95 * sqrt(spread);
-}
-
-static void measure_errors(const DisplayLight *light, Measured reflected, const Sums *sums,
-                           FrameMeasurement *out)
-{
-    double n = sums->display_area, variance[3];
-    for (int c = 0; c < 3; c++) variance[c] = sums->display_noise.rgb[c] / (n * n);
-    out->shown = light->shown[1];
-    out->luminance_error = (Measured){legibility_luminance_error(light),
-                                      reflected.low / light->shown[1],
-                                      reflected.high / light->shown[1]};
-    out->colour_error = measured_about(legibility_colour_error(light),
-                                       colour_error_width(light, variance));
 }
 
 /* NaN: not known; 0 where there is no light. */
@@ -386,28 +345,19 @@ static void measure_display(const RegionPlanes *planes, const Sums *sums,
     out->display_pixels = sums->display_pixels;
     out->has_contrast = sums->display_pixels > 0;
     if (!out->has_contrast) return;
-    DisplayLight light = {sums->light.white / n, sums->light.black / n, {0}, {0}};
-    for (int c = 0; c < 3; c++) {
-        light.shown[c] = sums->light.shown[c] / n;
-        light.reflected[c] = sums->light.reflected[c] / n;
-    }
-    out->white = light.white;
-    out->black = light.black;
-    out->reflected = light.reflected[1];
+    out->white = sums->light.white / n;
+    out->black = sums->light.black / n;
+    out->reflected = sums->light.reflected / n;
     out->mirror = planes->has_mirror ? sums->mirror / n : (double)NAN;
     out->lambertian = planes->has_lambertian ? sums->lambertian / n : (double)NAN;
+    out->shown = planes->has_shown ? sums->light.shown / n : (double)NAN;
     out->extrapolated_shown = share_of(planes->has_shown && planes->extrapolated[0],
-                                       sums->extrapolated[0], sums->light.shown[1]);
+                                       sums->extrapolated[0], sums->light.shown);
     out->extrapolated_reflected = share_of(planes->extrapolated[1], sums->extrapolated[1],
-                                           sums->light.reflected[1]);
-    out->has_errors = planes->has_shown;
-    Measured reflected = reflected_interval(light.reflected[1], sums);
-    measure_ratios(&light, reflected, out);
-    if (out->has_errors) measure_errors(&light, reflected, sums, out);
-    if (out->has_variance) return;
-    Measured *noisy[] = {&out->contrast, &out->weber, &out->michelson, &out->luminance_error,
-                         &out->colour_error};
-    for (int i = 0; i < COUNT_OF(noisy); i++) noisy[i]->low = noisy[i]->high = NAN;
+                                           sums->light.reflected);
+    out->contrast = contrast_of(out->white, out->black,
+                                reflected_interval(out->reflected, sums));
+    if (!out->has_variance) out->contrast.low = out->contrast.high = NAN;
 }
 
 /* The pixels that are measured, by themselves. */

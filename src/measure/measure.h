@@ -58,10 +58,8 @@ typedef struct FrameMeasurement {
     double   extrapolated_shown, extrapolated_reflected; /* shares of what is shown and of what
                                 is reflected, by directions that were not measured; NaN: not
                                 known */
-    Measured contrast, weber, michelson; /* of these means, as legibility.h defines them */
-    bool     has_errors; /* what the display shows is in the frame: */
-    double   shown;      /* cd m^-2 */
-    Measured luminance_error, colour_error; /* of what is seen against what is shown */
+    double   shown;    /* of its content, cd m^-2; NaN: not known */
+    Measured contrast; /* of these means: (white + reflected) / (black + reflected) */
     bool     has_content; /* a region or a display was requested */
     ContentContrast content; /* of what is shown there: characters on their ground */
 } FrameMeasurement;

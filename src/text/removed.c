@@ -56,6 +56,11 @@ const RemovedWord removed_words[] = {
     {"PARHELION_display", "subpixels", "leave it out: a display's light is even over a pixel"},
     {"measurement_set", "subpixels", "leave it out: a display's light is even over a pixel"},
     {"recipe", "subpixels", "leave it out: a display's light is even over a pixel"},
+    {"--layer", "display.weber", "display.contrast less one"},
+    {"--layer", "display.michelson", "by display.contrast C: (C - 1) / (C + 1)"},
+    {"--layer", "display.luminance_error", "display.reflected over display.emitted"},
+    {"--layer", "display.colour_error", "a review judges whether symbols can be read; in "
+                                        "numbers display.emitted beside display.reflected"},
     {NULL, NULL, NULL},
 };
 

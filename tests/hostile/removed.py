@@ -12,8 +12,9 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
 from report import Report  # noqa: E402
 
 # What of a command has to stand before an option that takes a value of these.
-VALUES = {"--layers": ("render", "x.gltf", "-o", "x.exr", "--layers"),
-          "--kind": ("panel", "plot", "x.panel", "-o", "x.svg", "--kind")}
+VALUES = {"--kind": ("panel", "plot", "x.panel", "-o", "x.svg", "--kind"),
+          "--layer": ("develop", "x.exr", "-o", "x.png", "--layer"),
+          "--layers": ("render", "x.gltf", "-o", "x.exr", "--layers")}
 
 
 def rows():

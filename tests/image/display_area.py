@@ -12,7 +12,7 @@ import sys
 import tempfile
 
 from gltf import Scene, png
-from legibility import write_set
+from contrast import write_set
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))

@@ -228,10 +228,7 @@ def frame(reviewer, tally, seeds):
             reflected = seen_in(reviewer, room, panel, name)
         ratio = (white + reflected) / (black + reflected)
         known = {"/luminance_interval": white + reflected, "/contrast/interval": ratio,
-                 "/weber_interval": ratio - 1, "/michelson_interval": (ratio - 1) / (ratio + 1),
-                 "/luminance_error_interval": reflected / white,
-                 "/xy_interval": OF_SEEDS, "/uv_interval": OF_SEEDS,
-                 "/colour_error_uv_interval": OF_SEEDS}
+                 "/xy_interval": OF_SEEDS, "/uv_interval": OF_SEEDS}
         content = {f"/content/{k}_interval": OF_SEEDS for k in (
             "ratio", "michelson", "weber", "characters", "ground")}
         tally.add("frame, near", told, {**known, **content})

@@ -15,7 +15,7 @@ import sys
 import tempfile
 
 from gltf import Scene, png, unit
-from legibility import RHO, write_set
+from contrast import RHO, write_set
 from review import Report, Reviewer, request
 
 WIDE, HIGH = 48, 32                # pixels of the content, a millimetre each

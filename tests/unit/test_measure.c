@@ -141,18 +141,9 @@ ARENA_TEST(a_display_has_its_contrast)
     assert_close(m.contrast.value, 420 / 20.4, 1e-5);
     double w = 1.959964 * 2 / sqrt(50); /* of what is reflected */
     assert_interval(m.contrast, (420 + w) / (20.4 + w), (420 - w) / (20.4 - w));
-    assert_close(m.weber.value, 399.6 / 20.4, 1e-5);
-    assert_interval(m.weber, 399.6 / (20.4 + w), 399.6 / (20.4 - w));
-    assert_close(m.michelson.value, 399.6 / 440.4, 1e-5);
-    assert_interval(m.michelson, 399.6 / (440.4 + 2 * w), 399.6 / (440.4 - 2 * w));
     assert_close(m.mirror, 5, 1e-5);
     assert_close(m.lambertian, 9, 1e-5);
-    assert_true(m.has_errors);
     assert_close(m.shown, 80, 1e-5);
-    assert_close(m.luminance_error.value, 0.25, 1e-5);
-    assert_interval(m.luminance_error, (20 - w) / 80, (20 + w) / 80);
-    assert_near(m.colour_error.value, 0, 1e-6); /* both are grey */
-    assert_true(half(m.colour_error) > 0 && half(m.colour_error) < 0.01);
     m = measure(&frame, (MeasureRequest){.display = "centre"}, arena);
     assert_int_equal(m.pixels, 10);
 }

@@ -102,7 +102,6 @@ static Kind kinds[] = {
     {"cells", CELLS, FIT_VERTEX, 0, NULL},     /* kept as it was measured */
     {"hulls", HULLS, FIT_VERTEX, 0, NULL},     /* of samples that leave much out */
 };
-#define POLARISED_KIND 3
 #define SLOW_SHARE 8 /* of forged ones, where opening takes tens of milliseconds */
 #define KIND_COUNT ((int)(sizeof kinds / sizeof *kinds))
 
@@ -496,23 +495,6 @@ static bool makes_sampling(const Kind *kind)
         if (section.kind == PANEL_SAMPLING) return section.size == 0;
     }
     return false;
-}
-
-/* Kind 14, sub-pixels, was written by releases of before. */
-TEST(a_section_that_nobody_knows_is_passed_over)
-{
-    const Kind    *kind = &kinds[POLARISED_KIND];
-    unsigned char *copy = malloc(kind->size);
-    Arena          scratch = folder.arena;
-    PanelSection  *section = (PanelSection *)(copy + sizeof(PanelHeader));
-    Panel         *panel;
-    memcpy(copy, kind->bytes, kind->size);
-    while (section->kind != PANEL_POLARISED) section++;
-    section->kind = 14;
-    repair_checksum(copy, kind->size);
-    assert_done(panel_from_bytes(copy, kind->size, "x.panel", &scratch, &panel, why()));
-    assert_true(panel_polarisation(panel).degree == 0);
-    free(copy);
 }
 
 /* As if somebody had written the file with ill intent: the checksum fits. */

@@ -172,6 +172,25 @@ TEST(polarisation_is_kept_and_costs_nothing_where_there_is_none)
     }
 }
 
+/* Kind 14, sub-pixels, was written by releases of before. */
+TEST(a_section_that_nobody_knows_is_passed_over)
+{
+    Arena     scratch = folder.arena;
+    FileBytes bytes;
+    Panel    *panel;
+    fixture_file(&folder, "good.csv", "theta,phi,X,Y,Z\n0,0,95,100,108\n50,0,60,70,75\n");
+    panel_close(fitted(POLARISED("{\"degree\": 1, \"azimuth_deg\": 0}"), &bytes));
+    unsigned char *copy = malloc(bytes.size);
+    PanelSection  *section = (PanelSection *)(copy + sizeof(PanelHeader));
+    memcpy(copy, bytes.data, bytes.size);
+    while (section->kind != PANEL_POLARISED) section++;
+    section->kind = 14;
+    repair_checksum(copy, bytes.size);
+    assert_done(panel_from_bytes(copy, bytes.size, "x.panel", &scratch, &panel, &err));
+    assert_true(panel_polarisation(panel).degree == 0);
+    free(copy);
+}
+
 #define PRIMARY "{\"peaks_nm\": [600], \"fwhm_nm\": [20], \"weights\": [1]}"
 #define PRIMARIES                                                                              \
     "{\"red\": " PRIMARY ", \"green\": " PRIMARY ", \"blue\": " PRIMARY "}"

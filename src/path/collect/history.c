@@ -148,8 +148,8 @@ static void on_light(PathCollector *c, PathState *path, const PathFound *found)
     }
     if (found->xyz && listener->with_lanes)
         lanes = path->throughput * spectrum_all(found->weight) *
-                triangle_emission(path->context->scene, found->triangle, found->point, found->way,
-                                  path->wavelengths);
+                triangle_emission(path->context->scene, found->triangle, found->point,
+                                  found->way, path->wavelengths);
     history.source = found->set;
     history.source_id = found->source_id;
     history.from = found->from;
