@@ -8,14 +8,15 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/count.h"
 #include "text/nearest_word.h"
+#include "text/removed.h"
 
 #define FORMATS_MAX 64
 
 const Importer *const importers[] = {
-    &importer_fred, &importer_mountain, &importer_zemax, &importer_lighttools,
-    &importer_speos, &importer_astm, &importer_ssdd, &importer_window,
-    &importer_rgl, &importer_pbsdf, &importer_merl, &importer_spreadsheet,
+    &importer_zemax, &importer_speos, &importer_astm, &importer_rgl,
+    &importer_merl, &importer_spreadsheet,
     &importer_ies, &importer_eulumdat,
     &importer_text,
     NULL,
@@ -31,6 +32,11 @@ static const Importer *importer_named(const char *name, Error *err)
     for (int i = 0; importers[i] && i < FORMATS_MAX; i++) {
         if (!strcmp(importers[i]->name, name)) return importers[i];
         names[count++] = importers[i]->name;
+    }
+    const char *instead = removed_instead("--format", name);
+    if (instead) {
+        error_set(err, ERROR_USAGE, "--format %s was removed: %s", name, instead);
+        return NULL;
     }
     error_set(err, ERROR_USAGE, "--format '%s' is unknown — %s", name,
               nearest_word_advice(name, names, count, advice, (int)sizeof advice));
@@ -53,19 +59,40 @@ static bool read_head(const char *file, char *head, size_t *size, Error *err)
     return ok || error_at(err, ERROR_INPUT, file, "", "cannot be read");
 }
 
+/* Formats of before, by what stands in their first bytes and in none of the formats that are
+ * tried before text. */
+static const struct { const char *name, *mark; } FORMATS_REMOVED[] = {
+    {"FRED", "type bsdf_data"}, {"FRED", "!!BSDF Data"}, {"LightTools", "ScatterAzimuth"},
+    {"Mountain", "#format: theta phi"}, {"Mountain", "#incident_angle"}, {"SSDD", "DATA_TYPE "},
+    {"WINDOW", "<WindowElement"}, {"KAIST", "tensor_file"},
+};
+
+static const char *format_removed(const char *head, size_t size)
+{
+    for (int i = 0; i < COUNT_OF(FORMATS_REMOVED); i++) {
+        const char *mark = FORMATS_REMOVED[i].mark;
+        if (memmem(head, size, mark, strlen(mark))) return FORMATS_REMOVED[i].name;
+    }
+    return NULL;
+}
+
 bool import_file(const char *file, const ImportOptions *options, ImportSet *set, Error *err)
 {
     char   head[IMPORT_HEAD_BYTES + 1];
     size_t size = 0;
-    if (!read_head(file, head, &size, err)) return false;
+    const Importer *named = options->format ? importer_named(options->format, err) : NULL;
+    if ((options->format && !named) || !read_head(file, head, &size, err)) return false;
     if (!size) return error_at(err, ERROR_INPUT, file, "", "is empty");
-    if (options->format) {
-        const Importer *importer = importer_named(options->format, err);
-        return importer && importer->read(file, options, set, err);
-    }
-    for (int i = 0; importers[i]; i++)
+    if (named) return named->read(file, options, set, err);
+    for (int i = 0; importers[i]; i++) {
+        const char *gone = importers[i] == &importer_text ? format_removed(head, size) : NULL;
+        if (gone)
+            return error_at(err, ERROR_INPUT, file, "",
+                            "is of %s's format, which is no longer read — export it as text "
+                            "(parhelion help measuring-a-panel)", gone);
         if (importers[i]->recognises(file, head, size))
             return importers[i]->read(file, options, set, err);
+    }
     return error_at(err, ERROR_INPUT, file, "",
                     "is of no format that is known here — name one with --format");
 }

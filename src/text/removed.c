@@ -61,6 +61,12 @@ const RemovedWord removed_words[] = {
     {"--layer", "display.luminance_error", "display.reflected over display.emitted"},
     {"--layer", "display.colour_error", "a review judges whether symbols can be read; in "
                                         "numbers display.emitted beside display.reflected"},
+    {"--format", "ssdd", "export it as text, which is read (help measuring-a-panel)"},
+    {"--format", "window", "export it as text, which is read (help measuring-a-panel)"},
+    {"--format", "pbsdf", "export it as text, which is read (help measuring-a-panel)"},
+    {"--format", "lighttools", "export it as text, which is read (help measuring-a-panel)"},
+    {"--format", "fred", "export it as text, which is read (help measuring-a-panel)"},
+    {"--format", "mountain", "export it as text, which is read (help measuring-a-panel)"},
     {NULL, NULL, NULL},
 };
 

@@ -277,11 +277,7 @@ def measure_foreign(bench):
 REAL = ("display", "bsdf", "photometry")
 TOLD = { # what files do not say themselves, by the ends of their names
     "viewing_angle_oled_phi0_90.csv": ["--role", "*=white"],
-    ".fred.txt": ["--wavelength", "650"],
     "BrownVinyl_TIS_validation.bsdf": ["--wavelength", "650"],
-    "EDS10_0-0.txt": ["--wavelength", "550"],
-    "EDS10_10-0.txt": ["--wavelength", "550"],
-    "EDS10_20-90.txt": ["--wavelength", "550"],
     "MAXWELL_measured_IESNA.ies": ["--area-mm", "300,300"],
 }
 

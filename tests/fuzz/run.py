@@ -36,7 +36,7 @@ FOREIGN = {
     "image": ("gltf/**/*.png", "gltf/**/*.jpg", "hdri/**/*.hdr"), "png": ("gltf/**/*.png",),
     "import-ies": ("photometry/*.ies",), "import-eulumdat": ("photometry/*.ldt",),
     "import-text": ("display/*.csv", "panels/**/*.csv"), "weather": ("weather/**/*.epw",),
-    "import-window": ("bsdf/**/*.xml",), "import-speos": ("bsdf/speos/**/*",),
+    "import-speos": ("bsdf/speos/**/*",),
     "import-any": ("bsdf/**/*", "photometry/*"),
 }
 

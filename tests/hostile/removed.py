@@ -13,6 +13,7 @@ from report import Report  # noqa: E402
 
 # What of a command has to stand before an option that takes a value of these.
 VALUES = {"--kind": ("panel", "plot", "x.panel", "-o", "x.svg", "--kind"),
+          "--format": ("panel", "import", "x.csv", "-o", "MANIFEST.json", "--format"),
           "--layer": ("develop", "x.exr", "-o", "x.png", "--layer"),
           "--layers": ("render", "x.gltf", "-o", "x.exr", "--layers")}
 

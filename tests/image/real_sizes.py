@@ -16,21 +16,14 @@ from report import Report  # noqa: E402
 
 DATA = os.path.join(ROOT, "..", "shared", "data")
 MANY = 20000
-AT_650, AT_550 = ["--wavelength", "650"], ["--wavelength", "550"]
+AT_650 = ["--wavelength", "650"]
 FILES = { # what a file does not say itself
     "display/viewing_angle_oled_phi0_90.csv": ["--role", "*=white"],
     "bsdf/loft-rt300s/AnoBlackEC1onAlum.bsdf": [],
-    "bsdf/loft-rt300s/AnoBlackEC1onAlum_fullAz.fred.txt": AT_650,
     "bsdf/loft-rt300s/AnoBlackNiTEonINVAR.bsdf": [],
-    "bsdf/loft-rt300s/AnoBlackNiTEonINVAR_fullAz.fred.txt": AT_650,
     "bsdf/loft-rt300s/BrownVinyl_TIS_validation.bsdf": AT_650,
     "bsdf/speos/L100_2.simplescattering": [],
     "bsdf/speos/R_test.anisotropicbsdf": [],
-    "bsdf/viavi-engineered-diffuser/EDS10_0-0.txt": AT_550,
-    "bsdf/viavi-engineered-diffuser/EDS10_10-0.txt": AT_550,
-    "bsdf/viavi-engineered-diffuser/EDS10_20-90.txt": AT_550,
-    "bsdf/window-xml/simple_klems_spot_front_refl.xml": [],
-    "bsdf/window-xml/simple_tensor_d2_refl.xml": [],
     "photometry/ABSOLUTE_LED.ies": [],
     "photometry/ASA_15M_R2.ies": [],
     "photometry/FL_MAX_900W_SYM60.ldt": [],
@@ -39,8 +32,6 @@ FILES = { # what a file does not say itself
     "photometry/examp1.ies": [],
     "photometry/road_luminaire.ldt": [],
     "photometry/threejs_007cfb.ies": [],
-    "reference-renders/radiance/simple_klems_spot_refl.xml": [],
-    "reference-renders/radiance/simple_klems_through_refl.xml": [],
 }
 
 def call(program, *words):

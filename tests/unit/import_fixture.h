@@ -158,17 +158,6 @@ static inline double value_at(const ImportTable *table, double theta, double phi
     return table->value[row_at(table, theta, phi, 1e-4) * table->channels + channel];
 }
 
-/* The row with the largest value of the first channel. */
-static inline int brightest_row(const ImportTable *table)
-{
-    int best = 0;
-    for (int i = 1; i < table->rows; i++)
-        if (table->value[(size_t)i * (size_t)table->channels] >
-            table->value[(size_t)best * (size_t)table->channels])
-            best = i;
-    return best;
-}
-
 static inline bool has_note(const Fixture *f, const char *words)
 {
     return lines_have(f->set.note, f->set.note_count, words);

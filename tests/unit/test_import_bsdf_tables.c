@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Scatter as tables: ASTM, SSDD, Speos in text and binary. */
+/* Scatter as tables: ASTM, Speos in text and binary; half and difference angles. */
 #include "import/scatter/half_angle.h"
 #include "import_fixture.h"
 
@@ -62,43 +62,7 @@ FIXTURE_TEST(astm_errors_name_the_line)
     assert_prefixes_refused(f, ASTM, strlen(ASTM), 1, i);
 }
 
-/* ---- SSDD -------------------------------------------------------------------------------- */
-
-#define SSDD_HEAD                                                                              \
-    "VERSION 0.2\n\nDATA_TYPE brdf\nCOLOR_MODEL spectrum\nWAVELENGTH_LIST 450 650\n"
-
-FIXTURE_TEST(ssdd_spherical_angles_and_their_order)
-{
-    assert_reads(f, SSDD_HEAD "PARAM_TYPE spherical_coordinate_system\nPARAM0_LIST 20 40\n"
-                    "PARAM2_LIST 0 30\nPARAM3_LIST 0 90 180 270\nDATA ascii\n"
-                    "# PARAM3 0\n1 101\n2 102\n3 103\n4 104\n5 105\n6 106\n7 107\n8 108\n"
-                    "9 109\n10 110\n11 111\n12 112\n13 113\n14 114\n15 115\n16 116\n", "ssdd");
-    const ImportTable *t = table_at(f, 40, 180);
-    assert_near(value_at(t, 30, 180, 0), 4, 0);   /* towards the light, at phi 0 there */
-    assert_near(value_at(t, 30, 0, 0), 12, 0);    /* the mirror direction's side */
-    assert_near(value_at(t, 30, 270, 1), 108, 0);
-    assert_near(value_at(table_at(f, 20, 180), 30, 90, 0), 15, 0);
-}
-
-FIXTURE_TEST(ssdd_specular_angles_count_from_the_mirror_direction)
-{
-    assert_reads(f, "VERSION 0.2\nDATA_TYPE btdf\nCOLOR_MODEL monochrome\n"
-                    "PARAM_TYPE spherical_coordinate_system\nPARAM0_LIST 0\nPARAM2_LIST 0\n"
-                    "PARAM3_LIST 0\nDATA ascii\n0.5\n"
-                    "DATA_TYPE brdf\nCOLOR_MODEL monochrome\n"
-                    "PARAM_TYPE specular_coordinate_system\nREDUCTION_TYPE bilateral_symmetry\n"
-                    "PARAM0_LIST 40\nPARAM2_LIST 0 10\nPARAM3_LIST 0 90 180\nDATA ascii\n"
-                    "9\n1\n9\n2\n9\n3\n", "ssdd");
-    const ImportTable *t = table_at(f, 40, 180);
-    assert_near(value_at(t, 40, 0, 0), 9, 0);
-    assert_near(value_at(t, 30, 0, 0), 1, 0);
-    assert_near(value_at(t, 50, 0, 0), 3, 0);
-    double theta = acos(cos(10 * RAD) * cos(40 * RAD)) / RAD;
-    double phi = asin(sin(10 * RAD) / sin(theta * RAD)) / RAD;
-    assert_near(value_at(t, theta, phi, 0), 2, 0);
-    assert_near(value_at(t, theta, -phi, 0), 2, 0);
-    assert_noted(f, "a block of transmission or of mirror reflectance is left out");
-}
+/* ---- half and difference angles ----------------------------------------------------------- */
 
 /* The light in the half vector's frame, turned by theta_h about y, then by phi_h about z. */
 TEST(half_and_difference_angles_come_back)
@@ -117,52 +81,6 @@ TEST(half_and_difference_angles_come_back)
             assert_near(found.diff_theta, 35, 1e-9);
             assert_near(found.diff_phi, diff_phi, 1e-9);
         }
-}
-
-/* Linear in each angle, so that the interpolation is exact: brdf = 1 + theta_h / 90 +
- * 2 theta_d / 90 (phi_d does not matter). Binary. */
-FIXTURE_TEST(ssdd_half_difference_angles_are_evaluated)
-{
-    char     bytes[512] = "VERSION 0.2\nDATA_TYPE brdf\nCOLOR_MODEL monochrome\n"
-                          "PARAM_TYPE half_difference_coordinate_system\n"
-                          "REDUCTION_TYPE bilateral_symmetry reciprocity\nPARAM0_LIST 0 90\n"
-                          "PARAM2_LIST 0 90\nPARAM3_LIST 0 90\nDATA binary\n";
-    size_t   size = strlen(bytes);
-    for (int i3 = 0; i3 < 2; i3++)
-        for (int i2 = 0; i2 < 2; i2++)
-            for (int i0 = 0; i0 < 2; i0++) {
-                float value = (float)(1 + i0 + 2 * i2);
-                memcpy(bytes + size, &value, sizeof value);
-                size += sizeof value;
-            }
-    assert_true(fixture_read(f, bytes, size, "ssdd"));
-    assert_int_equal(f->set.count, 9);
-    const ImportTable *t = table_at(f, 60, 180);
-    assert_true(t->rows > 500);
-    for (int i = 0; i < t->rows; i += 7) {
-        HalfAngles h = half_angles(direction_from_degrees(60, 180),
-                                   direction_from_degrees(t->theta_deg[i], t->phi_deg[i]));
-        assert_close(t->value[i], 1 + h.half_theta / 90 + 2 * h.diff_theta / 90, 1e-6);
-    }
-    /* In the mirror direction theta_h is 0 and theta_d the incidence. */
-    int at = row_at(t, 60, 0, 1e-6);
-    assert_close(t->value[at], 1 + 2 * 60.0 / 90, 1e-6);
-    assert_prefixes_refused(f, bytes, size, 1, &importer_ssdd);
-}
-
-FIXTURE_TEST(ssdd_errors_name_the_line)
-{
-    const Importer *i = &importer_ssdd;
-    assert_refused(f, "DATA_TYPE brdf\n", i,
-                   "line 1: the file begins with 'DATA_TYPE', required: VERSION");
-    assert_refused(f, SSDD_HEAD "PARAM_TYPE spherical_coordinate_system\nPARAM0_LIST 20\n"
-                      "PARAM2_LIST 0\nPARAM3_LIST 0\nDATA ascii\n1\n", i,
-                   "line 11: the block announces 2 numbers, more than the rest of the file can "
-                   "hold");
-    assert_refused(f, SSDD_HEAD "PARAM_TYPE spherical_coordinate_system\n"
-                      "PARAM0_LIST 20 10\n", i, "line 8: PARAM0_LIST does not rise at 10");
-    assert_refused(f, "VERSION 0.2\nDATA_TYPE btdf\n", i,
-                   "line 3: the file ends without a table of reflection");
 }
 
 /* ---- Speos ------------------------------------------------------------------------------- */

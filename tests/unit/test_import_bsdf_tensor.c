@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Scatter in binary files: RGL and KAIST tensor files, MERL. */
+/* Scatter in binary files: RGL tensor files, MERL. */
 #include "import/scatter/half_angle.h"
 #include "import_fixture.h"
 
@@ -269,63 +269,6 @@ FIXTURE_TEST(tensor_files_that_are_not_sound_are_refused)
     }
 }
 
-/* ---- KAIST ------------------------------------------------------------------------------- */
-
-#define PHIS 5
-#define THETAS 3
-#define WAVELENGTHS 2
-
-/* M00 = 1 + theta_d / 45 + theta_h / 90 + 10 c, linear, so that the interpolation is exact. */
-static void build_pbsdf(Builder *b, bool has_angles)
-{
-    static double m[PHIS * THETAS * THETAS * WAVELENGTHS * 16];
-    for (int p = 0, at = 0; p < PHIS; p++)
-        for (int d = 0; d < THETAS; d++)
-            for (int h = 0; h < THETAS; h++)
-                for (int c = 0; c < WAVELENGTHS; c++)
-                    for (int k = 0; k < 16; k++, at++)
-                        m[at] = k ? -5 : 1 + d + 0.5 * h + 10 * c;
-    builder_start(b);
-    builder_add(b, "theta_d", 10, SHAPE(1, 3), LIST(0, PI / 4, PI / 2));
-    builder_add(b, "theta_h", 10, SHAPE(1, 3), LIST(0, PI / 4, PI / 2));
-    builder_add(b, "phi_d", 10, SHAPE(1, 5), LIST(-PI, -PI / 2, 0, PI / 2, PI));
-    builder_add(b, "wvls", 3, SHAPE(2), LIST(450, 650));
-    builder_add(b, "M", 10, SHAPE(PHIS, THETAS, THETAS, WAVELENGTHS, 4, 4), m);
-    if (!has_angles) /* the first side of theta_d, as in the reduced file, is 0 */
-        put(b->bytes + 18 + 2 + 7 + 11, 0, 8);
-}
-
-FIXTURE_TEST(kaist_first_element_is_evaluated)
-{
-    Builder *b = ARENA_NEW(&f->arena, Builder, 1);
-    build_pbsdf(b, true);
-    assert_true(fixture_read(f, b->bytes, b->data, "pbsdf"));
-    assert_int_equal(f->set.count, 9);
-    const ImportTable *t = table_at(f, 50, 180);
-    for (int r = 0; r < t->rows; r += 11) {
-        HalfAngles h = half_angles(direction_from_degrees(50, 180),
-                                   direction_from_degrees(t->theta_deg[r], t->phi_deg[r]));
-        double wanted = 1 + h.diff_theta / 45 + 0.5 * h.half_theta / 45;
-        assert_close(t->value[r * 2], wanted, 1e-5);
-        assert_close(t->value[r * 2 + 1], wanted + 10, 1e-5);
-    }
-    assert_prefixes_refused(f, b->bytes, b->data, 101, &importer_pbsdf);
-    build_pbsdf(b, false);
-    assert_false(fixture_read(f, b->bytes, b->data, "pbsdf"));
-    assert_string_equal(f->err.path, "theta_d");
-    assert_string_equal(f->err.text, "is empty: the file does not hold the angles of its "
-                                     "values, which cannot be guessed");
-}
-
-FIXTURE_TEST(the_real_reduced_file_says_why_it_is_not_read)
-{
-    assert_false(fixture_read_file(f, shared_bsdf(f, "mitsuba/spectralon_lowres.pbsdf"),
-                                   "pbsdf"));
-    assert_string_equal(f->err.path, "phi_d");
-    assert_string_equal(f->err.text, "is empty: the file does not hold the angles of its "
-                                     "values, which cannot be guessed");
-}
-
 /* ---- MERL -------------------------------------------------------------------------------- */
 
 /* Red, green, blue from the numbers of the cell. */
@@ -425,7 +368,7 @@ FIXTURE_TEST(a_workbook_is_refused_with_what_to_give_instead)
     assert_false(fixture_read(f, magic, sizeof magic, "spreadsheet"));
     assert_string_equal(f->err.text, "is a workbook of a spreadsheet program — export its "
                                      "tables as CSV; of a scatterometer (RT-300S) give the "
-                                     ".bsdf or FRED text that was made from it");
+                                     ".bsdf that was made from it");
     assert_false(fixture_read_file(
         f, shared_bsdf(f, "loft-rt300s/raw/NiTE_on_invar_v1o0A_20250915.xls"), "spreadsheet"));
 }

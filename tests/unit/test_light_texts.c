@@ -9,7 +9,6 @@
 #include "panel/set/primary_spectra.h"
 #include "sky/weather_clock.h"
 #include "spectrum/curve.h"
-#include "text/xml_text.h"
 
 typedef enum Fault {
     LEFT_OVER, MISSING, NEGATIVE, HUGE_ONE, NOT_A_NUMBER, COMMA, FAULTS
@@ -451,78 +450,6 @@ ARENA_TEST(primaries_hold_light_and_all_that_is_seen)
         assert_true(ok == !cases[i].message);
         if (!ok) assert_error_has(why(), cases[i].message);
     }
-}
-
-/* ---- encodings of XML -------------------------------------------------------------------- */
-
-typedef struct Xml {
-    const char *declared; /* NULL: no declaration */
-    const char *mark, *letter; /* bytes of u umlaut; of UTF-16 NULL */
-    int         order;    /* of UTF-16: 1 little, 2 big; 0: single bytes */
-    const char *message;  /* NULL: it is read */
-} Xml;
-
-static FileBytes xml_bytes(const Xml *xml, Arena *arena)
-{
-    char       *to = ARENA_NEW(arena, char, 512);
-    size_t      size = strlen(xml->mark);
-    const char *head = "";
-    if (xml->declared)
-        head = arena_format(arena, "<?xml version='1.0' encoding='%s'?>", xml->declared);
-    const char *text =
-        arena_format(arena, "%s\n<WindowElement>M\xFCller</WindowElement>", head);
-    memcpy(to, xml->mark, size);
-    for (; *text; text++) {
-        if (xml->order == 2) size++;
-        if (*text == '\xFC' && xml->letter) {
-            memcpy(to + size, xml->letter, strlen(xml->letter));
-            size += strlen(xml->letter);
-        } else {
-            to[size++] = *text;
-        }
-        if (xml->order == 1) size++;
-    }
-    return (FileBytes){(unsigned char *)to, size};
-}
-
-ARENA_TEST(a_declared_encoding_is_read_or_refused_by_name)
-{
-    static const Xml cases[] = {
-        {NULL, "", "\xC3\xBC", 0, NULL}, {"UTF-8", "", "\xC3\xBC", 0, NULL},
-        {"utf-8", "\xEF\xBB\xBF", "\xC3\xBC", 0, NULL}, {"ISO-8859-1", "", NULL, 0, NULL},
-        {"windows-1252", "", NULL, 0, NULL}, {"UTF-16", "\xFF\xFE", NULL, 1, NULL},
-        {"UTF-16", "\xFE\xFF", NULL, 2, NULL}, {"UTF-16LE", "", NULL, 1, NULL},
-        {"utf-16be", "", NULL, 2, NULL}, {NULL, "\xFE\xFF", NULL, 2, NULL},
-        {"utf-16", "", "\xC3\xBC", 0, NULL}, {"UTF-16", "\xEF\xBB\xBF", "\xC3\xBC", 0, NULL},
-        {NULL, "", NULL, 0, "line 2: holds bytes (at byte 17) that are no UTF-8"},
-        {"US-ASCII", "", NULL, 0, "that are no US-ASCII"},
-        {"windows-1252", "", "\x81", 0, "that are no windows-1252"},
-        {"KOI8-R", "", NULL, 0, "line 1: declares the encoding 'KOI8-R', required UTF-8"},
-        {"UTF-8", "\xFF\xFE", NULL, 1, "declares the encoding 'UTF-8', but its bytes begin as "
-                                       "UTF-16LE does"},
-        {"UTF-16BE", "\xFF\xFE", NULL, 1, "'UTF-16BE', but its bytes begin as UTF-16LE does"},
-        {"UTF-16LE", "", NULL, 0, "'UTF-16LE', but its bytes begin as UTF-8 does"},
-        {"ISO-8859-1", "\xEF\xBB\xBF", NULL, 0, "'ISO-8859-1', but its bytes begin as UTF-8"}};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const char *text = NULL;
-        char        line[2048];
-        FileBytes   bytes = xml_bytes(&cases[i], &arena);
-        bool ok = xml_text_read("x.xml", &bytes, &arena, &text, why());
-        error_line(why(), line, sizeof line);
-        if (ok != !cases[i].message) fail_msg("%zu: %s", i, ok ? "is read" : line);
-        if (ok) assert_text_has(text, ">M\xC3\xBCller<");
-        else assert_text_has(line, cases[i].message);
-        assert_true(importer_window.recognises("x.xml", (const char *)bytes.data, bytes.size));
-    }
-    FileBytes euro = bytes_of("<?xml version='1.0' encoding='CP1252'?><a>\x80</a>");
-    FileBytes half = {(const unsigned char *)"\xFF\xFE<\0a\0/", 7};
-    FileBytes lone = {(const unsigned char *)"\xFF\xFE<\0\0\xD8>\0", 8};
-    const char *text;
-    assert_done(xml_text_read("x.xml", &euro, &arena, &text, &err));
-    assert_text_has(text, "\xE2\x82\xAC");
-    assert_false(xml_text_read("x.xml", &half, &arena, &text, why()));
-    assert_false(xml_text_read("x.xml", &lone, &arena, &text, why()));
-    assert_error_has(why(), "(at byte 4) that are no UTF-16LE");
 }
 
 TEST_PROGRAM(make_folder, remove_folder)

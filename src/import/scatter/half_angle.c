@@ -7,6 +7,9 @@
 #include "base/mathd.h"
 #include "base/units.h"
 
+/* Incidences at which a BRDF that is known everywhere is read. */
+#define INCIDENCE_STEP_DEG 10
+#define INCIDENCE_LAST_DEG 80
 #define RING_GAP_DEG 2.5
 #define RING_LEAST 12
 #define RING_MOST 72
@@ -30,22 +33,6 @@ HalfAngles half_angles(Direction light, Direction leaving)
 Direction half_angle_mirror(Direction light, Direction half)
 {
     return direction_scaled_sum(half, 2 * direction_dot(light, half), light, -1);
-}
-
-AngleInterval angle_interval(const double *list, int count, double x, double period)
-{
-    int last = count - 1;
-    if (period > 0 && count > 1 && (x < list[0] || x > list[last])) {
-        double gap = list[0] + period - list[last];
-        double past = x > list[last] ? x - list[last] : x + period - list[last];
-        return (AngleInterval){last, 0, gap > 0 ? fmin(past / gap, 1) : 0};
-    }
-    if (x <= list[0]) return (AngleInterval){0, 0, 0};
-    if (x >= list[last]) return (AngleInterval){last, last, 0};
-    int high = 1;
-    while (list[high] < x) high++;
-    return (AngleInterval){high - 1, high,
-                           (x - list[high - 1]) / (list[high] - list[high - 1])};
 }
 
 /* The source's rings and, between two that are far apart, more. */
@@ -74,7 +61,7 @@ static int ring_points(const double *ring, int count, int i)
     return 4 * (int)ceil(points / 4);
 }
 
-/* The light at azimuth_deg of the panel; rows count phi from its mirror direction. */
+/* The light at its azimuth; rows count phi from its mirror direction. */
 static bool add_light(const BrdfSource *source, ScatterLight at, const double *ring, int count,
                       ImportSet *set, Error *err)
 {
@@ -108,12 +95,8 @@ bool brdf_source_add(const BrdfSource *source, ImportSet *set, Error *err)
 {
     int     count, tables = set->count;
     double *ring = fill_rings(source, set->arena, &count);
-    int     turns = source->is_anisotropic ? 360 / AZIMUTH_STEP_DEG : 1;
     for (int lean = 0; lean <= INCIDENCE_LAST_DEG; lean += INCIDENCE_STEP_DEG)
-        for (int k = 0; k < turns; k++) {
-            ScatterLight at = {lean, 180 + k * AZIMUTH_STEP_DEG};
-            if (!add_light(source, at, ring, count, set, err)) return false;
-        }
+        if (!add_light(source, (ScatterLight){lean, 180}, ring, count, set, err)) return false;
     if (set->count == tables)
         return error_at(err, ERROR_INPUT, source->file, "", "has no value of reflection");
     import_note(set, "%s: is evaluated at incidences 0, %d, ... %d degrees, where half vectors "

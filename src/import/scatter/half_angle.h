@@ -23,15 +23,6 @@ Direction half_angle_mirror(Direction light, Direction half);
 typedef bool (*BrdfFunction)(const void *data, Direction light, Direction leaving,
                              double *value);
 
-/* Where a value stands between two entries of a list. */
-typedef struct AngleInterval {
-    int    low, high;
-    double weight; /* of high */
-} AngleInterval;
-
-/* Finds x in a rising list; the ends hold, unless the list repeats after `period` (0: not). */
-AngleInterval angle_interval(const double *list, int count, double x, double period);
-
 typedef struct BrdfSource {
     const char   *file;
     BrdfFunction  function;
@@ -40,11 +31,9 @@ typedef struct BrdfSource {
     const float  *wavelength_nm;
     const double *half_theta_deg; /* rising: rings of half vectors on which it is evaluated */
     int           rings;
-    bool          is_anisotropic;
 } BrdfSource;
 
-/* Tables at incidences 0, 10, ... 80 degrees (and azimuths of the light every 30 degrees, when
- * anisotropic). The rows stand where half vectors on the rings mirror the light to, so that a
- * narrow peak has the rings' resolution; rings stand at most 2.5 degrees apart, and each has 12
- * to 72 half vectors. */
+/* Tables at incidences 0, 10, ... 80 degrees. The rows stand where half vectors on the rings
+ * mirror the light to, so that a narrow peak has the rings' resolution; rings stand at most 2.5
+ * degrees apart, and each has 12 to 72 half vectors. */
 bool brdf_source_add(const BrdfSource *source, ImportSet *set, Error *err);

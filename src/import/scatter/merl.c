@@ -90,7 +90,7 @@ static bool read_merl(const char *file, const ImportOptions *options, ImportSet 
         ring[i] = 90 * part * part;
     }
     BrdfSource source = {file, evaluate, &in, RGB_BANDS, scatter_rgb_bands(file, set), ring,
-                         in.half_thetas, false};
+                         in.half_thetas};
     return brdf_source_add(&source, set, err);
 }
 

@@ -153,14 +153,6 @@ int scan_choice(WordScan *scan, const char *what, const char *const *list, const
     return found;
 }
 
-bool scan_spectral_content(WordScan *scan, bool *is_xyz, Error *err)
-{
-    static const char *const names[] = {"Monochrome", "XYZ", NULL};
-    int found = scan_choice(scan, "SpectralContent", names, "Monochrome or XYZ", err);
-    *is_xyz = found == 1;
-    return found >= 0;
-}
-
 int scan_lines_left(const WordScan *scan)
 {
     int lines = 1;

@@ -56,9 +56,6 @@ bool scan_counted_list(WordScan *scan, const char *what, int most, int *count, d
 int scan_choice(WordScan *scan, const char *what, const char *const *list, const char *wanted,
                 Error *err);
 
-/* The word behind a "SpectralContent" keyword of .bsdf texts: Monochrome or XYZ. */
-bool scan_spectral_content(WordScan *scan, bool *is_xyz, Error *err);
-
 /* The lines from here to the end, one that has no end as well; no more than rows of a table. */
 int scan_lines_left(const WordScan *scan);
 

@@ -50,12 +50,6 @@ typedef struct ScatterLight {
 bool scatter_add(ImportSet *set, const char *file, const ImportRows *rows,
                  ScatterLight light, const float *wavelength_nm, Error *err);
 
-/* Incidences and azimuths at which a BRDF that is known everywhere is read: 0, 10, ... 80 and,
- * when it is anisotropic, every 30 degrees. */
-#define INCIDENCE_STEP_DEG 10
-#define INCIDENCE_LAST_DEG 80
-#define AZIMUTH_STEP_DEG 30
-
 /* ---- wavelengths ------------------------------------------------------------------------- */
 
 /* One band. */

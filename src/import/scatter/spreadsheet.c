@@ -28,8 +28,8 @@ static bool refuse_spreadsheet(const char *file, const ImportOptions *options, I
     (void)options;
     (void)set;
     return error_at(err, ERROR_INPUT, file, "", "is a workbook of a spreadsheet program — "
-                    "export its tables as CSV; of a scatterometer (RT-300S) give the .bsdf or "
-                    "FRED text that was made from it");
+                    "export its tables as CSV; of a scatterometer (RT-300S) give the .bsdf "
+                    "that was made from it");
 }
 
 const Importer importer_spreadsheet = {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* tensor_file.h -- named arrays of numbers in one file ("tensor_file" 1.0), the container of
- * the RGL material database and of the KAIST polarimetric one.
+ * the RGL material database.
  *
  * Memory   fields point into the file's bytes, which are the arena's. Threads: const once open.
  * Fails    with the file and the byte; counts are checked against the file's size.

@@ -42,6 +42,14 @@ static bool read_symmetry(Zemax *in, Error *err)
     return found >= 0;
 }
 
+static bool read_content(Zemax *in, Error *err)
+{
+    static const char *const names[] = {"Monochrome", "XYZ", NULL};
+    int found = scan_choice(&in->scan, "SpectralContent", names, "Monochrome or XYZ", err);
+    in->is_xyz = found == 1;
+    return in->has_content = found >= 0;
+}
+
 static bool read_type(Zemax *in, Error *err)
 {
     const char *word = scan_word(&in->scan);
@@ -68,8 +76,7 @@ static bool read_entry(Zemax *in, bool *done, Error *err)
     if (scan_accept(scan, "Source"))
         return scan_word(scan) || scan_fail(scan, err, "the file ends after Source");
     if (scan_accept(scan, "Symmetry")) return read_symmetry(in, err);
-    if (scan_accept(scan, "SpectralContent"))
-        return in->has_content = scan_spectral_content(scan, &in->is_xyz, err);
+    if (scan_accept(scan, "SpectralContent")) return read_content(in, err);
     if (scan_accept(scan, "ScatterType")) return read_type(in, err);
     for (int i = 0; i < COUNT_OF(lists); i++)
         if (scan_accept(scan, lists[i].name))

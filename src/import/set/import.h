@@ -124,7 +124,7 @@ typedef struct ImportOptions {
 
 /* One importer: `recognises` looks at the first bytes and the name, `read` adds the tables. */
 typedef struct Importer {
-    const char *name;    /* for --format: "zemax", "mountain", "klems", ... */
+    const char *name;    /* for --format: "zemax", "astm", ... */
     const char *summary; /* one line for --help */
     bool (*recognises)(const char *file, const char *head, size_t head_size);
     bool (*read)(const char *file, const ImportOptions *options, ImportSet *set, Error *err);
