@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* name_hint.h -- of a file that is not there, the one that may be meant.
  *
- * Some systems take "Dash.PNG" for "dash.png", and write "é" as one letter or as two (Unicode's
- * normal forms NFC and NFD); the escapes of URIs ("%20") end up in names. A file that is named
- * so on one of them is not found on another.
+ * Some systems take "Dash.PNG" for "dash.png" (letters of ASCII are compared here); the escapes
+ * of URIs ("%20") end up in names. A file that is named so on one of them is not found on
+ * another.
  *
  * Memory   the text lies in the arena. Threads: no shared state. Fails: never.
  */

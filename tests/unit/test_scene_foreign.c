@@ -393,11 +393,7 @@ static const struct {
     const char *uri, *name, *text;
 } NAMES[] = {
     {"dash.png", "Dash.PNG", "\"Dash.PNG\" is there: its letter case differs"},
-    {"caf%C3%A9.png", "cafe\xCC\x81.png",
-     "\"cafe\xCC\x81.png\" is there: its letters are decomposed Unicode (NFD)"},
-    {"cafe%CC%81.png", "caf\xC3\xA9.png", "is there: its letters are composed Unicode (NFC)"},
-    {"CAF\xC3\x89.png", "cafe\xCC\x81.png", "letter case differs, its letters are decomposed"},
-    {"stra\xC3\x9F" "e.png", "STRASSE.png", "its letter case differs"},
+    {"caf%C3%A9.png", "CAF\xC3\xA9.PNG", "is there: its letter case differs"},
     {"my%20dash.png", "my%20dash.png", "\"my%20dash.png\" is there: only its percent escapes"},
     {"my%2520dash.png", "my dash.png", "\"my dash.png\" is there: only its percent escapes"},
     {"SUB/dash.png", "sub/dash.png", "\"sub/dash.png\" is there: its letter case differs"},
