@@ -245,6 +245,8 @@ static void print_report(const Scene *scene, const Problems *problems, Arena *ar
     if (scene->extension_count) print("extensions  ");
     for (int i = 0; i < scene->extension_count; i++) print(" %s", scene->extensions[i]);
     if (scene->extension_count) print("\n");
+    print("conformance  see the Khronos glTF Validator: what is wrong here is what a picture "
+          "depends on\n");
     print_problems(problems);
     print("%s: %d errors, %d warnings\n", problems->error_count ? "NOT OK" : "ok",
           problems->error_count, problems->count - problems->error_count);

@@ -53,7 +53,7 @@ VALID = [
     ("whole numbers with a point", "", put("accessors/0/count", 4.0)),
     ("names that are empty or the same", "", put("nodes/2/name", ""),
      put("nodes/3/name", "root")),
-    ("a quaternion of eight bits", "length is", put("nodes/8/rotation", [
+    ("a quaternion of eight bits", "", put("nodes/8/rotation", [
         0, 0.70866, 0, 0.70866])),
     ("a mirroring matrix", "", put("nodes/5/matrix/0", -2)),
     ("extreme colours", "", poke(COLOR, 0, "f", 0, 0, 0, 0), drop(MATERIAL + "doubleSided")),

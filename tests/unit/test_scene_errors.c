@@ -88,10 +88,6 @@ static const FaultCase FAULTS[] = {
      "/accessors/0", "elements of 12 bytes in a buffer view whose byteStride is 8"},
     {VIEWS "'accessors':[" FLOATS(2, 3, "VEC3") "]",
      "/accessors/0", "element 1 has the component nan"},
-    {VIEWS "'accessors':[{'componentType':5126,'count':3,'type':'SCALAR','sparse':{'count':2,"
-           "'indices':{'bufferView':1,'componentType':5123},'values':{'bufferView':0}}}],"
-           "'meshes':[]",
-     "/meshes", "is empty"},
     {VIEWS "'accessors':[{'componentType':5126,'count':2,'type':'SCALAR','sparse':{'count':3,"
            "'indices':{'bufferView':1,'componentType':5123},'values':{'bufferView':0}}}]",
      "/accessors/0/sparse/count", "is 3, the accessor has 2 elements"},

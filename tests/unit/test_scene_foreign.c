@@ -151,8 +151,6 @@ TEST_WITH(component_types_are_named, maker_reset, NULL)
         {ONE_VIEW "'accessors':[" OF(5124, 2, "SCALAR") "]", "/accessors/0/componentType",
          "is INT (5124), one of BYTE (5120)|UNSIGNED_BYTE (5121)|SHORT (5122)|UNSIGNED_SHORT "
          "(5123)|UNSIGNED_INT (5125)|FLOAT (5126) is required"},
-        {ONE_VIEW "'accessors':[{'bufferView':0,'componentType':5121,'count':2,'type':'SCALAR',"
-         "'max':[300]}]", "/accessors/0/max/0", "which component type UNSIGNED_BYTE (5121)"},
         {ONE_VIEW "'accessors':[" FLOATS(0, 3, "VEC3") "," OF(5122, 3, "SCALAR") "],"
          "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':1}]}]," ONE_NODE,
          "/meshes/0/primitives/0/indices", "SCALAR of component type SHORT (5122), SCALAR of "
@@ -287,86 +285,6 @@ TEST_WITH(the_simulator_s_normal_maps_lean_its_way, maker_reset, NULL)
         assert_near(m->normal_scale.y, 0.5f * CASES[i].side, 0);
         assert_near(m->clearcoat_normal_scale.x, 1, 0);
         assert_near(m->clearcoat_normal_scale.y, CASES[i].side, 0);
-    }
-}
-
-/* ---- Blender's --------------------------------------------------------------------------- */
-
-static Found survey_made_by(const char *generator, const char *members)
-{
-    char *text = maker_text("", 0, members);
-    text = maker_format("{\"asset\":{\"version\":\"2.0\",\"generator\":\"%s\"}%s", generator,
-                        strchr(text, '}') + 1);
-    return maker_survey_file(maker_file(text, strlen(text), ".gltf"));
-}
-
-#define LAMP                                                                                   \
-    "'extensions':{'KHR_lights_punctual':{'lights':[{'type':'point','intensity':54.35}]}},"    \
-    "'extensionsUsed':['KHR_lights_punctual','KHR_materials_emissive_strength',"               \
-    "'KHR_materials_sheen','KHR_materials_ior','PARHELION_display'],"
-#define GLOW(more)                                                                             \
-    "'materials':[{},{'name':'sign','emissiveFactor':[0.5,1,0],'extensions':{"                 \
-    "'KHR_materials_emissive_strength':{'emissiveStrength':5}" more "}}]"
-
-TEST_WITH(blender_s_glow_beside_its_lamps_is_warned_of, maker_reset, NULL)
-{
-    static const char BLENDER[] = "Khronos glTF Blender I/O v4.2.60";
-    Found found = survey_made_by(BLENDER, LAMP GLOW(""));
-    assert_int_equal(found.problems.count, 1);
-    assert_non_null(maker_find(&found, "/materials/1", "\"sign\" glows with 5 cd/m2"));
-    assert_non_null(maker_find(&found, "/materials/1", "683 lm/W"));
-    assert_non_null(maker_find(&found, "/materials/1", "3415 cd/m2"));
-    assert_int_equal(survey_made_by(BLENDER, GLOW("")).problems.count, 1); /* unlisted */
-    assert_null(maker_find(&(Found){.problems = survey_made_by(BLENDER, GLOW("")).problems},
-                           "/materials/1", "683"));
-    found = survey_made_by(BLENDER, LAMP GLOW(",'PARHELION_display':{'panel':'no.panel'}"));
-    assert_null(maker_find(&found, "/materials/1", "683"));
-    found = survey_made_by("somebody else's program", LAMP GLOW(""));
-    assert_int_equal(found.problems.count, 0);
-    found = survey_made_by(BLENDER, LAMP "'materials':[{}]");
-    assert_int_equal(found.problems.count, 0);
-}
-
-TEST_WITH(blender_s_empty_area_lamps_are_warned_of, maker_reset, NULL)
-{
-    static const struct {
-        const char *node;
-        bool is_told;
-    } CASES[] = {{"'name':'Area'", true},
-                 {"'name':'Area.012','translation':[1,2,3]", true},
-                 {"'name':'ceiling','extras':{'lamp':'AREA'}", true},
-                 {"'name':'Area 51'", false},
-                 {"'name':'Areal'", false},
-                 {"'name':'Empty','extras':{'lamp':'POINT'}", false},
-                 {"'name':'Area','extensions':{'KHR_node_visibility':{}}", false}};
-    for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
-        const char *nodes = maker_format("'nodes':[{%s}]", CASES[i].node);
-        Found found = survey_made_by("Khronos glTF Blender I/O v4.2.60", nodes);
-        assert_int_equal(maker_find(&found, "/nodes/0", "leaves area lamps") != NULL,
-                         CASES[i].is_told);
-        found = survey_made_by("another one", nodes);
-        assert_null(maker_find(&found, "/nodes/0", "leaves area lamps"));
-    }
-}
-
-TEST_WITH(what_blender_3_loses_is_warned_of, maker_reset, NULL)
-{
-    static const struct {
-        const char *version, *used, *text;
-    } CASES[] = {
-        {"3.4.50", "", "the exporter of Blender 3.4 leaves out the sheen and the IOR"},
-        {"3.6.28", "'extensionsUsed':['KHR_materials_ior'],",
-         "the exporter of Blender 3.6 leaves out the sheen of"},
-        {"3.4.50", "'extensionsUsed':['KHR_materials_sheen'],", "3.4 leaves out the IOR of"},
-        {"4.2.60", "", NULL},
-        {"1.0.5", "", NULL}};
-    for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
-        Found found = survey_made_by(
-            maker_format("Khronos glTF Blender I/O v%s", CASES[i].version),
-            maker_format("%s'materials':[{}]", CASES[i].used));
-        assert_int_equal(found.problems.count, CASES[i].text != NULL);
-        if (CASES[i].text)
-            assert_non_null(maker_find(&found, "/asset/generator", CASES[i].text));
     }
 }
 

@@ -28,21 +28,10 @@ static const GltfValue *accessor_of(const GltfValue *sampler, const char *name)
     return tree_referred(tree_member(sampler, name), "accessors");
 }
 
-static bool has_stride(const GltfValue *accessor)
-{
-    const GltfValue *view = tree_referred(tree_member(accessor, "bufferView"), "bufferViews");
-    return tree_member(view, "byteStride") != NULL;
-}
-
 static void check_sampler(const DocumentCheck *check, const GltfValue *sampler)
 {
     const GltfValue *input = accessor_of(sampler, "input");
-    const GltfValue *output = accessor_of(sampler, "output");
     bool is_cubic = strcmp(tree_text(sampler, "interpolation", "LINEAR"), "CUBICSPLINE") == 0;
-    if (has_stride(input) || has_stride(output))
-        check_warns(check, sampler, "the buffer view of an animation has a byteStride");
-    if (input && (!tree_member(input, "min") || !tree_member(input, "max")))
-        check_warns(check, sampler, "the accessor of the times has no min and max");
     if (input && (strcmp(tree_text(input, "type", ""), "SCALAR") != 0 ||
                   tree_int(input, "componentType", 0) != FLOAT_CODE))
         check_fails(check, sampler,

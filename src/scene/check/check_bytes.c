@@ -8,19 +8,6 @@
 
 /* Numbers here are below 2^53 each, by the tables, so that sums of doubles are exact. */
 
-static void check_stride(const DocumentCheck *check, const GltfValue *view, double stride,
-                         double length)
-{
-    const GltfValue *at = tree_member(view, "byteStride");
-    if (!at) return;
-    if (fmod(stride, 4) != 0)
-        check_fails(check, at, "is %g, a multiple of 4 is required", stride);
-    if (stride > length)
-        check_warns(check, at, "is %g, the whole buffer view has %g bytes", stride, length);
-    if (tree_int(view, "target", 0) == 34963)
-        check_warns(check, at, "only vertices may have a stride, the target says indices");
-}
-
 void check_place_in_buffer(const DocumentCheck *check, const GltfValue *view)
 {
     const GltfValue *buffer = tree_referred(tree_member(view, "buffer"), "buffers");
@@ -41,8 +28,10 @@ void check_buffer_view(const DocumentCheck *check, const GltfValue *view)
     if (buffer && !tree_member(buffer, "uri") && !has_chunk && !check->file->is_binary &&
         !is_packed)
         check_warns(check, view, "its buffer has no \"uri\", so there are no bytes to read");
-    check_stride(check, view, tree_number(view, "byteStride", 4),
-                 tree_number(view, "byteLength", 0));
+    double stride = tree_number(view, "byteStride", 4);
+    if (fmod(stride, 4) != 0)
+        check_fails(check, tree_member(view, "byteStride"),
+                    "is %g, a multiple of 4 is required", stride);
 }
 
 static int components_of(const char *type)
@@ -89,10 +78,6 @@ static void check_run(const DocumentCheck *check, const ByteRun *run)
                     "starts at byte %.0f of the buffer, a multiple of %.0f is "
                     "required",
                     start, run->align);
-    else if (fmod(run->offset, run->align) != 0)
-        check_warns(check, run->at,
-                    "starts at byte %.0f of the buffer view, a multiple of %.0f is required",
-                    run->offset, run->align);
 }
 
 /* run: count, extent, stride and align are set. */
@@ -100,10 +85,6 @@ static void check_sparse_part(const DocumentCheck *check, const GltfValue *part,
 {
     const GltfValue *view = tree_referred(tree_member(part, "bufferView"), "bufferViews");
     if (!view || !run.stride) return;
-    if (tree_member(view, "byteStride"))
-        check_warns(check, tree_member(part, "bufferView"),
-                    "the buffer view of sparse data has a "
-                    "byteStride, which is not used");
     run.at = part;
     run.view = view;
     run.offset = tree_number(part, "byteOffset", 0);
@@ -124,35 +105,6 @@ static void check_sparse(const DocumentCheck *check, const GltfValue *accessor, 
     check_sparse_part(check, tree_member(sparse, "values"), run);
     run.extent = run.stride = run.align = index_size;
     check_sparse_part(check, indices, run);
-}
-
-/* Whether a component of the type can have this value. */
-static bool can_hold(int component, double value)
-{
-    static const double LOW[] = {-128, 0, -32768, 0, -2147483648.0, 0};
-    static const double HIGH[] = {127, 255, 32767, 65535, 2147483647.0, 4294967295.0};
-    if (component == 5126) return fabs(value) <= 3.4028235677973366e38;
-    if (component < 5120 || component > 5125) return true;
-    return value == floor(value) && value >= LOW[component - 5120] &&
-           value <= HIGH[component - 5120];
-}
-
-static void check_bounds(const DocumentCheck *check, const GltfValue *accessor)
-{
-    int wanted = components_of(tree_text(accessor, "type", ""));
-    int component = tree_int(accessor, "componentType", 0);
-    for (int side = 0; side < 2; side++) {
-        const GltfValue *bounds = tree_member(accessor, side ? "max" : "min");
-        if (!bounds || bounds->kind != GLTF_ARRAY) continue;
-        if (wanted && bounds->count != wanted)
-            check_warns(check, bounds, "has %d numbers, %d are "
-                                       "required", bounds->count, wanted);
-        for (int i = 0; i < bounds->count; i++)
-            if (!can_hold(component, bounds->items[i].number))
-                check_warns(check, &bounds->items[i],
-                            "is %.9g, which component type %s cannot be",
-                            bounds->items[i].number, component_name(component));
-    }
 }
 
 /* Then accessors without a view may hold what is unpacked: gltf/packed_mesh.c checks. */
@@ -185,17 +137,9 @@ static void check_in_view(const DocumentCheck *check, const GltfValue *accessor,
 
 void check_accessor(const DocumentCheck *check, const GltfValue *accessor)
 {
-    int component = tree_int(accessor, "componentType", 0);
-    ByteRun run = {.align = (double)component_size(component)};
-    check_bounds(check, accessor);
+    ByteRun run = {
+        .align = (double)component_size(tree_int(accessor, "componentType", 0))};
     if (!element_size(accessor, &run.stride, &run.extent)) return; /* reported by the table */
-    if (tree_boolean(accessor, "normalized", false) && component >= 5125)
-        check_warns(check, tree_member(accessor, "normalized"),
-                    "only bytes and shorts can be "
-                    "normalised: it is not used");
-    if (strncmp(tree_text(accessor, "type", ""), "MAT", 3) == 0 &&
-        fmod(tree_number(accessor, "byteOffset", 0), 4) != 0) /* glTF 2.0, 3.6.2.4 */
-        check_warns(check, accessor, "columns of matrices start at multiples of 4 bytes");
     check_in_view(check, accessor, run);
     check_sparse(check, accessor, run);
 }

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "scene/check/check_vertices.h"
 #include "scene/gltf/accessor.h"
 #include "scene/gltf/animation_target.h"
 #include "scene/gltf/document.h"
@@ -12,7 +11,7 @@
 /* ---- numbers --------------------------------------------------------------------------- */
 
 /* Reports the first number that is not finite. */
-static bool check_finite(GltfFile *file, const GltfValue *value, const GltfAccessor *accessor,
+static void check_finite(GltfFile *file, const GltfValue *value, const GltfAccessor *accessor,
                          const float *numbers)
 {
     size_t total = accessor->count * (size_t)accessor->component_count;
@@ -20,34 +19,7 @@ static bool check_finite(GltfFile *file, const GltfValue *value, const GltfAcces
         if (isfinite(numbers[i])) continue;
         file_error(file, value, "element %zu has the component %g; finite numbers are required",
                    i / (size_t)accessor->component_count, (double)numbers[i]);
-        return false;
-    }
-    return true;
-}
-
-/* Six digits of a decimal number hold as much of a float. */
-#define BOUNDS_ALLOWED 1e-6f
-
-/* Bounds that are off show that a file was edited by hand; nothing here depends on them. */
-static void check_bounds(GltfFile *file, const GltfValue *value, const GltfAccessor *accessor,
-                         const float *numbers)
-{
-    int n = accessor->component_count;
-    for (int side = 0; side < 2; side++) {
-        float declared[16];
-        if (!tree_floats(value, side ? "max" : "min", n, declared)) continue;
-        for (int c = 0; c < n; c++) {
-            float extreme = numbers[c];
-            for (size_t i = 1; i < accessor->count; i++) {
-                float number = numbers[i * (size_t)n + (size_t)c];
-                if (side ? number > extreme : number < extreme) extreme = number;
-            }
-            if (fabsf(extreme - declared[c]) <= BOUNDS_ALLOWED * fabsf(extreme)) continue;
-            file_warning(file, &tree_member(value, side ? "max" : "min")->items[c],
-                         "is %g, the %s value there is %g", (double)declared[c],
-                         side ? "greatest" : "smallest", (double)extreme);
-            return;
-        }
+        return;
     }
 }
 
@@ -73,13 +45,6 @@ static void check_sparse_order(GltfFile *file, const GltfValue *value,
     }
 }
 
-/* Integers are finite: what is left is their bounds, where they are stated. */
-static bool has_nothing_to_check(const GltfValue *value, const GltfAccessor *accessor)
-{
-    return !accessor_is_float(accessor) && !tree_member(value, "min") &&
-           !tree_member(value, "max");
-}
-
 static void check_one(GltfFile *file, int id)
 {
     const GltfValue *value = tree_element(file->root, "accessors", id);
@@ -87,10 +52,8 @@ static void check_one(GltfFile *file, int id)
     if (!accessor->component_count) return; /* of a type that an extension adds */
     if (!accessor->sparse_count && accessor->buffer_view < 0) return; /* zeros */
     if (accessor->sparse_count) check_sparse_order(file, value, accessor);
-    if (has_nothing_to_check(value, accessor)) return;
-    const float *numbers = accessor_raw_floats(file, id);
-    if (check_finite(file, value, accessor, numbers))
-        check_bounds(file, value, accessor, numbers);
+    if (accessor_is_float(accessor))
+        check_finite(file, value, accessor, accessor_raw_floats(file, id));
 }
 
 /* ---- indices --------------------------------------------------------------------------- */
@@ -106,21 +69,12 @@ static void check_vertex_indices(GltfFile *file, const GltfValue *primitive)
     const GltfAccessor *position = accessor_get(file, attribute(primitive, "POSITION"));
     if (!indices || !position) return;
     const uint32_t *list = accessor_integers(file, tree_int(primitive, "indices", NO_ID));
-    size_t wrong = 0, first = 0, restart = 0;
-    uint32_t greatest =
-        (uint32_t)(0xFFFFFFFFu >> (32 - 8 * component_size(indices->component_type)));
+    size_t wrong = 0, first = 0;
     for (size_t i = indices->count; i-- > 0;)
         if (list[i] >= position->count) {
             wrong++;
             first = i;
-        } else if (list[i] == greatest) {
-            restart++;
         }
-    if (restart)
-        file_warning(file, tree_member(primitive, "indices"),
-                     "the greatest index of its type, %u, "
-                     "stands there %zu times: glTF reserves it",
-                     greatest, restart);
     if (wrong)
         file_error(file, tree_member(primitive, "indices"),
                    "index %zu is %u, the primitive has "
@@ -175,23 +129,7 @@ static void check_skinned_nodes(GltfFile *file)
     }
 }
 
-/* ---- matrices and quaternions ---------------------------------------------------------- */
-
-static void check_bind_matrices(GltfFile *file, const GltfValue *skin)
-{
-    int id = tree_int(skin, "inverseBindMatrices", NO_ID);
-    const GltfAccessor *accessor = accessor_get(file, id);
-    if (!accessor || accessor->component_count != 16) return;
-    const float *m = accessor_floats(file, id);
-    for (size_t i = 0; i < accessor->count; i++, m += 16)
-        if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
-            file_warning(file, tree_member(skin, "inverseBindMatrices"),
-                         "the last row of matrix "
-                         "%zu is (%g, %g, %g, %g), which is not used",
-                         i, (double)m[3], (double)m[7], (double)m[11], (double)m[15]);
-            return;
-        }
-}
+/* ---- quaternions and times ---------------------------------------------------------- */
 
 /* Rounded to signed bytes it is off by at most sqrt(4) * 0.5/127. */
 static bool is_unit(const float q[4])
@@ -226,7 +164,7 @@ static void check_turns(GltfFile *file, const GltfValue *animation, const GltfVa
         }
 }
 
-/* Key frames follow one another from time 0 on. */
+/* Key frames follow one another. */
 static void check_times(GltfFile *file, const GltfValue *sampler)
 {
     int id = tree_int(sampler, "input", NO_ID);
@@ -234,9 +172,6 @@ static void check_times(GltfFile *file, const GltfValue *sampler)
     if (!accessor || accessor->component_count != 1) return;
     const float *times = accessor_floats(file, id);
     for (size_t i = 0; i < accessor->count; i++) {
-        if (i == 0 && times[0] < 0)
-            file_warning(file, sampler, "time 0 is %g, at least 0 is "
-                                        "required", (double)times[0]);
         if (i == 0 || times[i] > times[i - 1]) continue;
         file_problem(file, if_played(file), sampler,
                      "time %zu is %g after %g; times that rise are required", i,
@@ -278,13 +213,10 @@ static void check_instances(GltfFile *file, const GltfValue *node)
         }
 }
 
-static void check_matrices(GltfFile *file)
+static void check_turns_and_times(GltfFile *file)
 {
     const GltfValue *root = file->root;
     Arena saved = file->load->scratch;
-    for (const GltfValue *skin = tree_items(root, "skins"); skin; skin = tree_next(skin))
-        check_bind_matrices(file, skin);
-    file->load->scratch = saved;
     for (const GltfValue *a = tree_items(root, "animations"); a; a = tree_next(a))
         check_animation_data(file, a);
     for (const GltfValue *node = tree_items(root, "nodes"); node; node = tree_next(node)) {
@@ -311,10 +243,9 @@ static void check_accessors(GltfFile *file)
 void check_data(GltfFile *file)
 {
     check_accessors(file);
-    load_progress_begin(file->load, "check", "meshes", 2 * tree_count(file->root, "meshes"));
+    load_progress_begin(file->load, "check", "meshes", tree_count(file->root, "meshes"));
     check_primitives(file);
-    check_vertices(file);
     load_progress_end(file->load);
     check_skinned_nodes(file);
-    check_matrices(file);
+    check_turns_and_times(file);
 }

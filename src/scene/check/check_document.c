@@ -48,30 +48,6 @@ void check_asset(const DocumentCheck *check, const GltfValue *asset)
                     minimum->text);
 }
 
-/* A pointer names an object that exists; of its members those that are left out exist too. */
-static void check_pointer(const DocumentCheck *check, const GltfValue *pointer)
-{
-    const GltfValue *at = check->file->root;
-    const char *rest = pointer->text;
-    if (rest[0] != '/') {
-        check_warns(check, pointer,
-                    "is \"%.80s\", a JSON pointer like \"/nodes/0/scale\" is required", rest);
-        return;
-    }
-    while (at && rest[0] == '/') {
-        char name[80];
-        size_t length = strcspn(rest + 1, "/");
-        snprintf(name, sizeof name, "%.*s", (int)(length < 79 ? length : 79), rest + 1);
-        const GltfValue *next =
-            at->kind == GLTF_ARRAY ? tree_item(at, atoi(name)) : tree_member(at, name);
-        if (!next && (at->kind == GLTF_ARRAY || at == check->file->root))
-            check_warns(check, pointer, "is \"%.80s\", but \"%.79s\" is not there",
-                        pointer->text, name);
-        at = next;
-        rest += length + 1;
-    }
-}
-
 /* Only the first of two variants with one name can be selected. */
 void check_variant_names(const DocumentCheck *check, const GltfValue *extension)
 {
@@ -109,40 +85,15 @@ void check_variants(const DocumentCheck *check, const GltfValue *extension)
     }
 }
 
-void check_animation_pointer(const DocumentCheck *check, const GltfValue *extension)
-{
-    const GltfValue *target = extension->parent ? extension->parent->parent : NULL;
-    const GltfValue *path = tree_member(target, "path");
-    const GltfValue *pointer = tree_member(extension, "pointer");
-    if (tree_member(target, "node"))
-        check_warns(check, extension, "a target with a pointer has a node as well");
-    if (path && strcmp(path->text, "pointer") != 0)
-        check_warns(check, path, "is \"%.40s\" beside a pointer, \"pointer\" is required",
-                    path->text);
-    if (pointer && pointer->kind == GLTF_STRING) check_pointer(check, pointer);
-}
-
 /* ---- pictures and light profiles ------------------------------------------------------- */
 
-static void check_source(const DocumentCheck *check, const GltfValue *object, const char *what)
+void check_source(const DocumentCheck *check, const GltfValue *object)
 {
     const GltfValue *uri = tree_member(object, "uri");
     const GltfValue *view = tree_member(object, "bufferView");
     if ((uri != NULL) == (view != NULL))
         check_fails(check, object, "has %s; either \"uri\" or \"bufferView\" is required",
                     uri ? "both" : "neither");
-    if (tree_member(tree_referred(view, "bufferViews"), "byteStride"))
-        check_warns(check, view, "the buffer view of %s has a byteStride", what);
-}
-
-void check_image(const DocumentCheck *check, const GltfValue *image)
-{
-    check_source(check, image, "a picture");
-}
-
-void check_profile(const DocumentCheck *check, const GltfValue *profile)
-{
-    check_source(check, profile, "a light profile");
 }
 
 /* ---- cameras and lights ---------------------------------------------------------------- */

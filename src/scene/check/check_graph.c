@@ -5,11 +5,8 @@
 
 #include "scene/gltf/accessor.h"
 
-/* A unit quaternion rounded to signed bytes is off by at most sqrt(4) * 0.5/127 in length;
- * decimals of four digits by 1e-4. */
-#define BYTE_ROUNDING 0.00788f
-#define QUATERNION_ALLOWED 2e-4f
-#define SKEW_ALLOWED 1e-4 /* cosine: matrices are written with few digits */
+/* A unit quaternion rounded to signed bytes is off by at most sqrt(4) * 0.5/127 in length. */
+#define QUATERNION_ALLOWED 0.00788f
 
 static const GltfValue *first_primitive(const GltfValue *mesh)
 {
@@ -17,23 +14,6 @@ static const GltfValue *first_primitive(const GltfValue *mesh)
 }
 
 /* ---- nodes ----------------------------------------------------------------------------- */
-
-/* Columns at right angles: a move, a turn and a scale, also a mirroring one. What is skewed is
- * shown as it stands. */
-static bool is_skewed(const float m[16])
-{
-    for (int a = 0; a < 3; a++) {
-        const float *p = m + 4 * a, *q = m + 4 * ((a + 1) % 3);
-        double pp = 0, qq = 0, pq = 0;
-        for (int i = 0; i < 3; i++) {
-            pp += (double)p[i] * (double)p[i];
-            qq += (double)q[i] * (double)q[i];
-            pq += (double)p[i] * (double)q[i];
-        }
-        if (!(fabs(pq) <= SKEW_ALLOWED * sqrt(pp * qq))) return true;
-    }
-    return false;
-}
 
 static void check_matrix(const DocumentCheck *check, const GltfValue *node)
 {
@@ -50,9 +30,6 @@ static void check_matrix(const DocumentCheck *check, const GltfValue *node)
                     "(0, 0, 0, 1) is required",
                     (double)matrix[3], (double)matrix[7], (double)matrix[11],
                     (double)matrix[15]);
-    if (is_skewed(matrix))
-        check_warns(check, tree_member(node, "matrix"),
-                    "is skewed; a translation, a rotation and a scale are required");
 }
 
 static void check_rotation(const DocumentCheck *check, const GltfValue *node)
@@ -60,11 +37,8 @@ static void check_rotation(const DocumentCheck *check, const GltfValue *node)
     float q[4];
     if (!tree_floats(node, "rotation", 4, q)) return;
     float length = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    float off = fabsf(length - 1);
-    DocumentCheck milder = *check;
-    if (off <= BYTE_ROUNDING) milder.severity = SEVERITY_WARNING;
-    if (!(off <= QUATERNION_ALLOWED))
-        check_fails(&milder, tree_member(node, "rotation"),
+    if (!(fabsf(length - 1) <= QUATERNION_ALLOWED))
+        check_fails(check, tree_member(node, "rotation"),
                     "the quaternion's length is %g, 1 is "
                     "required",
                     (double)length);
@@ -180,9 +154,6 @@ void check_skin(const DocumentCheck *check, const GltfValue *skin)
     if (tree_number(accessor, "count", 0) < joints)
         check_fails(check, value, "has %g matrices for %d joints",
                     tree_number(accessor, "count", 0), joints);
-    const GltfValue *view = tree_referred(tree_member(accessor, "bufferView"), "bufferViews");
-    if (tree_member(view, "byteStride"))
-        check_warns(check, value, "the buffer view of inverse bind matrices has a byteStride");
 }
 
 /* ---- the tree of nodes: one parent at most, and no way back ---------------------------- */
@@ -237,87 +208,13 @@ static void check_roots(const DocumentCheck *check, const GltfValue *root, const
         }
 }
 
-static int root_of(const int *parent, int node, int count)
-{
-    for (int step = 0; step < count && parent[node] != NO_ID; step++) node = parent[node];
-    return node;
-}
-
-/* A skin's joints belong into the scene that shows it; elsewhere they stand all the same. */
-static void check_joints(const DocumentCheck *check, const GltfValue *root, const int *parent)
-{
-    const GltfValue *nodes = tree_member(root, "nodes"), *scenes = tree_member(root, "scenes");
-    for (int i = 0; scenes && i < nodes->count; i++) {
-        const GltfValue *skin = tree_referred(tree_member(&nodes->items[i], "skin"), "skins");
-        int joint = index_of(tree_item(tree_member(skin, "joints"), 0), nodes->count);
-        if (joint == NO_ID) continue;
-        int own = root_of(parent, i, nodes->count), far = root_of(parent, joint, nodes->count);
-        bool is_shown = false, is_complete = false;
-        for (const GltfValue *s = tree_items(root, "scenes"); s; s = tree_next(s)) {
-            bool has_own = false, has_far = false;
-            for (const GltfValue *n = tree_items(s, "nodes"); n; n = tree_next(n)) {
-                has_own |= index_of(n, nodes->count) == own;
-                has_far |= index_of(n, nodes->count) == far;
-            }
-            is_shown |= has_own;
-            is_complete |= has_own && has_far;
-        }
-        if (is_shown && !is_complete)
-            check_warns(check, &nodes->items[i],
-                        "the scene that shows this skin lacks its joints");
-    }
-}
-
-/* ---- skins: joints hang on one root, the skeleton stands above them all ---------------- */
-
-static bool is_above(const int *parent, int node, int above, int count)
-{
-    for (int step = 0; step <= count && node != NO_ID; step++, node = parent[node])
-        if (node == above) return true;
-    return false;
-}
-
-static void check_skeleton(const DocumentCheck *check, const GltfValue *skin, const int *parent,
-                           int count)
-{
-    const GltfValue *joints = tree_member(skin, "joints");
-    const GltfValue *skeleton = tree_member(skin, "skeleton");
-    int above = skeleton ? index_of(skeleton, count) : NO_ID;
-    int first = index_of(tree_item(joints, 0), count);
-    for (int i = 0; joints && first != NO_ID && i < joints->count; i++) {
-        int joint = index_of(&joints->items[i], count);
-        if (joint == NO_ID) return;
-        if (root_of(parent, joint, count) != root_of(parent, first, count)) {
-            check_warns(check, &joints->items[i],
-                        "joint %d hangs on another root than joint %d", joint, first);
-            return;
-        }
-        if (above != NO_ID && !is_above(parent, joint, above, count)) {
-            check_warns(check, skeleton, "node %d does not stand above joint %d", above, joint);
-            return;
-        }
-    }
-}
-
-static void check_skeletons(const DocumentCheck *check, const GltfValue *root,
-                            const int *parent, int count)
-{
-    const GltfValue *skins = tree_member(root, "skins");
-    for (int i = 0; skins && skins->kind == GLTF_ARRAY && i < skins->count; i++)
-        check_skeleton(check, &skins->items[i], parent, count);
-}
-
 void check_hierarchy(const DocumentCheck *check, const GltfValue *root)
 {
     const GltfValue *nodes = tree_member(root, "nodes");
     Arena scratch = check->file->load->scratch;
     if (!nodes || nodes->kind != GLTF_ARRAY) return;
-    int before = check->file->load->problems->error_count;
     int *parent = ARENA_NEW(&scratch, int, nodes->count);
     find_parents(check, nodes, parent);
     find_cycles(check, nodes, parent, ARENA_NEW(&scratch, int, nodes->count));
     check_roots(check, root, parent, nodes->count);
-    if (check->file->load->problems->error_count != before) return; /* there may be circles */
-    check_joints(check, root, parent);
-    check_skeletons(check, root, parent, nodes->count);
 }

@@ -8,40 +8,7 @@
 #include "scene/gltf/extras.h"
 #include "scene/gltf/variant.h"
 
-/* ---- textures: the picture's type is the one that stands there ------------------------- */
-
-static void check_source(const DocumentCheck *check, const GltfValue *holder, const char *types)
-{
-    const GltfValue *source = tree_member(holder, "source");
-    const GltfValue *image = tree_referred(source, "images");
-    const char *type = tree_text(image, "mimeType", "");
-    if (type[0] && !strstr(types, type))
-        check_warns(check, source, "names a picture of the type %.40s, %s is required", type,
-                    types);
-}
-
-void check_texture(const DocumentCheck *check, const GltfValue *texture)
-{
-    check_source(check, texture, "image/png or image/jpeg");
-    check_source(check, tree_extension(texture, "EXT_texture_webp"), "image/webp");
-    check_source(check, tree_extension(texture, "KHR_texture_basisu"), "image/ktx2");
-}
-
 /* ---- members that have no effect together ---------------------------------------------- */
-
-static bool is_black(const GltfValue *material)
-{
-    float factor[3] = {0, 0, 0};
-    tree_floats(material, "emissiveFactor", 3, factor);
-    return factor[0] == 0 && factor[1] == 0 && factor[2] == 0;
-}
-
-static void check_emission(const DocumentCheck *check, const GltfValue *material)
-{
-    const GltfValue *strength = tree_extension(material, "KHR_materials_emissive_strength");
-    if (strength && is_black(material))
-        check_warns(check, strength, "strengthens nothing: emissiveFactor is black");
-}
 
 static bool has_extension(const GltfValue *material, const char *const *names, int count)
 {
@@ -142,11 +109,6 @@ void check_glazing(const DocumentCheck *check, const GltfValue *glazing)
 
 void check_material(const DocumentCheck *check, const GltfValue *material)
 {
-    const GltfValue *mode = tree_member(material, "alphaMode");
-    if (mode && tree_member(material, "alphaCutoff") && strcmp(mode->text, "MASK") != 0)
-        check_warns(check, tree_member(material, "alphaCutoff"),
-                    "has no meaning with the alpha mode \"%.20s\"", mode->text);
-    check_emission(check, material);
     check_volume(check, material);
     check_clear_solid(check, material);
     check_alone(check, material);

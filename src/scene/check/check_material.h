@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* check_material.h -- rules that tables cannot express, on materials and textures. */
+/* check_material.h -- rules that tables cannot express, on materials. */
 #pragma once
 #include "scene/check/check.h"
 
-void check_texture(const DocumentCheck *check, const GltfValue *texture);
 void check_material(const DocumentCheck *check, const GltfValue *material);
 void check_glazing(const DocumentCheck *check, const GltfValue *glazing);
 void check_glazing_layer(const DocumentCheck *check, const GltfValue *layer);

@@ -108,11 +108,9 @@ const MaterialLayer material_layers[] = {
             TEXTURE(MaterialOverlay, roughness_texture)}),
      OWN_STRUCT(MaterialOverlay, overlay),
      .hidden_by = HIDDEN,
-     .on_solid = ON_CLOSED_SOLID "on which sheen is not shown",
-     .lost = "the sheen"},
+     .on_solid = ON_CLOSED_SOLID "on which sheen is not shown"},
     {LAYER("KHR_materials_ior", check_ior,
-           {"ior", RULE_NUMBER, .flags = RULE_FROM_MIN, OF(Material, ior, 1.5f)}),
-     .lost = "the IOR"},
+           {"ior", RULE_NUMBER, .flags = RULE_FROM_MIN, OF(Material, ior, 1.5f)})},
 };
 
 const int material_layer_count = COUNT_OF(material_layers);

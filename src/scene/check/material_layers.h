@@ -18,7 +18,6 @@ typedef struct MaterialLayer {
     const char *const *hidden_by; /* extensions beside which it has no effect; a NULL ends them;
                                      NULL: none */
     const char *on_solid;    /* the warning where the material is a clear solid; NULL: none */
-    const char *lost;        /* what Blender 3's exporter leaves out; NULL: nothing */
 } MaterialLayer;
 
 /* Begins what is said of layers that a closed solid does not show. */

@@ -19,9 +19,9 @@ typedef enum RuleKind {
                      may have added, only warns */
     RULE_CODE,    /* an integer among the numbers of `of`, "1|2|3": as above */
     RULE_INDEX,   /* a place in the list that `of` names */
-    RULE_INDICES, /* an array of such places, none twice */
+    RULE_INDICES, /* an array of such places */
     RULE_NUMBERS, /* an array of least .. most numbers, each in min .. max */
-    RULE_TEXTS,   /* an array of texts, none twice */
+    RULE_TEXTS,   /* an array of texts */
     RULE_OBJECT,  /* as in `schema` */
     RULE_OBJECTS, /* an array of such objects */
     RULE_MAP,     /* an object whose members are all indices into `of` */
@@ -31,7 +31,6 @@ typedef enum RuleKind {
 enum {
     RULE_REQUIRED = 1,
     RULE_ABOVE_MIN = 2, /* min itself is not allowed */
-    RULE_MAY_BE_EMPTY = 4,
     RULE_WARNS = 8,      /* this member and what is below it only warn */
     RULE_FROM_MIN = 16,  /* min holds, there is no max */
     RULE_CLOSED = 32,    /* no extension adds words to this list */

@@ -171,22 +171,6 @@ static void check_index(const DocumentCheck *check, const GltfValue *value, cons
 
 /* ---- arrays ---------------------------------------------------------------------------- */
 
-static bool is_same(const GltfValue *a, const GltfValue *b)
-{
-    return a->kind == b->kind && a->number == b->number && strcmp(a->text, b->text) == 0;
-}
-
-/* Quadratic, so only for lists of a length that people write. */
-static void check_unique(const DocumentCheck *check, const GltfValue *array)
-{
-    for (int i = 1; i < array->count && i < 2000; i++)
-        for (int k = 0; k < i; k++)
-            if (is_same(&array->items[i], &array->items[k])) {
-                check_warns(check, &array->items[i], "stands twice in the list");
-                break;
-            }
-}
-
 static bool check_array(const DocumentCheck *check, const GltfValue *value, const Rule *rule)
 {
     char wanted[96];
@@ -202,8 +186,6 @@ static bool check_array(const DocumentCheck *check, const GltfValue *value, cons
         else
             snprintf(wanted, sizeof wanted, "an array of %d to %d", rule->least, rule->most);
         fails_as(check, value, wanted);
-    } else if (!value->count && !(rule->flags & RULE_MAY_BE_EMPTY)) {
-        check_warns(check, value, "is empty, which glTF does not allow");
     }
     return true;
 }
@@ -220,7 +202,6 @@ static void check_items(const DocumentCheck *check, const GltfValue *array, cons
     if (!check_array(check, array, rule)) return;
     item.kind = ITEM[rule->kind];
     for (int i = 0; i < array->count; i++) check_value(check, &array->items[i], &item);
-    if (rule->kind == RULE_INDICES || rule->kind == RULE_TEXTS) check_unique(check, array);
 }
 
 static void check_map(const DocumentCheck *check, const GltfValue *value, const Rule *rule)
@@ -229,7 +210,6 @@ static void check_map(const DocumentCheck *check, const GltfValue *value, const 
         fails_as(check, value, "an object");
         return;
     }
-    if (!value->count) check_warns(check, value, "is empty, which glTF does not allow");
     for (int i = 0; i < value->count; i++) check_index(check, &value->items[i], rule->of);
 }
 
@@ -378,7 +358,6 @@ static Rule rule_of(const RecordRow *row)
                  .schema = row->of ? our_schema(row->of) : NULL};
     if (row->flags & RECORD_REQUIRED) rule.flags |= RULE_REQUIRED;
     if (row->flags & RECORD_ABOVE) rule.flags |= RULE_ABOVE_MIN;
-    if (!row->least) rule.flags |= RULE_MAY_BE_EMPTY;
     if (isfinite(row->low)) rule.min = row->low;
     if (isfinite(row->high)) rule.max = row->high;
     else if (isfinite(row->low)) rule.flags |= RULE_FROM_MIN;

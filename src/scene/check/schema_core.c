@@ -3,7 +3,6 @@
 #include "scene/check/schema_core.h"
 
 #include "scene/check/check_animation.h"
-#include "scene/check/check_blender.h"
 #include "scene/check/check_bytes.h"
 #include "scene/check/check_document.h"
 #include "scene/check/check_graph.h"
@@ -102,7 +101,7 @@ static const Schema SCHEMA_CAMERA = {"camera", false, check_camera, RULES(
 
 /* ---- pictures and materials ------------------------------------------------------------ */
 
-static const Schema SCHEMA_IMAGE = {"image", false, check_image, RULES(
+static const Schema SCHEMA_IMAGE = {"image", false, check_source, RULES(
     {"uri", .kind = RULE_TEXT},
     {"mimeType", RULE_CHOICE, .of = "image/jpeg|image/png|image/webp"},
     {"bufferView", RULE_INDEX, .of = "bufferViews", .needs = "mimeType"})};
@@ -113,7 +112,7 @@ static const Schema SCHEMA_SAMPLER = {"sampler", false, NULL, RULES(
     {"wrapS", RULE_CODE, .of = "33071|33648|10497"},
     {"wrapT", RULE_CODE, .of = "33071|33648|10497"})};
 
-static const Schema SCHEMA_TEXTURE = {"texture", false, check_texture, RULES(
+static const Schema SCHEMA_TEXTURE = {"texture", false, NULL, RULES(
     {"sampler", RULE_INDEX, .of = "samplers"},
     {"source", RULE_INDEX, .of = "images"})};
 
@@ -167,7 +166,7 @@ static const Schema SCHEMA_ASSET = {"asset", false, check_asset, RULES(
     {"version", RULE_TEXT, .flags = RULE_REQUIRED},
     {"minVersion", .kind = RULE_TEXT})};
 
-const Schema SCHEMA_ROOT = {"document", false, check_blender, RULES(
+const Schema SCHEMA_ROOT = {"document", false, NULL, RULES(
     {"extensionsUsed", .kind = RULE_TEXTS},
     {"extensionsRequired", RULE_TEXTS, .needs = "extensionsUsed"},
     {"accessors", RULE_OBJECTS, .schema = &SCHEMA_ACCESSOR},

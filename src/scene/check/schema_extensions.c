@@ -35,7 +35,7 @@ static const Schema SCHEMA_NODE_LIGHT = {"KHR_lights_punctual", false, NULL, RUL
     {"light", RULE_INDEX, .flags = RULE_REQUIRED,
      .of = "extensions/KHR_lights_punctual/lights"})};
 
-static const Schema SCHEMA_PROFILE = {"light profile", false, check_profile, RULES(
+static const Schema SCHEMA_PROFILE = {"light profile", false, check_source, RULES(
     {"uri", .kind = RULE_TEXT},
     {"mimeType", RULE_CHOICE, .of = "application/x-ies-lm-63"},
     {"bufferView", RULE_INDEX, .of = "bufferViews", .needs = "mimeType"})};
@@ -94,7 +94,7 @@ static const Schema SCHEMA_MAPPINGS = {"KHR_materials_variants", false, check_va
     {"mappings", RULE_OBJECTS, .flags = RULE_REQUIRED, .schema = &SCHEMA_MAPPING})};
 
 static const Schema SCHEMA_POINTER = {
-    "KHR_animation_pointer", false, check_animation_pointer, RULES(
+    "KHR_animation_pointer", false, NULL, RULES(
     {"pointer", RULE_TEXT, .flags = RULE_REQUIRED})};
 
 static const Schema SCHEMA_VISIBILITY = {"KHR_node_visibility", false, NULL, RULES(

@@ -10,7 +10,6 @@
 #include "scene/check/check.h"
 #include "scene/check/check_data.h"
 #include "scene/check/check_graph.h"
-#include "scene/check/check_usage.h"
 #include "scene/check/display_frame.h"
 #include "scene/check/schema.h"
 #include "scene/check/schema_core.h"
@@ -243,7 +242,6 @@ static void check_structure(GltfFile *file)
     schema_check(&check, file->root, &SCHEMA_ROOT);
     check_extensions(&check, file->root);
     check_hierarchy(&check, file->root);
-    check_usage(&check, file->root);
     document_load_buffers(file);
 }
 
