@@ -8,7 +8,7 @@ embree=3
 [ -e /usr/include/embree4 ] && embree=4
 flags="-fsyntax-only -Wall -Wextra -Wpedantic -Wno-psabi -Werror -D_GNU_SOURCE
     -DEMBREE_MAJOR=$embree -Isrc -I. -Ithird_party
-    $(pkg-config --cflags jansson cairo libxml-2.0)"
+    $(pkg-config --cflags jansson cairo)"
 
 # alone LANGUAGE STANDARD HEADER: included twice, because a second time must do no harm
 alone()

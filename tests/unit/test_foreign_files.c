@@ -11,7 +11,6 @@
 #include "opencolorio/ocio_file.h"
 #include "opencolorio/view_transform.h"
 #include "text/text.h"
-#include "text/xml_tags.h"
 
 extern const char OWN_OCIO_CONFIG[];
 
@@ -99,37 +98,6 @@ static const char *repeated(const char *begin, const char *each, const char *end
     for (int i = 0; i < count; i++) text_format(&text, each, i);
     text_add(&text, end);
     return text.data;
-}
-
-ARENA_TEST(tags_of_xml_are_counted)
-{
-    static const struct {
-        const char *begin, *each, *end;
-        int         most; /* 0: any */
-    } rows[] = {
-        {"<a ", "b%d=\"1\" ", "/>", XML_ATTRIBUTES_MAX},
-        {"<x/><a\n", "xmlns:b%d='>=<' ", "></a>", XML_ATTRIBUTES_MAX},
-        {"", "<a b%d=\"/\">", "", XML_DEPTH_MAX},
-        {"<!-- > <a>", "=", "--><a/>", 0},
-        {"<a><![CDATA[<a ", "=", "]]></a>", 0},
-        {"<a>", "<b c%d=\"\"/><c></c>", "</a>", 0},
-        {"<?a ", "=", "?>", 0},
-    };
-    for (int i = 0; i < COUNT_OF(rows); i++)
-        for (int more = 0; more < 2; more++) {
-            Arena       scratch = arena;
-            Error       why = {0};
-            int         count = rows[i].most ? rows[i].most + more : 5000;
-            bool        fits = !rows[i].most || !more;
-            const char *text = repeated(rows[i].begin, rows[i].each, rows[i].end, count,
-                                        &scratch);
-            if (xml_tags_check(text, "a.xml", &why) != fits) fail_msg("row %d, %d", i, count);
-            if (!fits) assert_error_has(&why, "required: at most that many");
-        }
-    Error why = {0};
-    assert_true(xml_tags_check("<a b=\"", "a.xml", &why));
-    assert_true(xml_tags_check("<", "a.xml", &why));
-    assert_true(xml_tags_check("<!--", "a.xml", &why));
 }
 
 /* ---- pictures ---------------------------------------------------------------------------- */
