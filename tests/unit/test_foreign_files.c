@@ -10,7 +10,6 @@
 #include "image/image.h"
 #include "opencolorio/ocio_file.h"
 #include "opencolorio/view_transform.h"
-#include "text/text.h"
 
 extern const char OWN_OCIO_CONFIG[];
 
@@ -85,19 +84,6 @@ ARENA_TEST(a_configuration_and_its_tables_are_regular_files)
     mkfifo(in_folder("fifo.ocio"), 0600);
     assert_false(open_config(in_folder("fifo.ocio"), &why));
     assert_false(open_config("/dev/zero", &why));
-}
-
-/* ---- XML --------------------------------------------------------------------------------- */
-
-/* begin, `count` times each, end. */
-static const char *repeated(const char *begin, const char *each, const char *end, int count,
-                            Arena *arena)
-{
-    Text text = {.arena = arena};
-    text_add(&text, begin);
-    for (int i = 0; i < count; i++) text_format(&text, each, i);
-    text_add(&text, end);
-    return text.data;
 }
 
 /* ---- pictures ---------------------------------------------------------------------------- */

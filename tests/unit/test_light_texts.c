@@ -2,7 +2,6 @@
 /* Texts that hold light, each field with each fault: left over, missing, negative, huge, NaN, a
  * decimal comma. What is right stands beside the field. */
 #include "fixture.h"
-#include "import/importers.h"
 #include "import/luminaire/eulumdat.h"
 #include "import/luminaire/ies.h"
 #include "panel/set/level_table.h"

@@ -157,19 +157,14 @@ const float *scatter_wavelength(double stated_nm, const ImportOptions *options,
     return NULL;
 }
 
-const float *scatter_photopic(const ImportOptions *options, const char *file, ImportSet *set)
-{
-    if (options->wavelength_nm > 0) return scatter_band(options->wavelength_nm, set);
-    import_note(set, "%s: photopic values (weighted with the eye's sensitivity) stand as one "
-                "band at %g nm", path_name(file), (double)PHOTOPIC_NM);
-    return scatter_band((double)PHOTOPIC_NM, set);
-}
-
 const float *scatter_xyz(const ImportOptions *options, const char *file, ImportSet *set)
 {
-    const float *band = scatter_photopic(options, file, set);
+    double nm = options->wavelength_nm > 0 ? options->wavelength_nm : PHOTOPIC_NM;
+    if (!(options->wavelength_nm > 0))
+        import_note(set, "%s: photopic values (weighted with the eye's sensitivity) stand as one "
+                    "band at %g nm", path_name(file), nm);
     import_note(set, "%s: of X, Y and Z only Y is taken", path_name(file));
-    return band;
+    return scatter_band(nm, set);
 }
 
 const float *scatter_rgb_bands(const char *file, ImportSet *set)

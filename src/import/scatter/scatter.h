@@ -60,10 +60,9 @@ const float *scatter_band(double nm, ImportSet *set);
 const float *scatter_wavelength(double stated_nm, const ImportOptions *options,
                                 const char *file, ImportSet *set, Error *err);
 
-/* Photopic values (CIE Y) stand at one wavelength, with a note; --wavelength wins. For X, Y
- * and Z another note states that Y alone is taken. */
-#define PHOTOPIC_NM 555.0f
-const float *scatter_photopic(const ImportOptions *options, const char *file, ImportSet *set);
+/* Of X, Y and Z the photopic Y alone is taken, with a note, and stands at one wavelength, with
+ * another; --wavelength wins. */
+#define PHOTOPIC_NM 555.0
 const float *scatter_xyz(const ImportOptions *options, const char *file, ImportSet *set);
 
 /* RGB values stand as three bands near the dominant wavelengths of the primaries of Rec. 709,
