@@ -139,7 +139,6 @@ static bool explain_loaded(SceneQuestion *question, const Scene *scene, Arena *a
     render->max_bounces = (int)question->max_bounces;
     render->no_guiding |= !question->has_pixel;
     if (!render_prepare(scene, &camera, render, arena, &setup, err)) return false;
-    if (!question->has_pixel) setup.context.cone = (RayCone){0}; /* points, whatever the size */
     bool ok = explain_lit(question, &camera, &setup, arena, out, err);
     out->lights = light_groups_build(scene, setup.context.lights, arena, &unsaid);
     render_setup_end(&setup);
