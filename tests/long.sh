@@ -140,7 +140,7 @@ start 'half the space and its glare' fisheye python3 tests/image/fisheye.py $pro
 start 'light that few paths find' rare python3 tests/image/rare.py $program
 of "$review scenes tests/image"
 start 'why a display looks so' explain python3 tests/image/explain.py $program
-start 'what would mend it, built' remedies python3 tests/image/remedies.py $program
+start 'the brightness that passes' remedies python3 tests/image/remedies.py $program
 start 'the road after dark' road python3 tests/image/road.py $program
 start 'what glass lets be read' private python3 tests/image/private.py $program
 start 'through sunglasses' sunglasses python3 tests/image/sunglasses.py $program

@@ -16,8 +16,6 @@ const char *const kept_names[KEPT_COUNT + 1] = {[KEPT_HIDDEN] = "hidden",
                                                 [KEPT_SECURITY] = "visual security"};
 const char *const ambient_names[5] = {"night", "twilight", "day", "sun"};
 
-const char *const remedy_kinds[REMEDY_KINDS + 1] = {"brightness", "tilt",  "hood",
-                                                    "coating",    "panel", "trim"};
 const char *const rest_kinds[REST_KINDS + 1] = {"panel", "material", "eye", "occupant",
                                                 "limits"};
 const char *const rest_bases[REST_BASES + 1] = {

@@ -154,16 +154,8 @@ typedef struct CaseView {
     int    width, height;           /* pixels */
 } CaseView;
 
-/* What a designer could change, in the order in which it is reported. */
-typedef enum RemedyKind {
-    REMEDY_BRIGHTNESS, REMEDY_TILT, REMEDY_HOOD, REMEDY_COATING, REMEDY_PANEL, REMEDY_TRIM,
-    REMEDY_KINDS
-} RemedyKind;
-extern const char *const remedy_kinds[REMEDY_KINDS + 1]; /* "brightness", "tilt", ... */
-
 /* A change that would remedy the case, or help. */
 typedef struct CaseRemedy {
-    RemedyKind  kind;
     const char *what;
     double      contrast_ratio; /* with it */
     double      level;          /* of the display with it; NaN: the figure has no meaning */
@@ -312,7 +304,7 @@ typedef struct ReviewCase {
     const char *empty_seat;      /* its back, behind an eye where nobody sits, via which much of
                                     the reflected light comes; NULL: none */
     double  empty_seat_share;    /* of the reflected light */
-    const CaseRemedy *remedies;  /* by their kinds */
+    const CaseRemedy *remedies;  /* a brightness; or none */
     int     remedy_count;
     const char *frame;           /* picture's name within the folder; NULL: none was rendered */
     const CaseView *view;        /* of the frame; NULL: not known */

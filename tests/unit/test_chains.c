@@ -224,23 +224,6 @@ static Chains find_in(World *world, uint32_t seed)
     return find(world, seed, 1 << 15, 2);
 }
 
-TEST(without_a_part_what_came_by_it_is_missing)
-{
-    SCOPED_WORLD world = room(grey, 1);
-    Chains whole = find_in(&world, 2);
-    for (int part = 0; part < PARTS; part++) {
-        float less[PARTS];
-        if (!(grey[part] > 0)) continue;
-        memcpy(less, grey, sizeof less);
-        less[part] = 0;
-        SCOPED_WORLD other = room(less, 1);
-        Chains left = find_in(&other, 3);
-        assert_true(whole.by_part[part] > 0.01 * whole.all.cd_m2);
-        assert_foretold(world.scene->parts[part].name, whole.all.cd_m2 - whole.by_part[part],
-                        whole.all.sigma, &left.all);
-    }
-}
-
 TEST(own_light_grows_with_brightness)
 {
     SCOPED_WORLD world = room(grey, 1), brighter = room(grey, 3);

@@ -86,8 +86,7 @@ static const Member CAUSE[] = {OF(WHOLE, links), OF(NUMBER, share), OF(NUMBER, c
                                OF(NUMBER, low), OF(NUMBER, high)};
 #undef OF
 static const Member HIDER[] = {MEMBER(CaseHider, TEXT, what), MEMBER(CaseHider, NUMBER, share)};
-static const Member REMEDY[] = {MEMBER(CaseRemedy, WHOLE, kind),
-                                MEMBER(CaseRemedy, TEXT, what),
+static const Member REMEDY[] = {MEMBER(CaseRemedy, TEXT, what),
                                 MEMBER(CaseRemedy, NUMBER, contrast_ratio),
                                 MEMBER(CaseRemedy, NUMBER, level)};
 #define OF(kind, member) MEMBER(ReviewCase, kind, member)
@@ -321,7 +320,6 @@ static bool is_optional(const char *key, const json_t *object)
                                         "age_years", "must_not_be_read"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)
         if (!strcmp(key, ADDED[i])) return true;
-    if (!strcmp(key, "kind") && json_object_get(object, "what")) return true; /* a remedy's */
     return !strcmp(key, "verdict") &&
            (json_object_get(object, "cases") || json_object_get(object, "worst") ||
             json_object_get(object, "then"));

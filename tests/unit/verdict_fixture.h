@@ -112,13 +112,12 @@ static inline const CaseRemedy *fixture_remedies(Arena *arena, const ReviewCase 
     double      scale = c->limits[0].value / c->contrast_ratio * 1.4;
     LimitVerdict then = c->limits[0];
     then.found = then.low = then.high = then.value;
-    remedies[0] = (CaseRemedy){.kind = REMEDY_BRIGHTNESS, .what = "make the display brighter",
+    remedies[0] = (CaseRemedy){.what = "make the display brighter",
                                .contrast_ratio = then.found, .level = scale * c->level,
                                .then = then, .verdict = VERDICT_PASS};
     then.found = then.low = then.high = 1.3 * c->contrast_ratio;
     then.verdict = fixture_verdict(then.low, then.high, then.value);
-    remedies[1] = (CaseRemedy){.kind = REMEDY_COATING,
-                               .what = "coat the cover glass: half of the mirror's reflection",
+    remedies[1] = (CaseRemedy){.what = "coat the cover glass: half of the mirror's reflection",
                                .contrast_ratio = then.found, .level = NAN, .then = then,
                                .verdict = then.verdict};
     return remedies;
@@ -272,11 +271,11 @@ static inline Review fixture_odd_review(Arena *arena)
     static const CaseCause  CAUSES[] = {{CHAIN, 3, NAN, NAN, NAN, NAN, NAN, NULL, 0},
                                        {CHAIN, 0, 1, 0, 0, 0, 1, NULL, 0}};
     static const CaseRemedy REMEDIES[] = {
-        {.kind = REMEDY_TILT, .what = WILD_NAME, .contrast_ratio = NAN, .level = NAN,
+        {.what = WILD_NAME, .contrast_ratio = NAN, .level = NAN,
          .then = {WILD_NAME, "glare", WILD_NAME, WILD_NAME, 2, false, false, false, NAN, NAN,
                   NAN, NAN, VERDICT_UNJUDGED},
          .verdict = VERDICT_UNJUDGED},
-        {.kind = REMEDY_TRIM, .what = "", .contrast_ratio = 3, .level = 4}};
+        {.what = "", .contrast_ratio = 3, .level = 4}};
     static ReviewResponse   responses[] = {{WILD_NAME, WILD_NAME, 0, 0, NAN}};
     static ReviewFalseSun   false_suns[] = {
         {WILD_NAME, WILD_NAME, WILD_NAME, NAN, NAN, NAN, NULL, 0, -1, 1e9, WILD_NAME, 0.1,

@@ -10,7 +10,7 @@
 #include "review/chain/chains.h"
 #include "spectrum/spectral_table.h"
 
-#define LEAST_PART 0.01 /* of what is reflected: a part that is worth a word */
+#define SEAT_LEAST 0.1 /* of the light: an empty seat's back that is worth a word */
 
 /* ---- causes ------------------------------------------------------------------------------ */
 
@@ -48,55 +48,18 @@ static CaseCause all_other(const Chains *chains, const ReviewCase *c, Arena *are
     return cause;
 }
 
-static CausePart part_of(const Chains *chains, int part_id, double cd_m2, Arena *arena)
+/* What comes straight off the seat's back, by its part that sends most. */
+static void set_seat(const Chains *chains, ReviewCase *c, Arena *arena)
 {
-    if (part_id == NO_ID || !(cd_m2 > LEAST_PART * chains->all.cd_m2))
-        return (CausePart){NULL, 0};
-    return (CausePart){chain_part_words(chains->scene, part_id, arena), cd_m2};
-}
-
-/* Of a part's light, what would be gone if it were matt black: by its base colour, as if light
- * met it once. */
-static double blackened(const Scene *scene, int part_id)
-{
-    const float *rgb = scene->materials[scene->parts[part_id].material_id].base_color;
-    double       reflectance = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-    return fmax(0, 1 - MATT_BLACK / fmax(reflectance, MATT_BLACK));
-}
-
-/* Most of what comes by it must come where it could be trim. */
-static CausePart find_trim(const Chains *chains, Arena *arena)
-{
-    const double *by_trim = chains->places.by_trim;
-    int           most = NO_ID;
-    double        gone = 0;
-    for (int i = 0; i < chains->scene->part_count; i++) {
-        double own = chains->by_part[i] * blackened(chains->scene, i);
-        if (!(2 * by_trim[i] > chains->by_part[i]) || !(own > gone)) continue;
-        most = i;
-        gone = own;
-    }
-    return part_of(chains, most, gone, arena);
-}
-
-static CausePart find_seat(const Chains *chains, Arena *arena)
-{
-    const double *by_seat = chains->places.by_seat;
+    const double *by_seat = chains->by_seat;
+    double        all = chains->all.cd_m2;
     int           most = 0;
+    if (!by_seat) return;
     for (int i = 1; i < chains->scene->part_count; i++)
         if (by_seat[i] > by_seat[most]) most = i;
-    return part_of(chains, most, by_seat[most], arena);
-}
-
-static CauseFacts facts_of(const Chains *chains, Arena *arena)
-{
-    const PlaceSums *places = &chains->places;
-    CauseFacts facts = {.own_cd_m2 = chains->own, .all = chains->all,
-                        .mirror = chains->mirror};
-    facts.trim = find_trim(chains, arena);
-    facts.seat = find_seat(chains, arena);
-    for (int i = 0; i < PLACE_HOODS; i++) facts.hooded[i] = places->hooded[i];
-    return facts;
+    if (!(by_seat[most] > 0) || !(by_seat[most] / all >= SEAT_LEAST)) return;
+    c->empty_seat = chain_part_words(chains->scene, most, arena);
+    c->empty_seat_share = fmin(by_seat[most] / all, 1);
 }
 
 /* ---- groups ------------------------------------------------------------------------------ */
@@ -212,7 +175,7 @@ static void set_groups(const Chains *chains, ReviewCase *c, Arena *arena)
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-CauseFacts case_causes_of(const Chains *chains, int rays, ReviewCase *c, Arena *arena)
+void case_causes_of(const Chains *chains, int rays, ReviewCase *c, Arena *arena)
 {
     CaseCause *causes = ARENA_NEW(arena, CaseCause, chains->count + 1);
     for (int i = 0; i < chains->count; i++) {
@@ -226,18 +189,18 @@ CauseFacts case_causes_of(const Chains *chains, int rays, ReviewCase *c, Arena *
     c->cause_count = chains->count;
     if (chains->others) causes[c->cause_count++] = all_other(chains, c, arena);
     set_groups(chains, c, arena);
-    return facts_of(chains, arena);
+    c->own_reflected = chains->own;
+    set_seat(chains, c, arena);
 }
 
-CauseFacts case_causes(const CauseArgs *args, ReviewCase *c, Arena *arena)
+void case_causes(const CauseArgs *args, ReviewCase *c, Arena *arena)
 {
     Arena     scratch = arena_reserve((size_t)1 << 28);
     ChainArgs chain_args = {.aim = args->aim, .tools = args->tools, .paths = args->paths,
-                            .most = CAUSES_MOST, .places = args->places};
-    Chains     chains = chains_find(&chain_args, &scratch);
-    CauseFacts facts = case_causes_of(&chains, args->rays, c, arena);
+                            .most = CAUSES_MOST, .seat = args->seat};
+    Chains    chains = chains_find(&chain_args, &scratch);
+    case_causes_of(&chains, args->rays, c, arena);
     arena_release(&scratch);
-    return facts;
 }
 
 double case_data_share(const CauseArgs *args, Arena scratch)

@@ -17,39 +17,22 @@
 #define CAUSES_MOST 10
 #define CAUSE_PATHS 8192
 #define CAUSE_RAYS 4
-#define MATT_BLACK 0.04 /* reflectance of matt black trim, as of the shipped black plastic */
 
 typedef struct CauseArgs {
     const ReadingTools *tools;
     const ProbeAim     *aim;
     long                paths;
     int                 rays;        /* of each cause, at most CHAIN_RAYS */
-    const ChainPlaces  *places;      /* or NULL */
+    const ChainSeat    *seat;        /* that should not be empty; NULL: it is not */
 } CauseArgs;
 
-/* A node and its material; `what` NULL: none is worth a word. */
-typedef struct CausePart {
-    const char *what;
-    double      cd_m2; /* reflected light that comes by it */
-} CausePart;
-
-/* Input of the remedies besides the case (chain/remedies.h). Without places 0 from `trim`
- * on. */
-typedef struct CauseFacts {
-    double      own_cd_m2;  /* reflected light that began at the display itself */
-    ChainFigure all, mirror; /* of these paths; and by the display's mirror */
-    CausePart   trim;        /* that whose light would fall most if it were MATT_BLACK, and by
-                                how much it would */
-    CausePart   seat;        /* the seat's back behind the eye, what comes straight off it */
-    double      hooded[PLACE_HOODS]; /* what each of the hoods would keep off */
-} CauseFacts;
-
 /* Sets the case's causes: the greatest CAUSES_MOST, and "all other ways", which add up to the
- * reflected light by these paths, and the groups. */
-CauseFacts case_causes(const CauseArgs *args, ReviewCase *c, Arena *arena);
+ * reflected light by these paths, and the groups; its own light that is reflected; and whether
+ * much of the light comes off the back of the empty seat. */
+void case_causes(const CauseArgs *args, ReviewCase *c, Arena *arena);
 
 /* The same of all chains that were found already. */
-CauseFacts case_causes_of(const Chains *chains, int rays, ReviewCase *c, Arena *arena);
+void case_causes_of(const Chains *chains, int rays, ReviewCase *c, Arena *arena);
 
 /* The share of that light that comes via materials without data, alone: as the causes have it,
  * by the aim, tools and paths of the question. */

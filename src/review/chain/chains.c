@@ -31,9 +31,8 @@ typedef struct ChainChunk {
     int         count;
     double      all, mirror, own, reflected;
     BrightSamples bright, bright_reflected; /* as all, as reflected */
-    double     *by_part;
     ChainGroups groups;
-    PlaceSums   places;
+    double     *by_seat; /* NULL: none is requested */
     uint32_t    draws;
 } ChainChunk;
 
@@ -132,24 +131,13 @@ static void draw_ray(const ChunkListener *to, ChunkChain *chain, const PathHisto
     chain->ray = ray_of(to->search, history);
 }
 
-static void add_part(const ChunkListener *to, int part_id, int *parts, int *count, double y)
+/* Beyond a pane is outside. */
+static void add_seat(const ChunkListener *to, const PathHistory *history, double y)
 {
-    int id = alike_or_none(to->search->alike, part_id);
-    if (id == NO_ID) return;
-    for (int i = 0; i < *count; i++)
-        if (parts[i] == id) return;
-    parts[(*count)++] = id;
-    to->sums->by_part[id] += y;
-}
-
-static void add_parts(const ChunkListener *to, const PathHistory *history, double y)
-{
-    int parts[2 * PATH_STEPS_MAX + 1], count = 0;
-    for (int i = 1; i < path_steps_kept(history); i++) {
-        add_part(to, history->step[i].part_id, parts, &count, y);
-        add_part(to, history->step[i].pane_id, parts, &count, y);
-    }
-    if (history->count) add_part(to, history->pane_id, parts, &count, y);
+    const PathStep *next = &history->step[1];
+    if (history->count < 2 || next->pane_id != NO_ID) return;
+    if (seat_is_back(to->search->args->seat, next->position))
+        to->sums->by_seat[to->search->alike[next->part_id]] += y;
 }
 
 /* A source by itself; an emitter counts as a surface that is met. */
@@ -220,10 +208,8 @@ static void on_light(void *user, const PathHistory *history, const float xyz[3])
     if (display != NO_ID && history->source == LIGHTS_EMITTERS &&
         display_of(scene, history->source_id) == display)
         sums->own += y;
-    add_parts(to, history, y);
     add_groups(to, history, y);
-    if (display != NO_ID && to->search->args->places)
-        place_add(to->search->args->places, to->search->alike, history, y, &sums->places);
+    if (display != NO_ID && to->search->args->seat) add_seat(to, history, y);
     if (!chain) return;
     chain->sum += y;
     bright_add(&chain->bright, y);
@@ -383,14 +369,13 @@ static bool *guessed_parts(const Scene *scene, Arena *arena)
     return is_guessed;
 }
 
-static ChainChunk *fresh_sums(int count, const Scene *scene, Arena *arena)
+static ChainChunk *fresh_sums(int count, const Scene *scene, bool has_seat, Arena *arena)
 {
     ChainChunk *sums = ARENA_NEW(arena, ChainChunk, count);
     for (int i = 0; i < count; i++) {
         sums[i].table = ARENA_NEW(arena, ChunkChain, CHUNK_ROOM);
-        sums[i].by_part = ARENA_NEW(arena, double, scene->part_count);
         sums[i].groups = fresh_groups(scene, arena);
-        sums[i].places = place_sums(scene, arena);
+        if (has_seat) sums[i].by_seat = ARENA_NEW(arena, double, scene->part_count);
     }
     return sums;
 }
@@ -497,8 +482,8 @@ Chains chains_find(const ChainArgs *args, Arena *arena)
     int    chunks = (int)((args->paths + CHAIN_CHUNK - 1) / CHAIN_CHUNK);
     Arena  own = arena_reserve(OWN_BYTES);
     Chains out = {.scene = scene, .list = ARENA_NEW(arena, Chain, args->most),
-                  .by_part = ARENA_NEW(arena, double, scene->part_count),
-                  .groups = fresh_groups(scene, arena), .places = place_sums(scene, arena),
+                  .by_seat = args->seat ? ARENA_NEW(arena, double, scene->part_count) : NULL,
+                  .groups = fresh_groups(scene, arena),
                   .alike = alike_parts(scene, arena), .paths = (long)chunks * CHAIN_CHUNK};
     ChainSearch search = {.args = args, .scene = scene, .alike = out.alike,
                           .lacks_data = parts_without_data(scene, &own),
@@ -511,16 +496,15 @@ Chains chains_find(const ChainArgs *args, Arena *arena)
     for (; search.first < chunks; search.first += ROUND) {
         int   count = chunks - search.first < ROUND ? chunks - search.first : ROUND;
         Arena room = rounds;
-        search.sums = fresh_sums(count, scene, &room);
+        search.sums = fresh_sums(count, scene, args->seat, &room);
         parallel_for(args->tools->threads, count, trace_chunk, &search);
         for (int i = 0; i < count; i++) {
             add_chunk(&found, &search.sums[i], batch_of(&search, search.first + i), &own);
-            add_all(out.by_part, search.sums[i].by_part, scene->part_count,
-                    1.0 / CHAIN_CHUNK / chunks);
             merge_groups(&out.groups, &search.sums[i].groups, scene,
                          1.0 / CHAIN_CHUNK / chunks);
-            place_merge(&search.sums[i].places, scene->part_count, 1.0 / CHAIN_CHUNK / chunks,
-                        &out.places);
+            if (args->seat)
+                add_all(out.by_seat, search.sums[i].by_seat, scene->part_count,
+                        1.0 / CHAIN_CHUNK / chunks);
         }
     }
     out.all = figure_of(&found.all, &search);

@@ -17,7 +17,7 @@
  * Threads  starts its own; the same figures and rays for any count.
  */
 #pragma once
-#include "review/chain/places.h"
+#include "review/chain/seat.h"
 #include "review/light/reading.h"
 
 #define CHAIN_CHUNK 64 /* paths of a chunk */
@@ -90,10 +90,9 @@ typedef struct Chains {
     ChainFigure all, mirror; /* mirror: via the mirror of a display that is seen first */
     ChainFigure reflected;   /* all that does not come straight from its source */
     double      own;    /* cd m^-2 of `all` that began at the display that is seen first */
-    double     *by_part; /* cd m^-2 that came by each part of the scene, surface or pane, behind
-                            what is seen first; of parts that count as one at their first */
     ChainGroups groups;
-    PlaceSums   places; /* of a request that has some */
+    double     *by_seat; /* [part] cd m^-2 that came to a display straight off the seat's back; of
+                            parts that count as one at their first; NULL: none was asked for */
     const int  *alike;  /* [part] the first of those that count as one */
     long        paths;
 } Chains;
@@ -104,7 +103,7 @@ typedef struct ChainArgs {
     long                paths;       /* at least CHAIN_PATHS_LEAST; rounded up to a chunk */
     int                 most;        /* chains that are kept */
     bool                with_direct; /* sources that the eye sees by themselves count, too */
-    const ChainPlaces  *places;      /* light that comes by these is kept apart; NULL: none */
+    const ChainSeat    *seat;        /* light off its back is kept apart; NULL: none */
     bool                with_first_pane; /* a pane before the first surface is in the key */
 } ChainArgs;
 

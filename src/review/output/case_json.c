@@ -58,7 +58,6 @@ TABLE(hider_json, CaseHider,
     OWN(TEXT, CaseHider, what), OWN(FIGURE, CaseHider, share));
 
 TABLE(remedy_json, CaseRemedy,
-    {"kind", RECORD_CHOICE, RECORD_AT(CaseRemedy, kind), .words = remedy_kinds},
     OWN(TEXT, CaseRemedy, what), OWN(FIGURE, CaseRemedy, contrast_ratio),
     OWN(FIGURE, CaseRemedy, level),
     PART("then", 0, CaseRemedy, then, limit_json),

@@ -116,21 +116,6 @@ static void add_unjudged(ReviewFacts *facts, const Review *review, const ReviewC
 
 /* ---- the remedy -------------------------------------------------------------------------- */
 
-/* Those with which the case passes first, each in their order. */
-static const CaseRemedy *next_mend(const ReviewCase *c, const bool *is_listed)
-{
-    const CaseRemedy *best = NULL;
-    int               least = 2;
-    for (int i = 0; i < c->remedy_count; i++) {
-        const CaseRemedy *r = &c->remedies[i];
-        int rank = r->verdict == VERDICT_PASS ? 0 : 1;
-        if (is_listed[i] || rank >= least) continue;
-        best = r;
-        least = rank;
-    }
-    return best;
-}
-
 static void add_mend(ReviewFacts *facts, int *listed, bool mends, const char *words)
 {
     const char *name = *listed ? "… or" : mends ? "Remedy" : "What helps";
@@ -138,7 +123,7 @@ static void add_mend(ReviewFacts *facts, int *listed, bool mends, const char *wo
     ++*listed;
 }
 
-/* Changes tried on the whole review go before those estimated for this case alone. */
+/* Variants of the whole review go before what is estimated for this case alone. */
 static void add_tried(ReviewFacts *facts, const Review *review, int *listed, Arena *arena)
 {
     for (int i = 0; i < review->variant_count && *listed < MENDS_LISTED; i++) {
@@ -152,13 +137,10 @@ static void add_tried(ReviewFacts *facts, const Review *review, int *listed, Are
 static void add_mends(ReviewFacts *facts, const Review *review, const ReviewCase *c,
                       Arena *arena)
 {
-    bool *is_listed = ARENA_NEW(arena, bool, c->remedy_count + 1);
-    int   listed = 0;
+    int listed = 0;
     add_tried(facts, review, &listed, arena);
-    while (listed < MENDS_LISTED) {
-        const CaseRemedy *r = next_mend(c, is_listed);
-        if (!r) return;
-        is_listed[r - c->remedies] = true;
+    for (int i = 0; i < c->remedy_count && listed < MENDS_LISTED; i++) {
+        const CaseRemedy *r = &c->remedies[i];
         add_mend(facts, &listed, r->verdict == VERDICT_PASS,
                  arena_format(arena, "%s: %s", r->what, words_remedy(r, arena)));
     }

@@ -329,8 +329,7 @@ static const char *words_undecidable(const ReviewCase *c, Arena *arena)
     if (c->open_by == OPEN_BY_IMAGE)
         return "; the limit lies within what is known of its image in the glass, which is not "
                "read by more paths";
-    for (int i = 0; i < c->remedy_count; i++)
-        if (c->remedies[i].kind == REMEDY_BRIGHTNESS) brighter = c->remedies[i].what;
+    for (int i = 0; i < c->remedy_count; i++) brighter = c->remedies[i].what;
     if (c->open_by == OPEN_BY_PANEL)
         helps = arena_format(arena, "; what helps: the panel measured more exactly%s%s",
                              *brighter ? ", or " : "", brighter);

@@ -5,6 +5,7 @@
 
 #include "base/sampler.h"
 #include "base/units.h"
+#include "review/chain/causes.h"
 #include "review/chain/remedies.h"
 #include "review/eye/eye_reading.h"
 #include "review/judge.h"
@@ -491,17 +492,6 @@ static Vec3 worst_place(const CaseTools *tools, const CaseLook *look, EyePlaces 
     return of.points[worst_point(tools, look, &of, c, *arena)];
 }
 
-static RemedyArgs remedies_of(const CaseTools *tools, const SetupSymbol *symbol,
-                              const ProbeAim *aim)
-{
-    const Setup *setup = tools->setup;
-    int          id = setup->condition ? setup->condition->with_id : NO_ID;
-    SymbolLook   look = {&symbol->surface, &symbol->split, aim->eye, setup->tools.threads};
-    return (RemedyArgs){&setup->tools, aim, look, symbol_middle(symbol), &symbol->display,
-                       setup->request->forward, tools->profile,
-                       id == NO_ID ? NULL : &setup->request->withs[id]};
-}
-
 static bool case_of(const CaseTools *tools, const CaseArgs *args, Arena *arena, ReviewCase *out,
                     Error *err)
 {
@@ -520,13 +510,14 @@ static bool case_of(const CaseTools *tools, const CaseArgs *args, Arena *arena, 
     if (aim.target_count && !args->is_bare) {
         long     paths = tools->cause_paths ? tools->cause_paths : CAUSE_PATHS;
         int      rays = tools->cause_rays ? tools->cause_rays : CAUSE_RAYS;
-        RemedyArgs   remedies = remedies_of(tools, args->symbol, &aim);
-        ChainPlaces places = remedy_places(&remedies, arena);
-        CauseArgs causes = {&tools->setup->tools, &aim, paths, rays, &places};
-        CauseFacts facts = case_causes(&causes, &c, arena);
-        c.own_reflected = facts.own_cd_m2;
+        const Setup *setup = tools->setup;
+        ChainSeat    seat = seat_of_eye(aim.eye, symbol_middle(args->symbol).position,
+                                        setup->request->forward);
+        bool         is_empty = !setup->condition || setup->condition->with_id == NO_ID;
+        CauseArgs    causes = {&setup->tools, &aim, paths, rays, is_empty ? &seat : NULL};
+        case_causes(&causes, &c, arena);
         judge_case(&c, tools->profile, arena); /* now that its share without data is known */
-        case_remedies(&remedies, &facts, &c, arena);
+        case_remedies(tools->profile, &c, arena);
     }
     *out = c;
     return true;
