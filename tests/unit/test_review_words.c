@@ -45,7 +45,7 @@ TEST(what_it_rests_on_is_one_line)
 {
     Review review = fixture_review(&arena);
     review.cases[0].panel = (CasePanel){"usable with care", "coarse: steps of 5 degrees", true,
-                                        false, 0.02, 0.04, NULL, NULL};
+                                        false, 0.02, 0.04, NULL};
     review.cases[3].guessed_share = 0.25;
     review.cases[5].guessed_share = 0.625;
     assert_string_equal(
