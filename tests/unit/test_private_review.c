@@ -195,7 +195,7 @@ static SunFigures under_suns(bool is_private, Arena *arena)
     for (int k = 0; k < RESPONSE_GROUPS; k++) alike[k] = 1;
     Sight sight = {.symbol = &symbol, .face = &face, .is_private = is_private,
                    .probe = {.sky = skies, .sky_bright = &bright, .sky_without = alike,
-                             .response = {.paths = 2 * RESPONSE_CHUNK}},
+                             .response = {.paths = 1 << 20}},
                    .seen = {1, 1}, .shown = {.foreground = 100, .background = 1},
                    .height_arcmin = 20};
     SunFigures figures = sun_figures_start(SUNS, arena);
