@@ -4,7 +4,8 @@ do what they say.
 
 Every ```sh block of assets/guides/*.md and of README.md (but for building and installing, which
 other tests do) runs as written, each page in a folder of its own where scenes/
-and assets/ lie, and its scripts: ```python blocks that begin with their file's name, `# NAME.py`. A command ends with status 0, or with the one that the page states behind it:
+and assets/ lie, and its scripts: ```python blocks that begin with their file's name,
+`# NAME.py`. A command ends with status 0, or with the one that the page states behind it:
 `# status 1`. What it is to write is there afterwards, but for one that is refused (2 to 4), and
 so is every file that a page names. Layers of noise that it asks for hold numbers. The figures
 of a page are those that its commands print now (figures.py: how they are tied, and what --renew
