@@ -196,10 +196,11 @@ run 'all variants of a review' variants-long \
 run 'doors, mirrored vehicles, mirrored light' changed-long \
     python3 tests/image/changed.py --all $program
 run "another maker's car" other-maker python3 tests/image/other_maker.py $program
-run 'discomfort of every size' glare-sizes python3 tests/image/glare.py --all $program
 run 'intervals of light that is rare' gaze-intervals-long \
     python3 tests/image/gaze_intervals.py --all $program
 of "$review src/measure src/compare tests/image"
+run "intervals of a frame's glare over forty seeds" glare-intervals \
+    python3 tests/image/glare.py --all $program
 run 'every interval that commands print' every-interval-long \
     python3 tests/image/every_interval.py --all $program
 of "$review scenes tests/image"

@@ -45,7 +45,7 @@ start 'a glare review' review python3 tests/image/review.py $program
 start 'a hunt for wrong answers' hunt python3 tests/hunt/hunt.py --count 1 --unguided $program
 start "a review's pictures are denoised, and nothing else" review-denoised \
     python3 tests/image/review_denoised.py $program
-start 'discomfort beside closed forms' glare python3 tests/image/glare.py $program
+start "a frame's glare beside closed forms" glare python3 tests/image/glare.py $program
 start 'intervals of light that is rare' gaze-intervals \
     python3 tests/image/gaze_intervals.py $program
 start 'variants of a review' variants python3 tests/image/variants.py $program

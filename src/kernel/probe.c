@@ -140,7 +140,7 @@ void probe_trace(const ProbeAim *asked, int first, int end, const PathListener *
         start_path(aim, path, statistics, &one);
         one.start.collector = &by_way.base;
         one.start.manner.is_spared = one.start.manner.has_sheets =
-            listener->reach >= PATH_BY_MIRRORS;
+            listener->reach == PATH_BY_MIRRORS;
         if (listener->is_polarised && aim->context->eye) {
             rows = polarised_rows(aim->context->eye, NULL, one.start.collector);
             one.start.collector = &rows.base;

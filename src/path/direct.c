@@ -250,7 +250,6 @@ static void find_sample(PathState *path, const Surface *surface, Vec3 wo,
         .from = is_distant ? light->wi
                        : vec3_along(surface->position, light->wi, light->distance),
         .way = vec3_neg(light->wi), .radiance = radiance, .triangle = light->triangle,
-        .sr = light->is_delta ? 0 : 1 / (light->pdf * taken->prob),
         .point = light->set == LIGHTS_EMITTERS ? &light->point : NULL, .by = surface, .wo = wo,
         .local_wi = taken->local_wi, .shadow = ray};
     path_gather(path, &found);

@@ -44,8 +44,6 @@ typedef struct PathFound {
                            counts */
     float    share;     /* of xyz that counts */
     float    weight;    /* of an emitter that the path met itself: its MIS weight */
-    float    sr;        /* that a light sample stands for; 0: the path met the light itself, or
-                           it has no extent */
     uint32_t             triangle; /* of an emitter, where `point` is set */
     const TrianglePoint *point;    /* on the emitter; NULL: no emitter */
     const Surface   *met; /* the emitter's surface, if the path met it itself; else NULL */

@@ -35,16 +35,6 @@ double luminance_contrast(double one, double other, double added)
     return darker > 0 ? brighter / darker : brighter > 0 ? (double)INFINITY : 1;
 }
 
-CaseGlare review_glare_unknown(void)
-{
-    const double       none = (double)NAN;
-    const MeanInterval range = {none, none};
-    return (CaseGlare){.dgp = none, .ugr = none, .dgi = none, .dgp_range = range,
-                       .ugr_range = range, .dgi_range = range, .threshold_cd_m2 = none,
-                       .background_cd_m2 = none, .source_lx = none, .smallest_sr = none,
-                       .largest_sr = none};
-}
-
 ReviewCase review_case_unknown(void)
 {
     ReviewCase c = {.limit_id = -1, .verdict = VERDICT_UNJUDGED, .unjudged = UNJUDGED_HIDDEN};
@@ -57,7 +47,6 @@ ReviewCase review_case_unknown(void)
     c.eye_failed_share = c.precision_asked = c.precision_reached = (double)NAN;
     c.glasses_transmittance = 1;
     c.own_reflected = (double)NAN;
-    c.glare = review_glare_unknown();
     c.whole = case_whole_unknown();
     return c;
 }

@@ -163,20 +163,6 @@ typedef struct CaseRemedy {
     Verdict     verdict;        /* the case's with it */
 } CaseRemedy;
 
-/* How much the view disturbs (vision/discomfort.h): secondary figures. */
-typedef struct CaseGlare {
-    double dgp, ugr, dgi;    /* ugr, dgi: NaN where `none` says why */
-    MeanInterval dgp_range, ugr_range, dgi_range; /* 95 % */
-    double threshold_cd_m2;  /* what is brighter was a source */
-    double background_cd_m2; /* mean of all else, by its vertical illuminance */
-    double source_lx;        /* of the sources, on the pupil's plane */
-    double smallest_sr, largest_sr; /* of a source; NaN: none */
-    long   source_count;
-    bool   low_light;        /* DGP has its factor for low light */
-    bool   small_sources;    /* UGR has CIE 147's rule for small sources */
-    const char *none;        /* why there is no UGR; NULL: there is */
-} CaseGlare;
-
 typedef struct CaseLuminances {
     double foreground, background; /* emitted to the eye */
     double reflected;              /* by the part that is judged; all that is reflected */
@@ -255,7 +241,6 @@ typedef struct ReviewCase {
                                     sees of strokes that wide (Barten) */
     const CaseVisibility *visibilities; /* the observer's first; none: nobody asked */
     int     visibility_count;
-    CaseGlare glare;             /* of this gaze */
     long    paths;               /* that what is reflected was read from */
     const double *batches;       /* [CASE_BATCHES] estimates by independent batches of them, cd
                                     m^-2, whose mean is luminance_cd_m2.reflected; NULL: not
@@ -313,8 +298,6 @@ typedef struct ReviewCase {
     int rim_count;
 } ReviewCase;
 
-CaseGlare review_glare_unknown(void); /* all NaN */
-
 /* Does it count, and lie within the interval of its figure? */
 bool limit_is_open(const LimitVerdict *limit);
 
@@ -368,7 +351,6 @@ typedef struct GazeFinding {
     double   contrast_behind_glass; /* what the mirrored light leaves; 1: all */
     double   contrast_left;         /* what that and the veil in the eye leave together */
     MeanInterval contrast_range;    /* of contrast_left */
-    CaseGlare glare;
     GazeRoad *road;          /* it is at a road lit by night; NULL: not stated */
 } GazeFinding;
 

@@ -14,6 +14,7 @@ const RemovedWord removed_words[] = {
                       "they say"},
     {"help", "--completion", "an installation has it for bash; help --json lists options and "
                              "their values"},
+    {"review", "glare", "measure --glare of a fisheye frame of the eye has UGR, DGP and DGI"},
     {"condition", "route", "write its points as conditions with 'when', 'where' and "
                            "'heading_deg'; `parhelion help glare-review` has a script for GPX"},
     {"condition", "when", "state it in 'environment'"},

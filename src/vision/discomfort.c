@@ -28,20 +28,16 @@ void glare_sum_add(GlareSum *sum, double luminance_cd_m2, double sr, double righ
     sum->weight_sr += sr / (p * p);
 }
 
-GlareSource glare_sum_source(const GlareSum *sum, double area_m2)
+GlareSource glare_sum_source(const GlareSum *sum)
 {
-    return (GlareSource){sum->cd_sr_m2 / sum->sr, sum->sr, sqrt(sum->sr / sum->weight_sr),
-                         area_m2};
+    return (GlareSource){sum->cd_sr_m2 / sum->sr, sum->sr, sqrt(sum->sr / sum->weight_sr)};
 }
 
 /* ---- figures ----------------------------------------------------------------------------- */
 
-/* I = L A and w = A/R^2, so that 200 I^2/R^2 = L^2 w A/0.005 m^2. */
-static double squared(const GlareSource *source, bool small_sources)
+static double squared(const GlareSource *source)
 {
-    double full = source->luminance_cd_m2 * source->luminance_cd_m2 * source->solid_angle_sr;
-    bool   is_small = source->area_m2 > 0 && source->area_m2 < GLARE_SOURCE_SMALL_M2;
-    return small_sources && is_small ? full * (source->area_m2 / GLARE_SOURCE_SMALL_M2) : full;
+    return source->luminance_cd_m2 * source->luminance_cd_m2 * source->solid_angle_sr;
 }
 
 /* NaN when an index is none. */
@@ -51,13 +47,11 @@ static double over_index(const GlareSource *source, double value)
     return p >= 1 ? value / (p * p) : NAN;
 }
 
-double discomfort_ugr(double background_cd_m2, const GlareSource *sources, int count,
-                      bool small_sources)
+double discomfort_ugr(double background_cd_m2, const GlareSource *sources, int count)
 {
     double sum = 0;
     if (!(background_cd_m2 > 0)) return NAN;
-    for (int i = 0; i < count; i++)
-        sum += over_index(&sources[i], squared(&sources[i], small_sources));
+    for (int i = 0; i < count; i++) sum += over_index(&sources[i], squared(&sources[i]));
     return 8 * log10_d(0.25 / background_cd_m2 * sum);
 }
 
@@ -71,7 +65,7 @@ double discomfort_dgp(double vertical_lx, const GlareSource *sources, int count)
 {
     double sum = 0;
     if (!(vertical_lx > 0)) return NAN;
-    for (int i = 0; i < count; i++) sum += over_index(&sources[i], squared(&sources[i], false));
+    for (int i = 0; i < count; i++) sum += over_index(&sources[i], squared(&sources[i]));
     double adapted = pow_d(vertical_lx, 1.87);
     double dgp = 5.87e-5 * vertical_lx + 0.092 * log10_d(1 + sum / adapted) + 0.159;
     return dgp < 1 || isnan(dgp) ? dgp : 1;
@@ -105,8 +99,7 @@ GlareFigures discomfort_figures(const GlareSettings *settings, const GlareView *
     if (settings->low_light) f.dgp *= discomfort_dgp_low_light(lux);
     if (f.none == GLARE_NO_SOURCE) return f;
     f.dgi = discomfort_dgi(f.background_cd_m2, view->sources, view->count);
-    f.ugr = discomfort_ugr(f.background_cd_m2, view->sources, view->count,
-                           settings->small_sources);
+    f.ugr = discomfort_ugr(f.background_cd_m2, view->sources, view->count);
     return f;
 }
 

@@ -14,7 +14,7 @@
  * Background   is all light that comes from elsewhere: its vertical illuminance over pi.
  * None         see GlareNone.
  *
- * Units    cd m^-2, sr, lx, m^2.
+ * Units    cd m^-2, sr, lx.
  * Threads  pure functions; sources are only read.
  * Fails    never: NaN where a figure has no meaning.
  */
@@ -28,17 +28,17 @@ typedef struct GlareSettings {
     double task_deg;        /* full width of the cone about the line of sight that is it */
     double peak_cd_m2;      /* what is brighter is a source apart from what surrounds it */
     bool   low_light;       /* DGP times discomfort_dgp_low_light */
-    bool   small_sources;   /* UGR of a source below GLARE_SOURCE_SMALL_M2: CIE 147's rule */
 } GlareSettings;
 
 /* evalglare's (NREL/Radiance): -b 2000, peaks of 50,000 cd/m2; but the low-light factor is on,
- * which evalglare applies on request alone from version 2.14 on. CIE 147's rule is off: CIE 117
- * and evalglare do without. The task's width counts with a task factor only. */
+ * which evalglare applies on request alone from version 2.14 on. CIE 147's rule for small
+ * sources does not apply, as CIE 117 and evalglare do without. The task's width counts with a
+ * task factor only. */
 #define GLARE_THRESHOLD_CD_M2 2000.0
 #define GLARE_TASK_DEG 40.0
 #define GLARE_PEAK_CD_M2 50000.0
 #define GLARE_SETTINGS_DEFAULT \
-    {GLARE_THRESHOLD_CD_M2, 0, GLARE_TASK_DEG, GLARE_PEAK_CD_M2, true, false}
+    {GLARE_THRESHOLD_CD_M2, 0, GLARE_TASK_DEG, GLARE_PEAK_CD_M2, true}
 
 /* task_cd_m2: the task's mean luminance; not used without a task factor. */
 double glare_threshold(const GlareSettings *settings, double task_cd_m2);
@@ -47,11 +47,8 @@ typedef struct GlareSource {
     double luminance_cd_m2;
     double solid_angle_sr;
     double position_index; /* position_index, at least 1 */
-    double area_m2;        /* projected towards the eye; 0: unknown, or not small */
 } GlareSource;
 
-/* CIE 147:2002 speaks of a small source below this projected area. */
-#define GLARE_SOURCE_SMALL_M2 0.005
 /* UGR's range of a source's solid angle (CIE 117-1995). */
 #define UGR_SOLID_ANGLE_MIN_SR 0.0003
 #define UGR_SOLID_ANGLE_MAX_SR 0.1
@@ -71,8 +68,8 @@ typedef struct GlareSum {
 void glare_sum_add(GlareSum *sum, double luminance_cd_m2, double sr, double right, double up,
                    double forward);
 
-/* area_m2: GlareSource's. The sum has a solid angle. */
-GlareSource glare_sum_source(const GlareSum *sum, double area_m2);
+/* The sum has a solid angle. */
+GlareSource glare_sum_source(const GlareSum *sum);
 
 /* ---- figures ----------------------------------------------------------------------------- */
 
@@ -107,12 +104,9 @@ GlareFigures discomfort_figures(const GlareSettings *settings, const GlareView *
 const char *discomfort_none_words(GlareNone none);
 
 /* Unified Glare Rating, CIE 117-1995: 8 log10(0.25/Lb sum L^2 w/P^2). background_cd_m2: Lb, the
- * vertical illuminance at the eye without that of the sources, over pi. small_sources: one of
- * less than GLARE_SOURCE_SMALL_M2 counts by its intensity I and distance R, 200 I^2/R^2 instead
- * of L^2 w (CIE 147:2002, as it is commonly quoted): as though its light came from 0.005 m^2.
- * Without any source -infinity; NaN without a background. */
-double discomfort_ugr(double background_cd_m2, const GlareSource *sources, int count,
-                      bool small_sources);
+ * vertical illuminance at the eye without that of the sources, over pi. Without any source
+ * -infinity; NaN without a background. */
+double discomfort_ugr(double background_cd_m2, const GlareSource *sources, int count);
 
 /* Daylight Glare Probability: 5.87e-5 Ev + 0.092 log10(1 + sum L^2 w/(Ev^1.87 P^2)) + 0.159, at
  * most 1. Ev: vertical illuminance at the eye, all light. J. Wienold and J. Christoffersen,

@@ -8,7 +8,6 @@ Answers are searched for members whose names end with "interval": one for which 
 truth fails. Rooms, each with few samples, as people have them:
     patch      a display in a black box that a small hole lights (black_box.py)
     glint      a gaze by a pane that mirrors a tiny lamp (gaze_intervals.py)
-    image      eyes that see a lamp in a mirror or a pane: discomfort
     frame      frames of the patch's display
     fisheye    half the space with a window (glare.py)
     wall       a wall that a lamp lights by itself and by way of a mirror, which samples find by
@@ -32,7 +31,7 @@ from review import PANEL, Report, Reviewer, moment
 
 SHARE, ONCE_IN = 0.93, 20
 SEEDS, ALL_SEEDS = 3, 200
-FEWER = {"patch": 2, "frame": 2, "image": 1}  # of the first
+FEWER = {"patch": 2, "frame": 2}  # of the first
 ROUNDING = 1e-9  # of a mean over many
 OF_SEEDS = "of seeds"  # a truth that is the mean over seeds of the figure beside the interval
 
@@ -188,9 +187,7 @@ def patch(reviewer, tally, seeds):
                  "/margin_difference_interval": math.log(dim / ratio) / math.log(least),
                  "/limit/interval": ratio, "/judged/interval": ratio,
                  "/limits[contrast_ratio]/interval": ratio,
-                 "/cases/limits*": OF_SEEDS, "/cases/causes*": OF_SEEDS, "/chains*": OF_SEEDS,
-                 "/dgp_interval": OF_SEEDS, "/ugr_interval": OF_SEEDS,
-                 "/dgi_interval": OF_SEEDS}
+                 "/cases/limits*": OF_SEEDS, "/cases/causes*": OF_SEEDS, "/chains*": OF_SEEDS}
         for kind, found in (("review", review), ("explain", ask(
                 reviewer, "explain", "r.json"))):
             causes = found["cases"][0]["causes"] if kind == "review" else found["chains"]
@@ -247,7 +244,7 @@ def seen_in(reviewer, room, panel, name):
 
 
 def fisheye(reviewer, tally, seeds):
-    own = glare.Reviewer(reviewer.program, reviewer.folder)
+    own = glare.Program(reviewer.program, reviewer.folder)
     for seed in range(1, seeds + 1):
         found, wanted = glare.framed(own, seed, 10)
         tally.add("fisheye", found, {
@@ -264,56 +261,11 @@ def glint(reviewer, tally, seeds):
         asked = gaze_intervals.Place(reviewer, place, range(k + 1, seeds + 1, len(places)),
                                      8 if seeds > 3 else 2)
         truth = gaze_intervals.closed(place, asked.dark)
-        discomfort = glint_glare(place, asked.dark["cornea_lx"])
         for review in asked.reviews:
             case = review["cases"][0]
             tally.add(f"glint {k}", {"gazes": review["gazes"]}, {
-                **{f"/{name}_interval": value for name, value in truth.items()},
-                **{f"/{name}_interval": value for name, value in discomfort.items()}})
-            tally.add(f"glint {k}", {"case": case}, {
-                "/case*": OF_SEEDS, **{f"/{n}_interval": OF_SEEDS for n in discomfort}})
-
-
-def glint_glare(place, around_lx):
-    """Of the gaze: the lamp's image in a field of SKY cd/m2, but for the display."""
-    at = [place[0], place[1], -2 - gaze_intervals.BEHIND]
-    sr = gaze_intervals.SIDE ** 2 * -unit(at)[2] / dot(at, at)
-    disc = glare.Disc(glare.in_head(at, gaze_intervals.GAZE),
-                      2 * math.degrees(math.acos(1 - sr / 2 / math.pi)),
-                      gaze_intervals.R * gaze_intervals.LAMP)
-    found = glare.figures(gaze_intervals.SKY, [disc], around_lx=around_lx)
-    return {k: found[k] for k in ("ugr", "dgp", "dgi")}
-
-
-IMAGES = ((0.02, 1e8), (0.1, 1e6), (0.5, 2e5), (2, 3e4))  # degrees wide, cd/m2 of the image
-FIELD, FAR = 300, 10  # cd/m2; m, of the image
-LOOKS = [glare.turned(-12, -8), glare.turned(20, -15), glare.turned(2, 35)]
-EYE = (0, 0.3, -0.5)
-CHROME = 0.9
-
-
-def image(reviewer, tally, seeds):
-    """A lamp behind the eye, in a pane or a chrome plate one metre before it."""
-    own = glare.Reviewer(reviewer.program, reviewer.folder)
-    for seed in range(1, seeds + 1):
-        for k, (width, luminance) in enumerate(IMAGES):
-            is_pane = (seed + k) % 2
-            scene = Scene()
-            side, share = (1.2, gaze_intervals.R) if is_pane else (0.3, CHROME)
-            mirror = scene.window(1.5) if is_pane else scene.metal(CHROME)
-            scene.quad(mirror, [-side / 2, EYE[1] - side / 2, EYE[2] - 1], [side, 0, 0],
-                       [0, side, 0])
-            scene.sphere(scene.emitter(luminance / share), [0, EYE[1], EYE[2] - 2 + FAR],
-                         FAR * math.sin(math.radians(width / 2)), rings=32)
-            found = glare.gazes(own, scene, LOOKS, {"even": FIELD}, eye=EYE,
-                                precision={"contrast": 0.2, "seed": seed})
-            for gaze in found:
-                disc = glare.Disc(glare.in_head([0, 0, -1], LOOKS[int(gaze["gaze"][1:])]),
-                                  width, luminance)
-                wanted = glare.figures(FIELD, [disc])
-                told = {n: gaze[n] for n in gaze if n[:3] in ("ugr", "dgp", "dgi")}
-                tally.add(f"image of {width} degrees", told, {
-                    f"/{n}_interval": wanted[n] for n in ("ugr", "dgp", "dgi")})
+                f"/{name}_interval": value for name, value in truth.items()})
+            tally.add(f"glint {k}", {"case": case}, {"/case*": OF_SEEDS})
 
 
 # ---- a lamp and its image on a wall ---------------------------------------------------------
@@ -371,8 +323,7 @@ def wall(reviewer, tally, seeds):
             tally.add(name, told, {"/illuminance_interval": wall_lux(at, side)})
 
 
-ROOMS = {"patch": patch, "frame": frame, "fisheye": fisheye, "glint": glint, "image": image,
-         "wall": wall}
+ROOMS = {"patch": patch, "frame": frame, "fisheye": fisheye, "glint": glint, "wall": wall}
 
 
 def main(words):

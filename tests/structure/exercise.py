@@ -87,7 +87,7 @@ EXERCISES = {
           '    LATER("stroke_arcmin", FIGURE, ReviewCase, stroke_arcmin),\n'),
          ("assets/schemas/json_answers.md", "`height_arcmin`, `stroke_ratio` (stroke",
           "`stroke_arcmin`, "),
-         ("tests/unit/test_review_output.c", '"stroke_ratio", "dgi",', '"stroke_arcmin", '),
+         ("tests/unit/test_review_output.c", '"stroke_ratio", "rests_on",', '"stroke_arcmin", '),
          ("assets/pages/card.html", "    {{#height_arcmin}}\n",
           "    {{#stroke_arcmin}}\n    <dt>Stroke</dt><dd>{{stroke_arcmin|figure}} arc minutes"
           "</dd>\n    {{/stroke_arcmin}}\n")],

@@ -5,7 +5,7 @@
 #include "review/export/review_junit.h"
 #include "review_page_fixture.h"
 
-enum { CSV_COLUMNS = 61, CSV_COLUMNS_MOST = 69 };
+enum { CSV_COLUMNS = 46, CSV_COLUMNS_MOST = 54 };
 
 /* One record of RFC 4180 into cells; what follows it. */
 static const char *read_record(const char *at, const char *cell[CSV_COLUMNS_MOST], int *count)
@@ -52,11 +52,8 @@ static void assert_csv_says(const Review *review)
     assert_int_equal(count, CSV_COLUMNS);
     assert_string_equal(header[9], "reflected_cd_m2");
     assert_string_equal(header[13], "contrast_ratio");
-    assert_string_equal(header[24], "ugr");
-    assert_string_equal(header[25], "eye_failed_share");
-    assert_string_equal(header[31], "margin");
-    assert_string_equal(header[43], "dgi");
-    assert_string_equal(header[51], "smallest_source_sr");
+    assert_string_equal(header[23], "eye_failed_share");
+    assert_string_equal(header[29], "margin");
     assert_string_equal(header[CSV_COLUMNS - 1], "lit_share");
     for (int i = 0; i < review->case_count; i++) {
         const ReviewCase *c = &review->cases[i];
@@ -66,25 +63,19 @@ static void assert_csv_says(const Review *review)
         assert_names(cell[2], c->symbol);
         assert_same(c->luminance_cd_m2.reflected, number_of(cell[9]));
         assert_same(c->contrast_ratio, number_of(cell[13]));
-        assert_same(c->glare.ugr, number_of(cell[24]));
-        assert_same(c->eye_failed_share, number_of(cell[25]));
+        assert_same(c->eye_failed_share, number_of(cell[23]));
         const LimitVerdict *limit = case_worst_limit(c);
-        assert_same(limit ? limit->margin : (double)NAN, number_of(cell[31]));
-        assert_string_equal(cell[34], verdict_names[c->verdict]);
-        assert_names(cell[37], c->hider_count ? c->hiders[0].what : NULL);
-        assert_same(c->hider_count ? c->hiders[0].share : (double)NAN, number_of(cell[38]));
-        assert_same(c->glare.dgp_range.low, number_of(cell[39]));
-        assert_same(c->glare.ugr_range.high, number_of(cell[42]));
-        assert_same(c->glare.dgi, number_of(cell[43]));
-        assert_same((double)c->glare.source_count, number_of(cell[48]));
-        assert_names(cell[50], c->glare.none);
-        assert_same(limit ? limit->found : (double)NAN, number_of(cell[52]));
-        assert_same(limit ? limit->high : (double)NAN, number_of(cell[54]));
-        assert_same(c->stroke_ratio, number_of(cell[56]));
-        assert_string_equal(cell[57], c->unjudged ? unjudged_names[c->unjudged] : "");
-        assert_same(c->whole.reflected, number_of(cell[58]));
-        assert_same(c->whole.contrast_ratio, number_of(cell[59]));
-        assert_same(c->whole.lit_share, number_of(cell[60]));
+        assert_same(limit ? limit->margin : (double)NAN, number_of(cell[29]));
+        assert_string_equal(cell[32], verdict_names[c->verdict]);
+        assert_names(cell[35], c->hider_count ? c->hiders[0].what : NULL);
+        assert_same(c->hider_count ? c->hiders[0].share : (double)NAN, number_of(cell[36]));
+        assert_same(limit ? limit->found : (double)NAN, number_of(cell[37]));
+        assert_same(limit ? limit->high : (double)NAN, number_of(cell[39]));
+        assert_same(c->stroke_ratio, number_of(cell[41]));
+        assert_string_equal(cell[42], c->unjudged ? unjudged_names[c->unjudged] : "");
+        assert_same(c->whole.reflected, number_of(cell[43]));
+        assert_same(c->whole.contrast_ratio, number_of(cell[44]));
+        assert_same(c->whole.lit_share, number_of(cell[45]));
     }
     assert_int_equal(*at, 0);
 }
@@ -105,10 +96,7 @@ static void assert_gaze_csv_says(const Review *review)
         assert_same(g->veil_parts.near, number_of(cell[12]));
         assert_same(g->mirrored_range.low, number_of(cell[16]));
         assert_names(cell[18], g->mirrored_by);
-        assert_same(g->contrast_left, number_of(cell[25]));
-        assert_same(g->glare.ugr_range.low, number_of(cell[28]));
-        assert_same(g->glare.dgi_range.high, number_of(cell[32]));
-        assert_names(cell[columns - 2], g->glare.none);
+        assert_same(g->contrast_left, number_of(cell[23]));
     }
     assert_int_equal(*at, 0);
 }

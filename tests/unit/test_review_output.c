@@ -95,12 +95,7 @@ static const Member CASE[] = {
     OF(TEXT, when), OF(WHOLE, ambient), OF(WHOLE, has_sun), OF(NUMBER, contrast_ratio),
     OF(NUMBER, contrast_low), OF(NUMBER, contrast_high), OF(WHOLE, paths),
     OF(NUMBER, contrast_with_veil), OF(NUMBER, height_arcmin), OF(NUMBER, jnd),
-    OF(NUMBER, visibility), OF(NUMBER, glare.dgp), OF(NUMBER, glare.ugr),
-    OF(NUMBER, glare.dgi), OF(NUMBER, glare.dgp_range.low), OF(NUMBER, glare.ugr_range.high),
-    OF(NUMBER, glare.dgi_range.low), OF(NUMBER, glare.threshold_cd_m2),
-    OF(NUMBER, glare.background_cd_m2), OF(NUMBER, glare.source_lx),
-    OF(NUMBER, glare.smallest_sr), OF(NUMBER, glare.largest_sr),
-    OF(WHOLE, glare.source_count), OF(WHOLE, glare.low_light), OF(TEXT, glare.none),
+    OF(NUMBER, visibility),
     OF(NUMBER, eye_failed_share),
     OF(NUMBER, whole.reflected), OF(NUMBER, whole.reflected_range.low),
     OF(NUMBER, whole.reflected_range.high), OF(NUMBER, whole.contrast_ratio),
@@ -125,12 +120,6 @@ static const Member GAZE[] = {
     OF(TEXT, mirrored_from), OF(NUMBER, sun_deg), OF(NUMBER, veil), OF(NUMBER, cornea_lux),
     OF(NUMBER, through), OF(NUMBER, mirrored), OF(NUMBER, contrast_behind_glass),
     OF(NUMBER, contrast_left),
-    OF(NUMBER, glare.dgp), OF(NUMBER, glare.ugr), OF(NUMBER, glare.dgi),
-    OF(NUMBER, glare.dgp_range.low), OF(NUMBER, glare.ugr_range.high),
-    OF(NUMBER, glare.dgi_range.low), OF(NUMBER, glare.threshold_cd_m2),
-    OF(NUMBER, glare.background_cd_m2), OF(NUMBER, glare.source_lx),
-    OF(NUMBER, glare.smallest_sr), OF(NUMBER, glare.largest_sr),
-    OF(WHOLE, glare.source_count), OF(WHOLE, glare.low_light), OF(TEXT, glare.none),
     OF(NUMBER, veil_range.low),
     OF(NUMBER, veil_range.high), OF(NUMBER, mirrored_range.low),
     OF(NUMBER, mirrored_range.high),
@@ -241,7 +230,7 @@ TEST(json_has_the_promised_keys)
         "contrast_ratio", "contrast_interval", "reflected_interval",
         "precision_asked", "precision_reached",
         "paths", "contrast_with_veil", "height_arcmin",
-        "jnd", "visibility", "dgp", "ugr", "when", "visible_share", "hidden_by",
+        "jnd", "visibility", "when", "visible_share", "hidden_by",
         "eye_failed_share", "level", "display_lux", "limit", "limits", "margin", "verdict",
         "causes", "guessed_share", "extrapolated_share", "without_data_share", "empty_seat",
         "empty_seat_share",
@@ -308,8 +297,7 @@ static bool is_optional(const char *key, const json_t *object)
                                         "without_data_share", "without_data", "hidden_by",
                                         "without_data_share_most", "eye_places", "then",
                                         "judged", "reason", "optional", "panel", "panels",
-                                        "stroke_ratio", "dgi", "dgp_interval",
-                                        "ugr_interval", "dgi_interval", "glare", "rests_on",
+                                        "stroke_ratio", "rests_on",
                                         "rests_on_line", "inputs", "guessed_share",
                                         "extrapolated_share", "spectra_assumed",
                                         "empty_seat", "empty_seat_share",
@@ -368,7 +356,7 @@ TEST(every_key_is_wanted)
     json_t *all[] = {sweep, response, image, json_object_get(image, "sun"), gaze,
                      json_object_get(gaze, "veil_parts_cd_m2")};
     for (int i = 0; i < 6; i++) count += assert_keys_are_wanted(root, all[i]);
-    assert_int_equal(count, 10 + 28 + 2 + 6 + 12 + 5 + 3 + 8 + 5 + 12 + 2 + 18 + 6);
+    assert_int_equal(count, 10 + 26 + 2 + 6 + 12 + 5 + 3 + 8 + 5 + 12 + 2 + 16 + 6);
 }
 
 /* ---- JUnit ------------------------------------------------------------------------------ */

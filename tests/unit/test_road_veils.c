@@ -11,8 +11,7 @@
 
 #define ROUNDS 2
 
-static const ReviewRequest request = {.forward = {0, 0, -1}, .observer = {50, 0.5},
-                                      .glare = GLARE_SETTINGS_DEFAULT};
+static const ReviewRequest request = {.forward = {0, 0, -1}, .observer = {50, 0.5}};
 static const double AGES[] = {25, 70};
 
 static RoadReading read_road(World *world)

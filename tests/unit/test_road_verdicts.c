@@ -20,8 +20,7 @@
 static const double       AGE = 50;
 static const ReviewRoad   road = {.luminance_cd_m2 = 0.3, .s_p = NAN, .ages = &AGE,
                                   .age_count = 1};
-static ReviewRequest      request = {.forward = {0, 0, -1}, .observer = {50, 0.5},
-                                     .glare = GLARE_SETTINGS_DEFAULT};
+static ReviewRequest      request = {.forward = {0, 0, -1}, .observer = {50, 0.5}};
 
 /* A lamp above the gaze, before an even sky that is everywhere. */
 static World night_world(void)

@@ -133,48 +133,30 @@ TEST(position_index_of_a_direction)
 
 TEST(ugr_has_its_value)
 {
-    const GlareSource one = {5000, 0.01, 1.5, 0}, two[] = {one, one};
-    assert_close(discomfort_ugr(40, &one, 1, false), 22.7331, 3e-6);
-    assert_close(discomfort_ugr(40, two, 2, false), 22.7331 + 8 * log10(2), 3e-6);
-    assert_true(discomfort_ugr(40, NULL, 0, false) == -INFINITY);
-    assert_true(isnan(discomfort_ugr(0, &one, 1, false)));
-    assert_true(isnan(discomfort_ugr(40, &(GlareSource){5000, 0.01, 0.5, 0}, 1, false)));
-}
-
-/* 200 I^2/R^2 in place of L^2 w; at 0.005 m^2 the two are the same. */
-TEST(small_sources_count_by_their_intensity)
-{
-    const double area = 0.002, distance = 1.7, luminance = 30000;
-    GlareSource small = {luminance, area / (distance * distance), 1, area};
-    double intensity = luminance * area;
-    double squared = intensity / distance * (intensity / distance);
-    assert_close(discomfort_ugr(40, &small, 1, true), 8 * log10(0.25 / 40 * 200 * squared),
-                 1e-12);
-    small.area_m2 = 0.00499999;
-    GlareSource plain = small;
-    plain.area_m2 = 0;
-    assert_close(discomfort_ugr(40, &small, 1, true), discomfort_ugr(40, &plain, 1, true),
-                 1e-6);
-    small.area_m2 = 0.2;
-    assert_near(discomfort_ugr(40, &small, 1, true), discomfort_ugr(40, &plain, 1, true), 0);
+    const GlareSource one = {5000, 0.01, 1.5}, two[] = {one, one};
+    assert_close(discomfort_ugr(40, &one, 1), 22.7331, 3e-6);
+    assert_close(discomfort_ugr(40, two, 2), 22.7331 + 8 * log10(2), 3e-6);
+    assert_true(discomfort_ugr(40, NULL, 0) == -INFINITY);
+    assert_true(isnan(discomfort_ugr(0, &one, 1)));
+    assert_true(isnan(discomfort_ugr(40, &(GlareSource){5000, 0.01, 0.5}, 1)));
 }
 
 TEST(dgp_has_its_values)
 {
-    const GlareSource source = {1e5, 0.001, 1.5, 0};
+    const GlareSource source = {1e5, 0.001, 1.5};
     assert_close(discomfort_dgp(3000, NULL, 0), 0.335100, 2e-6);
     assert_close(discomfort_dgp(3000, &source, 1), 0.370051, 2e-6);
     assert_close(discomfort_dgp(200, NULL, 0), 0.17074, 4e-6);
     assert_close(discomfort_dgp(200, NULL, 0) * discomfort_dgp_low_light(200), 0.117806, 4e-6);
     assert_near(discomfort_dgp(50000, NULL, 0), 1, 0);
     assert_true(isnan(discomfort_dgp(0, NULL, 0)));
-    assert_true(isnan(discomfort_dgp(3000, &(GlareSource){1e5, 0.001, 0.9, 0}, 1)));
+    assert_true(isnan(discomfort_dgp(3000, &(GlareSource){1e5, 0.001, 0.9}, 1)));
 }
 
 /* Hopkinson's formula as evalglare has it, worked by hand: 1.5^2 = 2.25. */
 TEST(dgi_has_its_value)
 {
-    const GlareSource one = {5000, 0.01, 1.5, 0}, two[] = {one, one};
+    const GlareSource one = {5000, 0.01, 1.5}, two[] = {one, one};
     double term = 0.478 * pow(5000, 1.6) * pow(0.01 / 2.25, 0.8) / (40 + 0.07 * 0.1 * 5000);
     assert_close(discomfort_dgi(40, &one, 1), 10 * log10(term), 1e-12);
     assert_close(discomfort_dgi(40, &one, 1), 18.40973, 3e-5);
@@ -186,7 +168,7 @@ TEST(dgi_has_its_value)
 TEST(figures_say_why_one_is_none)
 {
     const GlareSettings set = GLARE_SETTINGS_DEFAULT;
-    const GlareSource   one = {5000, 0.01, 1.5, 0};
+    const GlareSource   one = {5000, 0.01, 1.5};
     GlareFigures all = discomfort_figures(&set, &(GlareView){&one, 1, 45, 40 * PI});
     GlareFigures sources = discomfort_figures(&set, &(GlareView){&one, 1, 45, 0});
     GlareFigures even = discomfort_figures(&set, &(GlareView){NULL, 0, 0, 200});
@@ -208,17 +190,14 @@ TEST(figures_say_why_one_is_none)
 TEST(figures_heed_their_settings)
 {
     GlareSettings     set = GLARE_SETTINGS_DEFAULT;
-    const GlareSource small = {5000, 0.01, 1.5, 0.0025};
-    const GlareView   view = {&small, 1, 45, 155};
+    const GlareSource one = {5000, 0.01, 1.5};
+    const GlareView   view = {&one, 1, 45, 155};
     double with = discomfort_figures(&set, &view).dgp;
-    double plain = discomfort_figures(&set, &view).ugr;
     assert_near(glare_threshold(&set, 300), 2000, 0);
     set.low_light = false;
-    set.small_sources = true;
     set.task_factor = 5;
     assert_close(discomfort_figures(&set, &view).dgp * discomfort_dgp_low_light(200), with,
                  1e-12);
-    assert_close(discomfort_figures(&set, &view).ugr, plain + 8 * log10(0.5), 1e-12);
     assert_near(glare_threshold(&set, 300), 1500, 0);
 }
 
@@ -230,14 +209,14 @@ TEST(a_source_is_the_sum_of_its_pieces)
     glare_sum_add(&sum, 300, 0.01, 0, sin(s), cos(s));
     glare_sum_add(&sum, 900, 0.02, sin(t), 0, cos(t));
     glare_sum_add(&sum, 1e9, 0.02, 0, 0.6, -0.8);
-    GlareSource source = glare_sum_source(&sum, 0);
+    GlareSource source = glare_sum_source(&sum);
     double p = position_index(0, sin(s), cos(s)), q = position_index(sin(t), 0, cos(t));
     assert_close(source.solid_angle_sr, 0.03, 1e-12);
     assert_close(source.luminance_cd_m2, 700, 1e-12);
     assert_close(pow(source.position_index, -2) * 0.03, 0.01 / (p * p) + 0.02 / (q * q), 1e-12);
     assert_close(sum.lx, 3 * cos(s) + 18 * cos(t), 1e-12);
     glare_sum_add(&one, 700, 0.01, 0, sin(s), cos(s));
-    assert_close(glare_sum_source(&one, 0.1).position_index, p, 1e-12);
+    assert_close(glare_sum_source(&one).position_index, p, 1e-12);
 }
 
 TEST(dgp_is_less_in_low_light)

@@ -28,19 +28,6 @@ static const FixtureLight FIXTURE_LIGHTS[] = {
     {"noon", AMBIENT_SUN, 178.4, 62.1, 96, 212, 18, 1, 41000},
     {"low sun behind", AMBIENT_SUN, 262.5, 11.4, 402, 118, 7, 1, 18500}};
 
-static inline CaseGlare fixture_glare(double dgp, double ugr)
-{
-    bool has_ugr = isfinite(ugr);
-    return (CaseGlare){.dgp = dgp, .ugr = ugr, .dgi = has_ugr ? ugr - 2 : NAN,
-                       .dgp_range = {dgp - 0.01, dgp + 0.01},
-                       .ugr_range = {has_ugr ? ugr - 0.25 : NAN, has_ugr ? ugr + 0.5 : NAN},
-                       .dgi_range = {has_ugr ? ugr - 2.25 : NAN, has_ugr ? ugr - 1 : NAN},
-                       .threshold_cd_m2 = 2000, .background_cd_m2 = 40.5, .source_lx = 75.25,
-                       .smallest_sr = 0.00025, .largest_sr = 0.0125,
-                       .source_count = has_ugr * 3, .low_light = has_ugr,
-                       .none = has_ugr ? NULL : "no source is brighter than the threshold"};
-}
-
 static inline const char *const *fixture_chain(Arena *arena, const char *first,
                                                const char *second, const char *third)
 {
@@ -140,7 +127,7 @@ static inline ReviewCase fixture_case(Arena *arena, const FixtureLight *light, c
                   (bright + 0.8 * reflected) / (dark + 0.8 * reflected), 0.79},
         .paths = 4096, .height_arcmin = 11 + white_cd_m2 / 100, .stroke_ratio = 0.14,
         .jnd = 212, .visibility = 41.5,
-        .glare = fixture_glare(0.21, 17.25), .visible_share = 1, .eye_failed_share = 0.125,
+        .visible_share = 1, .eye_failed_share = 0.125,
         .level = light->level, .display_lux = light->lux, .limit_count = 3, .limit_id = 0,
         .cause_count = 3, .remedy_count = 2};
     double veiled = reflected + light->veil;
@@ -183,8 +170,7 @@ static inline void fixture_gazes(Arena *arena, Review *review)
                          .veil_parts = {i == 1 ? 5100 : 0, 0.4 * REST[i], 0.1 * REST[i],
                                         0.1 * REST[i], 0.3 * REST[i], 0.1 * REST[i]},
                          .through = THROUGH[i], .mirrored = MIRRORED[i],
-                         .cornea_lux = 3 * THROUGH[i],
-                         .glare = fixture_glare(0.2 + 0.2 * i, 18.5)};
+                         .cornea_lux = 3 * THROUGH[i]};
         g.veil = g.veil_parts.sun + REST[i];
         g.veil_range = (MeanInterval){0.98 * g.veil, 1.02 * g.veil};
         g.mirrored_range = (MeanInterval){0.99 * g.mirrored, 1.01 * g.mirrored};
@@ -288,7 +274,7 @@ static inline Review fixture_odd_review(Arena *arena)
                        .contrast_ratio = NAN, .contrast_low = NAN, .contrast_high = NAN,
                        .contrast_with_veil = NAN, .height_arcmin = NAN, .stroke_ratio = NAN,
                        .jnd = NAN,
-                       .visibility = NAN, .glare = fixture_glare(NAN, -INFINITY),
+                       .visibility = NAN,
                        .eye_failed_share = NAN, .when = WILD_NAME,
                        .visible_share = NAN, .level = NAN, .display_lux = NAN,
                        .limits = LIMITS, .limit_count = 2, .limit_id = 1, .margin = NAN,
@@ -302,10 +288,9 @@ static inline Review fixture_odd_review(Arena *arena)
                        .verdict = VERDICT_PASS};
     static GazeFinding gazes[] = {
         {WILD_NAME, WILD_NAME, WILD_NAME, 0, 1e-9, {NAN, 1e9}, {NAN, 0, 1e-12, -0.0, 1e9, 3},
-         NAN, 0, 1e12, {NAN, NAN}, WILD_NAME, WILD_NAME, 0, NAN, {NAN, NAN},
-         {.dgp = NAN, .ugr = -INFINITY, .dgi = NAN, .none = WILD_NAME}, NULL},
+         NAN, 0, 1e12, {NAN, NAN}, WILD_NAME, WILD_NAME, 0, NAN, {NAN, NAN}, NULL},
         {"", NULL, "", NAN, 0, {0, 0}, {0, 0, 0, 0, 0, 0}, 0, 0, 0, {0, 0}, NULL, NULL, NAN, 0,
-         {0, 1}, {.dgp = 0, .ugr = NAN, .dgi = -3}, NULL}};
+         {0, 1}, NULL}};
     Review review = {.title = WILD_NAME, .profile = WILD_NAME,
                      .cases = ARENA_NEW(arena, ReviewCase, 2), .case_count = 2,
                      .sweeps = ARENA_NEW(arena, ReviewSweep, 1), .sweep_count = 1,

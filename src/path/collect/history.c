@@ -69,40 +69,18 @@ static void turn(PathCollector *c, PathState *path, const Surface *surface, Vec3
                             spectrum_max_lane(path->throughput));
 }
 
-/* Of a lit surface the sun alone is sampled, or nothing. */
 static bool sample_less(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
                         const Guiding *guiding)
 {
-    static const float SUN_ALONE[LIGHT_CHOICES] = {[LIGHTS_SUN] = 1};
-    PathReach          reach = ((HistoryCollector *)c)->listener->reach;
-    (void)surface, (void)wo, (void)guiding;
-    if (reach == PATH_TO_SUNLIT_SURFACE) path->spare->asked = SUN_ALONE;
-    return reach == PATH_TO_SURFACE || reach >= PATH_BY_MIRRORS;
+    (void)path, (void)surface, (void)wo, (void)guiding;
+    return ((HistoryCollector *)c)->listener->reach == PATH_BY_MIRRORS;
 }
 
 static bool refuse_beyond(PathCollector *c, PathState *path, const Surface *surface,
                           const BsdfSample *next)
 {
-    bool      is_across = next->is_delta && next->wi.z * surface->local_wo.z < 0;
-    PathReach reach = ((HistoryCollector *)c)->listener->reach;
-    (void)path;
-    if (reach >= PATH_BY_MIRRORS) return !next->is_delta;
-    return reach != PATH_TO_ITS_END && !is_across;
-}
-
-/* What lies behind something opaque is not seen: chance need not choose its mirror. */
-static bool choose_mirror(PathCollector *c, PathState *path, const Surface *surface,
-                          BsdfSample *next)
-{
-    const Bsdf *bsdf = &surface->bsdf;
-    Vec3 wo = surface->local_wo;
-    (void)path;
-    if (((HistoryCollector *)c)->listener->reach != PATH_BY_SURE_MIRRORS ||
-        bsdf_is(bsdf, BSDF_REFRACTS) || !spectrum_is_zero(bsdf_pass(bsdf, wo)))
-        return false;
-    *next = (BsdfSample){.wi = vec3(-wo.x, -wo.y, wo.z), .pdf = 1, .is_delta = true,
-                         .weight = bsdf_mirror(bsdf, wo)};
-    return !spectrum_is_zero(next->weight);
+    (void)path, (void)surface;
+    return ((HistoryCollector *)c)->listener->reach == PATH_BY_MIRRORS && !next->is_delta;
 }
 
 /* ---- light ------------------------------------------------------------------------------- */
@@ -154,7 +132,6 @@ static void on_light(PathCollector *c, PathState *path, const PathFound *found)
     history.source_id = found->source_id;
     history.from = found->from;
     history.is_distant = found->is_distant;
-    history.sr = found->sr;
     history.lanes = found->xyz && !listener->with_lanes ? NULL : (const float *)&lanes;
     history.wavelengths = path->wavelengths;
     path_light_to_xyz(&light, path->wavelengths, xyz);
@@ -165,7 +142,7 @@ HistoryCollector history_collector(const PathListener *listener, PathCollector *
 {
     static const CollectorKind kind = {
         .size = sizeof(HistoryCollector),
-        .steer = {.vertex = sample_less, .choose = choose_mirror, .refuse = refuse_beyond},
+        .steer = {.vertex = sample_less, .refuse = refuse_beyond},
         .start = start, .meet = meet, .behind = behind, .turn = turn, .on_light = on_light};
     return (HistoryCollector){{&kind, next}, history_start(), listener, NULL};
 }

@@ -36,8 +36,6 @@ typedef struct PathHistory {
     bool     is_distant;
     bool     is_extrapolated;       /* the first step sent it on as its panel extrapolates it
                                        (bsdf_is_extrapolated); only where that is requested */
-    float    sr;                    /* of the field of view, that a light sample stands for; 0:
-                                       the path met the light itself, or it has no extent */
     const float       *lanes;       /* its radiance, W m^-2 sr^-1 nm^-1 per lane; of a display
                                        that is seen by its measured XYZ NULL, unless
                                        requested */
@@ -52,15 +50,9 @@ static inline int path_steps_kept(const PathHistory *history)
 /* How far a listener's paths go. Through clear solids they always go on. */
 typedef enum PathReach {
     PATH_TO_ITS_END,
-    PATH_TO_SUNLIT_SURFACE, /* until a surface scatters or mirrors, which samples the sun
-                               alone */
-    PATH_TO_SURFACE,        /* or nobody */
-    PATH_BY_MIRRORS,        /* from mirror to mirror and through panes, of which thin ones show
-                               both ways always, until a surface scatters; that samples none:
-                               all light that comes without being scattered, for little time */
-    PATH_BY_SURE_MIRRORS    /* the same, but what is opaque and mirrors always does, by as much
-                               as it mirrors: what a ray finds is no matter of chance. A coat
-                               whose normals are others than its base's is left out */
+    PATH_BY_MIRRORS  /* from mirror to mirror and through panes, of which thin ones show both
+                        ways always, until a surface scatters; that samples none: all light
+                        that comes without being scattered, for little time */
 } PathReach;
 
 typedef struct PathListener {

@@ -8,9 +8,7 @@
 #include "base/parallel.h"
 #include "base/units.h"
 #include "estimate/estimate.h"
-#include "review/eye/glare_field.h"
-#include "review/eye/glare_reading.h"
-#include "review/eye/lamp_images.h"
+#include "review/eye/unmet_lamps.h"
 #include "review/light/reading.h"
 #include "vision/eye_spread.h"
 #include "vision/road_glare.h"
@@ -23,17 +21,13 @@
 #define TO_DEG 89.9
 #define BY_SPREAD (-1.0) /* no age of a road's veil */
 #define IMAGES_APART 2 /* roots of what a path stands for: its neighbours are nearer */
-#define UPRIGHT 0.9999f /* |y| of a unit direction: above it the head has no top */
 
 /* The light that one path finds. The veil of lamps, displays and the sun that the eye sees by
  * themselves is read by light samples, which find small ones too. */
 typedef struct EyePath {
-    double seen;               /* cd m^-2, without the sun's disc; */
-    double apart[EYE_SOURCES]; /* of it, the part that light samples do not read; */
+    double apart[EYE_SOURCES]; /* cd m^-2 that light samples do not read; */
     double shown;              /* and what lamps and displays show by themselves; */
-    double told;               /* of the latter, what the rays of glare_field.h show; */
     double images;             /* and of the glints the sun's */
-    double mirrored;           /* and of bright lamps those that lamp_images.h reports */
     int    lamp;               /* part that was met by mirrors; NO_ID: none */
     float  share;              /* that its last mirror lets the eye see of what lies there: */
     Ray    image;              /* (0: it met none) */
@@ -45,14 +39,12 @@ typedef struct EyePaths {
     const Setup *setup;
     ProbeAim     aim;
     int          count;           /* paths of all rounds */
-    Vec3         gaze, right, up; /* unit: the head's axes */
+    Vec3         gaze;            /* unit */
     HumanEye     whose;
     Vec3        *targets;         /* one a path; the rest likewise: */
     double      *solid_angles;    /* sr that it stands for */
     EyePath     *found;
-    GlareSample *samples[LIGHT_SETS]; /* of the pupil's plane, likewise */
     const FalseSuns *images;
-    BrightLamps  lamps;
     double       close_deg;       /* nearer to the gaze lamps are read by paths; 0: nowhere */
     RoadVeils   *road; /* or NULL */
 } EyePaths;
@@ -106,10 +98,9 @@ static EyeSource source_of(const PathHistory *history)
 
 /* One path at work. */
 typedef struct EyeListener {
-    EyePath           *path;
-    const BrightLamps *lamps;
-    RoadVeils         *road; /* or NULL */
-    int                id;   /* the path's */
+    EyePath   *path;
+    RoadVeils *road; /* or NULL */
+    int        id;   /* the path's */
 } EyeListener;
 
 static void add_found(void *user, const PathHistory *history, const float xyz[3])
@@ -118,14 +109,11 @@ static void add_found(void *user, const PathHistory *history, const float xyz[3]
     EyePath           *path = listener->path;
     bool     is_direct = history->count == 0;
     if (is_direct && history->source == LIGHTS_SUN) return;
-    path->seen += (double)xyz[1];
     if (listener->road && (!is_direct || history->source == LIGHTS_SKY))
         road_light_add(listener->road, listener->id, history, (double)xyz[1]);
     if (!is_direct || history->source == LIGHTS_SKY)
         path->apart[source_of(history)] += (double)xyz[1];
     if (is_direct && history->source == LIGHTS_EMITTERS) path->shown += (double)xyz[1];
-    if (glare_field_tells(history)) path->told += (double)xyz[1];
-    if (bright_lamps_tell(listener->lamps, history)) path->mirrored += (double)xyz[1];
     if (source_of(history) != EYE_GLINTS) return;
     if (history->source == LIGHTS_SUN) path->images += (double)xyz[1];
     if (history->source == LIGHTS_EMITTERS) path->lamp = history->source_id;
@@ -147,7 +135,7 @@ static void read_chunk(void *user, int item, int worker)
     EyePaths      *paths = user;
     PathStatistics statistics = {0};
     for (int i = item * CHUNK; i < (item + 1) * CHUNK; i++) {
-        EyeListener  own = {&paths->found[i], &paths->lamps, paths->road, i};
+        EyeListener  own = {&paths->found[i], paths->road, i};
         PathListener listener = {.on_light = add_found, .on_mirror = note_mirror, .user = &own};
         paths->found[i].lamp = NO_ID;
         paths->setup->tools.kernel->trace(&paths->aim, i, i + 1, &listener, &statistics);
@@ -159,7 +147,6 @@ static void read_chunk(void *user, int item, int worker)
 /* Sums over the pupil's light samples. */
 typedef struct PupilSums {
     const EyePaths *paths;
-    int             path; /* at work */
     double          sun_veil, lamp_veil, sun_lx, lamp_lx;
 } PupilSums;
 
@@ -185,8 +172,6 @@ static void add_to_pupil(void *user, const PathHistory *history, const float xyz
 {
     PupilSums *sums = user;
     bool       is_sun = history->source == LIGHTS_SUN;
-    glare_sample_note(history, xyz[1], sums->paths->aim.eye,
-                      &sums->paths->samples[history->source][sums->path]);
     if (history->count || history->source == LIGHTS_SKY) return;
     *(is_sun ? &sums->sun_lx : &sums->lamp_lx) += (double)xyz[1];
     if (history->source == LIGHTS_EMITTERS && is_close(sums->paths, history->towards)) return;
@@ -208,10 +193,8 @@ static void read_pupil_chunk(void *user, int item, int worker)
     PupilSums     *sums = &work->sums[item];
     PathListener   listener = {.on_light = add_to_pupil, .user = sums};
     *sums = (PupilSums){.paths = work->paths};
-    for (int i = item * CHUNK; i < (item + 1) * CHUNK; i++) {
-        sums->path = i;
-        work->paths->setup->tools.kernel->trace(&work->aim, i, i + 1, &listener, &statistics);
-    }
+    work->paths->setup->tools.kernel->trace(&work->aim, item * CHUNK, (item + 1) * CHUNK,
+                                            &listener, &statistics);
 }
 
 static void add_pupil(PupilSums *to, const PupilSums *sums)
@@ -246,9 +229,6 @@ typedef struct EyeSums {
     EyeReading   reading;
     EstimateSums veil;           /* of paths in batches of rounds */
     double       image_veil, image_variance;
-    double      *rest;       /* [path] for glare: what neither samples nor its rays show */
-    GlareImage  *images;     /* likewise */
-    int          image_count;
 } EyeSums;
 
 /* veil: of a round by itself. */
@@ -292,12 +272,10 @@ static void add_path(const EyePaths *paths, int i, EyeSums *sums)
     bool   is_near = degrees_between(d, paths->gaze) < EYE_NEAR_DEG;
     double weight = paths->solid_angles[i] * (double)vec3_dot(d, paths->gaze);
     double veil = veil_of(paths, d, weight) * paths->count / PATHS, all = 0;
-    sums->rest[i] = -path->told - path->mirrored;
     for (int k = 0; k < EYE_SOURCES; k++) {
         double left = path->apart[k];
         if (k == EYE_GLINTS && has_images(paths, d)) left -= path->images;
         if (!(left > 0)) continue;
-        sums->rest[i] += left;
         sums->reading.vertical_lx += left * weight;
         add_veil(paths, i / PATHS, counted_as((EyeSource)k, is_near), left * veil, sums);
         all += left * veil * PATHS;
@@ -308,7 +286,6 @@ static void add_path(const EyePaths *paths, int i, EyeSums *sums)
     }
     bright_add(&sums->veil.bright, all);
     if (paths->road) add_path_to_road(paths, i, d, weight);
-    sums->rest[i] = fmax(sums->rest[i], 0); /* rounding alone is below */
 }
 
 /* Images of the sun. */
@@ -324,10 +301,8 @@ static void add_image(void *user, const FalseSun *image, double share)
     EyeSums         *sums = work->sums;
     double cosine = (double)vec3_dot(image->seen, work->paths->gaze);
     if (!(cosine > 0)) return;
-    double facing = work->luminance * share * (double)image->sr, lux = facing * cosine;
+    double lux = work->luminance * share * (double)image->sr * cosine;
     double veil = veil_of(work->paths, image->seen, lux);
-    sums->images[sums->image_count++] =
-        (GlareImage){image->part_id, image->seen, (float)facing};
     sums->reading.vertical_lx += lux;
     sums->reading.parts[EYE_GLINTS] += veil;
     if (work->paths->road)
@@ -477,45 +452,11 @@ static void finish_road(const EyePaths *paths, Arena scratch)
                              unmet_veil(paths, road_veils_age(paths->road, a), scratch));
 }
 
-/* The mean luminance about the gaze; the sun's disc is no task. */
-static double task_luminance(const EyePaths *paths)
-{
-    double light = 0, sr = 0, half = paths->setup->request->glare.task_deg / 2;
-    for (int i = 0; i < paths->count; i++) {
-        if (degrees_between(direction_of(paths, i), paths->gaze) > half) continue;
-        light += paths->found[i].seen * paths->solid_angles[i];
-        sr += paths->solid_angles[i];
-    }
-    return sr > 0 ? light / sr : 0;
-}
-
-static GlareReading read_glare(const EyePaths *paths, const EyeSums *sums, Arena scratch)
-{
-    Vec3    *towards = ARENA_NEW(&scratch, Vec3, paths->count);
-    double  *told = ARENA_NEW(&scratch, double, paths->count);
-    GlareArgs args = {.setup = paths->setup,
-                    .head = {paths->aim.eye, paths->right, paths->up, paths->gaze},
-                    .told = {towards, paths->solid_angles, told, paths->count},
-                    .rest = {towards, paths->solid_angles, sums->rest, paths->count},
-                    .lamps = &paths->lamps, .rounds = paths->count / PATHS,
-                    .images = sums->images,
-                    .image_count = sums->image_count, .task_cd_m2 = task_luminance(paths)};
-    for (int i = 0; i < paths->count; i++) {
-        towards[i] = direction_of(paths, i);
-        told[i] = paths->found[i].told;
-    }
-    for (int set = 0; set < LIGHT_SETS; set++) args.samples[set] = paths->samples[set];
-    return glare_read(&args, scratch);
-}
-
 static EyeReading sum_up(const EyePaths *paths, const PupilSums *pupils, Arena scratch)
 {
-    int         images = paths->images ? paths->images->count : 0;
     int         rounds = paths->count / PATHS;
     EyeSums     sums = {.veil = {.batches = rounds, .paths = paths->count, .piece = PATHS,
-                                 .share = 1},
-                        .rest = ARENA_NEW(&scratch, double, paths->count),
-                        .images = ARENA_NEW(&scratch, GlareImage, images)};
+                                 .share = 1}};
     EyeReading *r = &sums.reading;
     for (int i = 0; i < paths->count; i++) add_path(paths, i, &sums);
     add_pupils(paths, pupils, &sums);
@@ -523,20 +464,7 @@ static EyeReading sum_up(const EyePaths *paths, const PupilSums *pupils, Arena s
     for (int k = 0; k < EYE_SOURCES; k++) r->veil += r->parts[k];
     set_veil_range(paths, &sums, scratch);
     if (paths->road) finish_road(paths, scratch);
-    r->glare = read_glare(paths, &sums, scratch);
     return *r;
-}
-
-/* The head stands upright; of an eye that looks straight up or down, as if it had bent there
- * from looking ahead. */
-static void set_head(EyePaths *paths)
-{
-    Vec3 forward = vec3_from_doubles(paths->setup->request->forward);
-    Vec3 top = vec3(0, 1, 0);
-    if (fabsf(paths->gaze.y) > UPRIGHT)
-        top = paths->gaze.y > 0 ? vec3_neg(forward) : forward;
-    paths->right = vec3_normalize(vec3_cross(paths->gaze, top));
-    paths->up = vec3_cross(paths->right, paths->gaze);
 }
 
 static EyeReading read_eye(const Setup *setup, const EyeLook *look, Arena scratch)
@@ -550,13 +478,7 @@ static EyeReading read_eye(const Setup *setup, const EyeLook *look, Arena scratc
                       .solid_angles = ARENA_NEW(&scratch, double, count),
                       .found = ARENA_NEW(&scratch, EyePath, count)};
     Frame    frame = frame_from_z(paths.gaze);
-    double   least = setup->request->glare.task_factor > 0
-                         ? 0 : setup->request->glare.threshold_cd_m2;
-    paths.lamps = bright_lamps(setup->scene, least, &scratch);
-    for (int set = 0; set < LIGHT_SETS; set++)
-        paths.samples[set] = ARENA_NEW(&scratch, GlareSample, count);
     if (look->road) road_veils_expect(look->road, count, look->rounds, &scratch);
-    set_head(&paths);
     paths.aim = (ProbeAim){.context = &setup->context, .eye = look->eye,
                            .targets = paths.targets, .target_count = count,
                            .seed = review_seed(setup->request, SEED)};
@@ -568,26 +490,20 @@ static EyeReading read_eye(const Setup *setup, const EyeLook *look, Arena scratc
 
 bool eye_reading_is_sound(const EyeReading *reading)
 {
-    unsigned none;
-    memcpy(&none, &reading->glare.figures.none, sizeof none);
-    return isfinite(reading->veil) && isfinite(reading->vertical_lx) &&
-           none <= GLARE_NO_LIGHT && reading->glare.source_count >= 0;
+    return isfinite(reading->veil) && isfinite(reading->vertical_lx);
 }
 
 EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch)
 {
     const ReadingTools   *tools = &setup->tools;
     const HumanEye       *observer = &setup->request->observer;
-    const GlareSettings  *glare = &setup->request->glare;
     const double         *ahead = setup->request->forward;
     EyeReading reading;
     if (!tools->journal) return read_eye(setup, look, scratch);
     ProbeAim   aim = {.context = &setup->context, .eye = look->eye, .targets = &look->towards,
                       .target_count = 1, .seed = review_seed(setup->request, SEED)};
     double     numbers[] = {observer->age_years, observer->pigment, look->rounds, ahead[0],
-                            ahead[1], ahead[2], look->images ? look->images->count : -1,
-                            glare->threshold_cd_m2, glare->task_factor, glare->task_deg,
-                            glare->peak_cd_m2, glare->low_light, glare->small_sources};
+                            ahead[1], ahead[2], look->images ? look->images->count : -1};
     Question   question = {.base = tools->base, .kind = look->is_close ? "close eye" : "eye",
                            .numbers = numbers, .number_count = COUNT_OF(numbers)};
     JournalKey key = question_key(&question, &aim, scratch);

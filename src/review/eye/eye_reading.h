@@ -5,8 +5,7 @@
  * The veil that it lays over that place: the integral of f(theta) L cos theta over the
  * hemisphere in front, from 0.1 degrees on, f the spread of vision/eye_spread.h.
  * The sun, when the eye sees it straight or through windows, counts by its illuminance at its
- * own angle. Discomfort: glare_reading.h, by the request's settings. These are secondary
- * figures, fitted to rooms; nothing is decided by them.
+ * own angle.
  *
  * Lamps, displays and the sun that the eye sees by themselves are read by light samples, lamps
  * without a body too; all else by paths that are drawn as the veil weighs them. Images of the
@@ -19,7 +18,6 @@
 #pragma once
 #include "estimate/estimate.h"
 #include "review/eye/false_suns.h"
-#include "review/eye/glare_table.h"
 #include "review/eye/road_veils.h"
 
 #define EYE_NEAR_DEG 1.0 /* from the gaze; about the fovea, where the eye sees sharply */
@@ -56,7 +54,6 @@ typedef struct EyeReading {
     MeanInterval veil_range;   /* and 95 % interval; NaN of one round */
     double parts[EYE_SOURCES]; /* the veil's; they add up to it */
     double vertical_lx;        /* on the pupil's plane, all light */
-    GlareReading glare;        /* discomfort */
 } EyeReading;
 
 /* As a file keeps it: whether any eye may have read it. */

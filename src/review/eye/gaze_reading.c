@@ -10,10 +10,8 @@
 #include "base/units.h"
 #include "estimate/estimate_plan.h"
 #include "render/signals.h"
-#include "review/eye/lamp_images.h"
+#include "review/eye/unmet_lamps.h"
 #include "review/light/reading.h"
-
-/* ---- x ----------------------------------------------------------------------------------- */
 
 /* One over the root of x^3 = x + 1, and its square: points that fill a square evenly, however
  * many (M. Roberts' sequence). */

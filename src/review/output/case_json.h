@@ -11,9 +11,9 @@
 #include "record/record.h"
 #include "review/verdict.h"
 
-/* Of a ReviewCase, a LimitVerdict, a CasePanel and a CaseGlare, and of two doubles: the sun's
+/* Of a ReviewCase, a LimitVerdict and a CasePanel, and of two doubles: the sun's
  * azimuth and elevation. */
-extern const RecordFormat case_json, limit_json, panel_json, glare_json, sun_json;
+extern const RecordFormat case_json, limit_json, panel_json, sun_json;
 
 /* A row's verdict, also by the names that older reviews have. */
 bool case_read_verdict(const JsonView *view, const RecordRow *row, void *item, Error *err);

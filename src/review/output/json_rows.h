@@ -48,15 +48,6 @@
     static const RecordRow    name##_rows[] = {__VA_ARGS__, {0}};                              \
     static const RecordFormat name = {#name, sizeof(Type), name##_rows, .takes_more = true}
 
-/* Of what has a CaseGlare. */
-#define GLARE_MEMBERS(Type)                                                                    \
-    AS("dgp", FIGURE, Type, glare.dgp), AS("ugr", FIGURE, Type, glare.ugr),                    \
-    LATER("dgi", FIGURE, Type, glare.dgi),                                                     \
-    LATER("dgp_interval", RANGE, Type, glare.dgp_range),                                       \
-    LATER("ugr_interval", RANGE, Type, glare.ugr_range),                                       \
-    LATER("dgi_interval", RANGE, Type, glare.dgi_range),                                       \
-    PART("glare", 0, Type, glare, glare_json)
-
 /* A range is read and written as two numbers, one behind the other. */
 #define FOLLOWS(Type, second, first)                                                           \
     _Static_assert(offsetof(Type, second) == offsetof(Type, first) + sizeof(double), "a pair")

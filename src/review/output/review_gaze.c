@@ -57,23 +57,10 @@ const char *review_gaze_veil(const GazeFinding *g, Arena *arena)
 
 /* ---- values ------------------------------------------------------------------------------ */
 
-/* A figure with its interval; nothing where there is none. */
-static void add_figure(json_t *list, const char *name, double value, MeanInterval range,
-                       Arena *arena)
-{
-    json_t *to = isnan(value) ? NULL : page_add(list);
-    if (!to) return;
-    page_set(to, "name", name);
-    page_set(to, "value", words_within(value, range.low, range.high, arena));
-    page_set(to, "range", range.low < range.high ? words_interval(range.low, range.high, arena)
-                                                 : NULL);
-}
-
 static void set_gaze(json_t *to, const GazeFinding *g, Arena *arena)
 {
     static const char *const NAMES[] = {"eye", "gaze", "condition", "mirrored_from", NULL};
     const MeanInterval *left = &g->contrast_range;
-    json_t             *figures = values_list(to, "figures");
     bool                has_range = !isnan(left->low) && !isnan(left->high);
     values_set_names(to, NAMES);
     page_set(to, "mirrored", review_gaze_mirrored(g, arena));
@@ -83,11 +70,6 @@ static void set_gaze(json_t *to, const GazeFinding *g, Arena *arena)
     page_set(to, "left_range",
              has_range ? arena_format(arena, "%s to %s", words_share(left->low, arena),
                                       words_share(left->high, arena)) : NULL);
-    add_figure(figures, "DGP", g->glare.dgp, g->glare.dgp_range, arena);
-    add_figure(figures, "UGR", g->glare.ugr, g->glare.ugr_range, arena);
-    add_figure(figures, "DGI", g->glare.dgi, g->glare.dgi_range, arena);
-    page_set(to, "settings", g->glare.threshold_cd_m2 > 0
-                                 ? words_glare_settings(&g->glare, arena) : "");
 }
 
 static void add_false_suns(const PageValues *v)

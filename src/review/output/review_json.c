@@ -91,7 +91,6 @@ TABLE(gaze_json, GazeFinding,
     OWN(TEXT, GazeFinding, mirrored_by), OWN(TEXT, GazeFinding, mirrored_from),
     OWN(FIGURE, GazeFinding, contrast_behind_glass), OWN(FIGURE, GazeFinding, contrast_left),
     AS("contrast_interval", RANGE, GazeFinding, contrast_range),
-    GLARE_MEMBERS(GazeFinding),
     {"road", RECORD_OBJECT, RECORD_APART | RECORD_BRIEF, RECORD_AT(GazeFinding, road),
      .of = &road_json});
 

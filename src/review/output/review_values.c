@@ -210,17 +210,6 @@ static void set_levels(json_t *to, const ReviewCase *c, Arena *arena)
     }
 }
 
-/* Figures made for rooms. */
-static void set_glare(json_t *to, const CaseGlare *g, Arena *arena)
-{
-    json_t *words = g->threshold_cd_m2 > 0 ? values_object(to, "glare_words") : NULL;
-    if (!words) return;
-    page_set(words, "dgp", words_glare(g->dgp, g->dgp_range, g->none, arena));
-    page_set(words, "ugr", words_glare(g->ugr, g->ugr_range, g->none, arena));
-    page_set(words, "dgi", words_glare(g->dgi, g->dgi_range, g->none, arena));
-    page_set(words, "settings", words_glare_settings(g, arena));
-}
-
 /* words_directions for a case's sun; NULL: what its azimuth counts from is not known. */
 static const char *const *values_directions(const PageValues *v, const ReviewCase *c)
 {
@@ -320,7 +309,6 @@ static bool add_case(const PageValues *v, json_t *to, const ReviewCase *c, Error
     set_contrast(to, c, arena);
     set_levels(to, c, arena);
     privacy_set_values(to, c, arena);
-    set_glare(to, &c->glare, arena);
     set_limits(to, c, arena);
     set_causes(to, c, arena);
     set_remedies(to, c, arena);

@@ -12,7 +12,6 @@
 #include "review/review_decide.h"
 #include "text/interval_text.h"
 #include "text/text.h"
-#include "vision/discomfort.h"
 
 bool words_same(const char *a, const char *b)
 {
@@ -52,40 +51,6 @@ const char *words_contrast(const ReviewCase *c, Arena *arena)
     if (isnan(c->contrast_ratio)) return "–";
     return arena_format(arena, "%s : 1", words_within(c->contrast_ratio, c->contrast_low,
                                                       c->contrast_high, arena));
-}
-
-const char *words_glare(double value, MeanInterval range, const char *none, Arena *arena)
-{
-    if (isnan(value)) return none ? arena_format(arena, "–, %s", none) : "–";
-    if (isnan(range.low)) return words_figure(value, arena);
-    return arena_format(arena, "%s, 95 %% sure between %s and %s",
-                        words_within(value, range.low, range.high, arena),
-                        words_within(range.low, range.low, range.high, arena),
-                        words_within(range.high, range.low, range.high, arena));
-}
-
-/* Sources beyond the solid angles that UGR is made for. */
-static const char *words_beyond(const CaseGlare *glare, Arena *arena)
-{
-    if (!(glare->smallest_sr < UGR_SOLID_ANGLE_MIN_SR) &&
-        !(glare->largest_sr > UGR_SOLID_ANGLE_MAX_SR))
-        return "";
-    const char *least = words_figure(glare->smallest_sr, arena);
-    const char *most = words_figure(glare->largest_sr, arena);
-    return arena_format(arena, ", of %s%s%s sr (UGR is made for %g to %g)", least,
-                        glare->source_count > 1 ? " to " : "",
-                        glare->source_count > 1 ? most : "", UGR_SOLID_ANGLE_MIN_SR,
-                        UGR_SOLID_ANGLE_MAX_SR);
-}
-
-const char *words_glare_settings(const CaseGlare *glare, Arena *arena)
-{
-    return arena_format(arena, "sources above %s cd/m²: %ld%s; DGP %s its factor for low "
-                        "light%s", words_figure(glare->threshold_cd_m2, arena),
-                        glare->source_count, words_beyond(glare, arena),
-                        glare->low_light ? "with" : "without",
-                        glare->small_sources ? "; UGR by CIE 147's rule for small sources"
-                                             : "");
 }
 
 const char *words_interval(double low, double high, Arena *arena)

@@ -111,12 +111,6 @@ const char *words_sun(const ReviewCase *c, const char *const *directions, Arena 
  * or that is not known. */
 const char *words_hiders(const ReviewCase *c, Arena *arena);
 
-/* "24.5, 95 % sure between 24.3 and 24.7"; "–, no source is brighter than the threshold". */
-const char *words_glare(double value, MeanInterval range, const char *none, Arena *arena);
-
-/* "sources above 2000 cd/m²: 3; DGP with its factor for low light". */
-const char *words_glare_settings(const CaseGlare *glare, Arena *arena);
-
 /* Behind a case that is too close: what calls it, in which time, or why no number of paths does
  * and what would help; "": that is not known. */
 const char *words_decide(const ReviewCase *c, Arena *arena);

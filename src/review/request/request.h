@@ -19,7 +19,6 @@
 #include "sky/epw.h"
 #include "sky/weather_clock.h"
 #include "sky/weather_light.h"
-#include "vision/discomfort.h"
 #include "vision/human_eye.h"
 
 /* ---- how bright displays are set --------------------------------------------------------- */
@@ -332,7 +331,6 @@ typedef struct ReviewRequest {
     double           forward[3]; /* where the vehicle points: unit, not vertical */
     HumanEye         observer;
     ReviewVisibility visibility;
-    GlareSettings    glare;
     ReviewGaze      *gazes;
     int              gaze_count;
     ReviewWith      *withs;

@@ -37,37 +37,6 @@ static const RecordFormat visibility_format = {"visibility", sizeof(OWNER), VISI
                                                .doc = NULL};
 
 #undef OWNER
-#define OWNER GlareSettings
-
-static const RecordRow GLARE[] = {
-    NUMBER("threshold_cd_m2", 0, threshold_cd_m2, 1e-3, 1e9,
-           "What is brighter is a source. Not beside task_factor."),
-    NUMBER("task_factor", 0, task_factor, 1, 1e6,
-           "The threshold is this times the task's mean luminance."),
-    NUMBER("task_deg", 0, task_deg, 1, 180,
-           "Full width of the cone about the line of sight that is the task."),
-    NUMBER("peak_cd_m2", 0, peak_cd_m2, 1, 1e12,
-           "What is brighter is a source apart from what surrounds it."),
-    FLAG("low_light_factor", 0, low_light, "DGP is multiplied by its factor below 1000 lx."),
-    FLAG("small_source_rule", 0, small_sources,
-         "UGR counts sources below 0.005 m2 by CIE 147's rule."),
-    {0}};
-
-/* A fixed threshold or a task's: not both. */
-static bool check_glare(const JsonView *view, void *item, Error *err)
-{
-    (void)item;
-    return !record_has(view, "threshold_cd_m2") ||
-           !record_has(view, "task_factor") ||
-           record_fails(view, "threshold_cd_m2", err,
-                        "stands beside 'task_factor', required: one of the two");
-}
-
-static const RecordFormat glare_format = {
-    "glare", sizeof(OWNER), GLARE, .check = check_glare,
-    .rules = "{'not': {'required': ['threshold_cd_m2', 'task_factor']}}"};
-
-#undef OWNER
 
 /* ---- what must not be read --------------------------------------------------------------- */
 
@@ -172,7 +141,6 @@ static const RecordRow REVIEW[] = {
     {"privacy", RECORD_OBJECT, RECORD_AT(OWNER, privacy), .of = &privacy_format,
      .count = offsetof(OWNER, privacy.is_given)},
     {"precision", RECORD_OBJECT, .of = &precision_format},
-    OBJECT("glare", 0, glare, glare_format, "How discomfort is read: UGR, DGP, DGI."),
     OBJECT("frames", 0, frames, frames_format, NULL),
     OBJECT("pane_images", RECORD_APART, pane_images, review_panes_format,
            "Displays as glass shows them to each eye, in moments: where, how bright."),
@@ -188,7 +156,7 @@ static void start_review(void *item)
     *(ReviewRequest *)item = (ReviewRequest){
         .title = "", .forward = {0, 0, -1}, .observer = {50, 0.5},
         .visibility = {.glance_s = VISIBILITY_GLANCE_LONG},
-        .glare = GLARE_SETTINGS_DEFAULT, .max_level = 1, .precision_contrast = 0.01,
+        .max_level = 1, .precision_contrast = 0.01,
         .precision_clear = CLEAR_USUAL, .precision_paths = 262144,
         .frames = {960, 540, 0.1, 2, true}};
 }

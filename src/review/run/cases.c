@@ -20,20 +20,6 @@
 #include "text/text.h"
 #include "vision/grey_steps.h"
 
-CaseGlare glare_found(const GlareReading *reading, const GlareSettings *settings)
-{
-    const GlareFigures *f = &reading->figures;
-    return (CaseGlare){.dgp = f->dgp, .ugr = f->ugr, .dgi = f->dgi, .dgp_range = reading->dgp,
-                       .ugr_range = reading->ugr, .dgi_range = reading->dgi,
-                       .threshold_cd_m2 = reading->threshold_cd_m2,
-                       .background_cd_m2 = f->background_cd_m2,
-                       .source_lx = reading->source_lx, .smallest_sr = reading->smallest_sr,
-                       .largest_sr = reading->largest_sr, .source_count = reading->source_count,
-                       .low_light = settings->low_light,
-                       .small_sources = settings->small_sources,
-                       .none = discomfort_none_words(f->none)};
-}
-
 #define FACE_PRECISION 0.02
 #define FACE_PATHS 16384
 #define FACE_SEED 0x66616365u
@@ -241,7 +227,6 @@ static void see_stray_light(const Setup *setup, const SetupSymbol *symbol, Vec3 
     c->luminance_cd_m2.veil = stray.veil;
     if (has_levels) case_visibility_veils(setup, &look, &stray, c, arena);
     c->veil_displays = stray.parts[EYE_LAMPS] + stray.parts[EYE_GLINTS] + stray.parts[EYE_NEAR];
-    c->glare = glare_found(&stray.glare, &setup->request->glare);
 }
 
 /* A stroke and a gap as wide are one cycle. */
@@ -290,7 +275,6 @@ static void start_look(const CaseTools *tools, const CaseLook *look, ReviewCase 
     c->stroke_ratio = symbol_stroke_ratio(look->symbol);
     c->contrast_ratio = c->contrast_low = c->contrast_high = c->contrast_with_veil = c->jnd =
         c->visibility = nan;
-    c->glare = review_glare_unknown();
     if (has_visibility(tools, look))
         case_visibility_start(setup->request, &look->symbol->split, c, arena);
 }

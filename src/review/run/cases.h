@@ -45,9 +45,3 @@ bool setup_case(const CaseTools *tools, const SetupSymbol *symbol, const ReviewE
  * is the illuminance of its face. */
 bool setup_verdict(const CaseTools *tools, const SetupSymbol *symbol, const ReviewEye *eye,
                    Arena *arena, ReviewCase *out, Error *err);
-
-/* What was read of glare, as a review keeps it.
- *
- * Threads  pure functions. */
-
-CaseGlare glare_found(const GlareReading *reading, const GlareSettings *settings);

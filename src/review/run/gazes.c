@@ -183,7 +183,6 @@ static void read_gaze(const GazeArgs *args, const GazeGoal *goal, Arena *arena,
                                  eye.parts[EYE_GLINTS], eye.parts[EYE_SURFACES],
                                  eye.parts[EYE_NEAR]};
     out->cornea_lux = eye.vertical_lx;
-    out->glare = glare_found(&eye.glare, &setup->request->glare);
     out->through = along.through.mean;
     out->mirrored = along.mirrored.mean;
     out->mirrored_range = along.mirrored.interval;

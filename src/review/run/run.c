@@ -398,9 +398,9 @@ static void add_glasses_notes(const ReviewRequest *request, Review *review,
         if (!c->glasses) continue;
         add_note(review, notes, arena_format(arena,
                  "%s: seen through %s. They darken display, reflections and the veil in the "
-                 "eye by one factor, which leaves contrasts; figures in cd/m2 and discomfort "
-                 "are told without it, grey steps and visibility with it. Limits are those of "
-                 "the naked eye. Pictures and gazes are without them%s.", c->name,
+                 "eye by one factor, which leaves contrasts; figures in cd/m2 are told "
+                 "without it, grey steps and visibility with it. Limits are those of the naked "
+                 "eye. Pictures and gazes are without them%s.", c->name,
                  c->glasses->words,
                  c->glasses->is_polarising ? ", and causes as unpolarised light" : ""));
     }

@@ -203,7 +203,7 @@ static void set_luminance(const GlareSum *sum, FrameSource *out)
     double squares = out->squares, l;
     out->has_core = out->core_sr > 0;
     l = out->has_core ? out->core_cd_sr_m2 / out->core_sr : squares / sum->cd_sr_m2;
-    out->source = glare_sum_source(sum, 0);
+    out->source = glare_sum_source(sum);
     out->light = sum->cd_sr_m2;
     out->source.luminance_cd_m2 = l;
     out->source.solid_angle_sr = sum->cd_sr_m2 / l;
