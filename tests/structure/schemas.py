@@ -267,16 +267,14 @@ def check_formats(report, program, folder, schema_of):
                      f"the manifest does not say the recipe's {key}")
     check_format(report, sets, manifest, WRONG_MANIFESTS,
                  trying("panel", "fit", "DOCUMENT", "-o", "FOLDER/a.panel"))
-    for name in ("m01.txt", "m02.txt"):
-        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
-            file.write("0;0;1,5;2;1\n5;0;1;2,5;1\n5;90;1;2;1\n5;180;1;2;1\n5;270;1;2,5;1\n")
+    with open(os.path.join(folder, "m01.txt"), "w", encoding="utf-8") as file:
+        file.write("0;0;1,5;2;1\n5;0;1;2,5;1\n5;90;1;2;1\n5;180;1;2;1\n5;270;1;2,5;1\n")
     with open(os.path.join(folder, "levels.csv"), "w", encoding="utf-8") as file:
         file.write("level,luminance\n0,0.01\n0.5,0.4\n1,2\n")
     check_format(report, schema_of("import_declaration"), DECLARATION, WRONG_DECLARATIONS,
                  lambda document: refuses(
-                     program, ("panel", "import", "FOLDER/m01.txt", "FOLDER/m02.txt",
-                               "--layout", "DOCUMENT", "--role", "m01.txt=white", "--role",
-                               "m02.txt=white", "-o", "FOLDER/again/MANIFEST.json"),
+                     program, ("panel", "import", "FOLDER/m01.txt", "--layout", "DOCUMENT",
+                               "--role", "m01.txt=white", "-o", "FOLDER/again/MANIFEST.json"),
                      folder, document))
 
 
