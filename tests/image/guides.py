@@ -10,8 +10,8 @@ and assets/ lie, and its scripts: ```python blocks that begin with their file's 
 so is every file that a page names. Layers of noise that it asks for hold numbers. The figures
 of a page are those that its commands print now (figures.py: how they are tied, and what --renew
 does).
---keep: what the first page makes stays in the folder; --few: of its review's variants the one
-that shares the paths of the review itself: each of the others takes as long as the review.
+--keep: what the first page makes stays in the folder; --few: of its review's variants one: each
+takes as long as the review.
 """
 import contextlib
 import glob

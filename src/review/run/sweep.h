@@ -29,6 +29,5 @@ typedef struct SweepGroup {
     int                     count;
 } SweepGroup;
 
-/* Riders go with it. */
 bool run_sweeps(const ReviewRun *run, Setup *setup, const SweepGroup *group, Arena *arena,
                 ReviewOutcome *out, Error *err);
