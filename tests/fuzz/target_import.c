@@ -5,7 +5,6 @@
 
 #include "harness.h"
 #include "import/import_request.h"
-#include "import/import_request.h"
 #include "import/set/import_write.h"
 #include "panel/set/measurement.h"
 
