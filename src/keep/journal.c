@@ -16,7 +16,6 @@
 #define VERSION 2
 #define FIRST_ROOM 1024 /* places of the index, a power of two */
 #define ANSWER_BYTES_MOST ((uint64_t)1 << 28)
-#define OTHER_BYTES ((size_t)1 << 32) /* for an index of another journal, and an answer */
 
 static const KeptFormat format = {"PRHLJRNL", "a journal", VERSION, 0};
 
@@ -272,72 +271,6 @@ bool journal_ok(const Journal *journal, Error *err)
     if (!journal || !journal->has_failed) return true;
     *err = journal->failure;
     return false;
-}
-
-/* ---- files of others --------------------------------------------------------------------- */
-
-/* To be closed, unless false. Its index and what it reads lie in memory of its own: the arena
- * of the journal that takes answers over grows meanwhile. *bytes: of the file. */
-static bool open_other(const char *path, Arena *own, Journal *out, uint64_t *bytes)
-{
-    struct stat info;
-    *out = (Journal){.path = path, .arena = own,
-                     .file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
-    if (out->file < 0) return false;
-    if (fstat(out->file, &info) != 0 || !S_ISREG(info.st_mode) || !has_our_head(out)) {
-        close(out->file);
-        return false;
-    }
-    *own = arena_reserve(OTHER_BYTES);
-    grow(out);
-    *bytes = (uint64_t)info.st_size;
-    take_entries(out, *bytes);
-    return true;
-}
-
-static void close_other(Journal *other)
-{
-    arena_release(other->arena);
-    close(other->file);
-}
-
-bool journal_take_over(Journal *journal, const char *path)
-{
-    Arena    own;
-    Journal  other;
-    uint64_t bytes;
-    if (!open_other(path, &own, &other, &bytes)) return false;
-    for (size_t i = 0; i < other.room; i++) {
-        const JournalPlace *place = &other.places[i];
-        Arena               room = own;
-        if (!place->offset) continue;
-        void *answer = ARENA_NEW(&room, unsigned char, place->size);
-        if (read_at(other.file, answer, place->size, place->offset))
-            journal_add(journal, place->key, answer, place->size);
-    }
-    close_other(&other);
-    return true;
-}
-
-bool journal_file_has(const char *path, JournalKey key)
-{
-    Arena    own;
-    Journal  other;
-    uint64_t bytes;
-    if (!open_other(path, &own, &other, &bytes)) return false;
-    bool is_there = other.end == bytes && place_of(other.places, other.room, key)->offset;
-    close_other(&other);
-    return is_there;
-}
-
-int journal_file_count(const char *path)
-{
-    Arena    own;
-    Journal  other;
-    uint64_t bytes;
-    if (!open_other(path, &own, &other, &bytes)) return 0;
-    close_other(&other);
-    return other.count;
 }
 
 int journal_count(const Journal *journal)

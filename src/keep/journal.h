@@ -47,16 +47,6 @@ void journal_add(Journal *journal, JournalKey key, const void *answer, size_t si
 /* False: something could not be written, and *err has it. NULL is fine. */
 bool journal_ok(const Journal *journal, Error *err);
 
-/* Adds the answers of another journal's file, those that are whole: somebody may be at work
- * on it. False: it is none. */
-bool journal_take_over(Journal *journal, const char *path);
-
-/* Whether the file is a journal that is whole to its end and has an answer under the key. */
-bool journal_file_has(const char *path, JournalKey key);
-
-/* How many answers the file has that are whole; 0: it is no journal. */
-int journal_file_count(const char *path);
-
 /* How many answers there are. NULL: 0. */
 int journal_count(const Journal *journal);
 

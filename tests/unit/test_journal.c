@@ -150,87 +150,6 @@ ARENA_TEST(two_at_once_are_refused_and_an_empty_one_leaves_nothing)
     assert_false(file_exists(file));
 }
 
-/* ---- files of others --------------------------------------------------------------------- */
-
-static char other_file[2 * FOLDER_BYTES];
-
-static Journal *open_other(Arena *arena)
-{
-    Problems problems = problems_start(arena);
-    Journal *journal;
-    snprintf(other_file, sizeof other_file, "%s", in_folder("other"));
-    unlink(other_file);
-    assert_done(journal_open(other_file, arena, &problems, &journal, &err));
-    return journal;
-}
-
-ARENA_TEST(answers_of_another_are_taken_over_and_ones_own_count_first)
-{
-    int           warnings;
-    unsigned char found[MOST], own[MOST] = {7};
-    fill(&arena);
-    Journal *from = open_journal(&arena, &warnings); /* somebody is at work on it */
-    Journal *to = open_other(&arena);
-    journal_add(to, key_of(3), own, size_of(3));
-    assert_true(journal_take_over(to, file));
-    assert_true(journal_take_over(to, file));
-    assert_int_equal(journal_count(to), ANSWERS);
-    assert_true(journal_find(to, key_of(3), found, size_of(3)));
-    assert_memory_equal(found, own, size_of(3));
-    for (int i = 4; i <= ANSWERS; i++) {
-        unsigned char wanted[MOST];
-        answer_of(i, wanted);
-        assert_true(journal_find(to, key_of(i), found, size_of(i)));
-        assert_memory_equal(found, wanted, size_of(i));
-    }
-    journal_close(to);
-    journal_close(from);
-    assert_int_equal(journal_file_count(other_file), ANSWERS);
-}
-
-/* Of every prefix all whole answers count, and only the whole file is whole. */
-ARENA_TEST(what_is_cut_off_is_taken_as_far_as_it_is_whole)
-{
-    FileBytes bytes;
-    int       last = 0;
-    fill(&arena);
-    assert_done(file_read(file, 1 << 20, &arena, &bytes, &err));
-    for (size_t size = 0; size < bytes.size; size++) {
-        Arena room = arena;
-        write_bytes(file, bytes.data, size);
-        int count = journal_file_count(file);
-        assert_true(count >= last && count < ANSWERS);
-        assert_false(journal_file_has(file, key_of(ANSWERS)));
-        Journal *to = open_other(&room);
-        assert_int_equal(journal_take_over(to, file), size >= 32);
-        assert_int_equal(journal_count(to), count);
-        journal_close(to);
-        last = count;
-    }
-    write_bytes(file, bytes.data, bytes.size);
-    assert_true(journal_file_has(file, key_of(ANSWERS)));
-    assert_false(journal_file_has(file, key_of(ANSWERS + 1)));
-    assert_false(journal_file_has("nowhere", key_of(1)));
-}
-
-/* More than the first index has room for: the index of the one grows while the other's is
- * read. */
-ARENA_TEST(many_answers_go_over)
-{
-    enum { MANY = 3000 };
-    int      warnings;
-    Journal *to = open_other(&arena);
-    unlink(file);
-    Journal *from = open_journal(&arena, &warnings);
-    for (int i = 0; i < MANY; i++) journal_add(from, key_of(i + 100), &i, sizeof i);
-    journal_close(from);
-    assert_true(journal_take_over(to, file));
-    assert_int_equal(journal_count(to), MANY);
-    for (int i = 0, found; i < MANY; i++)
-        assert_true(journal_find(to, key_of(i + 100), &found, sizeof found) && found == i);
-    journal_close(to);
-}
-
 /* A folder that came from anywhere: what a link leads to is not written, nobody waits. */
 ARENA_TEST(a_journal_is_a_regular_file)
 {
@@ -247,12 +166,10 @@ ARENA_TEST(a_journal_is_a_regular_file)
     assert_int_equal(mkfifo(file, 0600), 0);
     assert_false(journal_open(file, &arena, &problems, &journal, why()));
     assert_error_has(why(), "is not a regular file");
-    assert_int_equal(journal_file_count(file), 0);
-    assert_int_equal(journal_file_count("/dev/zero"), 0);
     unlink(file);
 }
 
-ARENA_TEST(a_large_answer_goes_over)
+ARENA_TEST(a_large_answer_is_kept)
 {
     enum { LARGE = 1 << 20 };
     int            warnings;
@@ -263,10 +180,7 @@ ARENA_TEST(a_large_answer_goes_over)
     Journal *journal = open_journal(&arena, &warnings);
     journal_add(journal, key_of(99), answer, LARGE);
     journal_close(journal);
-    const char *other = arena_format(&arena, "%s", in_folder("other"));
-    assert_int_equal(rename(file, other), 0);
     journal = open_journal(&arena, &warnings);
-    assert_true(journal_take_over(journal, other));
     assert_int_equal(journal_count(journal), ANSWERS + 1);
     assert_true(journal_find(journal, key_of(99), found, LARGE));
     assert_memory_equal(found, answer, LARGE);
