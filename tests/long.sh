@@ -15,15 +15,15 @@ keep_steps "$@"
 
 # ---- what depends on what: with a folder all that it includes (tests/structure/steps.py) ----
 build='CMakeLists.txt CMakePresets.json third_party tests/steps.sh tests/structure/report.py'
-base="$build src/print src/base src/estimate src/text src/spectrum"
-panels="$base src/record src/hemisphere src/image src/panel src/page src/library assets/panels"
+base="$build src/print src/base src/spectrum"
+panels="$base src/text src/record src/hemisphere src/image src/panel src/library assets/panels"
 light="$panels src/import src/sky src/scene src/bvh src/light src/mirror src/keep src/guide
-    src/camera src/sunlit src/path src/film src/kernel src/render shaders"
+    src/camera src/sunlit src/path src/film src/kernel src/estimate src/render shaders"
 options="$light src/denoise src/vision src/cli/ src/cli/options"
 render="$options assets src/cli/render"
-tables="$render src/plot src/cli/panel"
-review="$render src/review src/plot src/cli/review src/equip src/cli/explain"
-compare="$render src/measure src/compare"
+tables="$render src/page src/plot src/cli/panel"
+review="$render src/review src/page src/plot src/cli/review src/equip src/cli/explain"
+compare="$render src/measure src/page src/compare"
 all="$build src shaders assets"
 
 program=.build/release/parhelion
