@@ -50,6 +50,8 @@ const RemovedWord removed_words[] = {
     {"variant", "states", "name the panel file of the state in 'panels'"},
     {"panel", "join", "keep a panel file of each state, and choose one by --panel "
                       "MATERIAL=FILE.panel"},
+    {"panel", "wavelets", "panel fit --basis haar makes a panel, panel info --levels says how far "
+                          "each level is off"},
     {"panel import", "--state", "import the files of each state as a set of its own"},
     {"import_declaration", "states", "import the files of each state as a set of its own"},
     {"measurement_set", "states", "write a manifest of each state, and fit a panel of each"},

@@ -39,10 +39,11 @@ static SamplingMix sampling_only(int function)
     return (SamplingMix){.count = 1, .function = {function}, .weight = {1}};
 }
 
-/* The leaf's value. */
+/* The leaf's value, which its centre keeps. */
 static void tree_value(const Tree *tree, Vec3 direction, float *out)
 {
-    tree_mean(tree, tree->level, direction, out);
+    uint32_t id = geodesic_find(tree->geodesic, tree->level, direction).id;
+    tree_interpolate(tree, geodesic_center(tree->level, id), out);
 }
 
 /* ---- size and error -------------------------------------------------------------------- */
@@ -258,15 +259,6 @@ static void work_find(Input *in)
         in->sink += geodesic_find(in->tree.geodesic, MAX_LEVEL, in->directions[i]).weight[0];
 }
 
-static void work_value(Input *in)
-{
-    float out[TREE_MAX_COMPONENTS];
-    for (int i = 0; i < DIRECTIONS; i++) {
-        tree_value(&in->tree, in->directions[i], out);
-        in->sink += out[0];
-    }
-}
-
 static void work_walk(Input *in)
 {
     TreeTaps taps;
@@ -329,7 +321,6 @@ static void work_both(Input *in)
 }
 
 static const Bench TREE_WORKS[] = {
-    {"leaf value", work_value},
     {"walk for interpolation", work_walk},
     {"interpolated value", work_interpolate},
 };

@@ -57,8 +57,6 @@ LINES = {
                     "--size-mm 8,8 --png OUT.png", "other.panel content.png",
                     {"--png": ".png"})],
     "panel simulate": [("panel simulate recipe.json -o OUT", "recipe.json", {})],
-    "panel wavelets": [("panel wavelets set/MANIFEST.json -o OUT",
-                        "set/MANIFEST.json set/white.csv set/levels.csv", {})],
     "sky": [("sky scene.gltf --environment hdri:hdri.exr --size 8x4 -o OUT.exr",
              "scene.gltf hdri.exr data.bin", {"-o": ".exr"}),
             ("sky lit.gltf --size 8x4 -o OUT.exr", "lit.gltf hdri.exr", {"-o": ".exr"})],
@@ -261,8 +259,6 @@ def check_folders(program, report):
              "recipe.json"),
             (("panel", "import", "OUT/emission/white.csv", "-o", "OUT/MANIFEST.json"),
              "OUT/emission/white.csv", "lab.csv"),
-            (("panel", "wavelets", "OUT/levels.csv", "-o", "OUT"), "OUT/levels.csv",
-             "set/white.csv"),
             (("review", "OUT/review.json", "-o", "OUT", "--quiet"), "OUT/review.json",
              "r.json")):
         line = Line(program, report, "")

@@ -108,10 +108,11 @@ static inline void assert_tree_refused(const Fixture *f, const void *blob, size_
     assert_non_null(strstr(err.text, text));
 }
 
-/* The leaf's value. */
+/* The leaf's value, which its centre keeps. */
 static inline void tree_value(const Tree *tree, Vec3 direction, float *out)
 {
-    tree_mean(tree, tree->level, direction, out);
+    uint32_t id = geodesic_find(tree->geodesic, tree->level, direction).id;
+    tree_interpolate(tree, geodesic_center(tree->level, id), out);
 }
 
 /* Changes one to four bytes, often in the header. */

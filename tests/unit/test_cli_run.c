@@ -146,8 +146,6 @@ TEST(an_option_of_the_other_basis_is_refused)
            "0.1");
     assert_string_equal(o.err, "parhelion: --max-error is for --basis vertex, --basis haar has "
                                "--keep\n");
-    RUN_AS(2, &o, "panel", "wavelets", "set.json", "--keep", "0.1", "--lossless");
-    assert_string_equal(o.err, "parhelion: --keep and --lossless exclude each other\n");
 }
 
 TEST(an_hdri_that_is_missing_or_not_linear_is_named)

@@ -27,7 +27,7 @@ HEMISPHERE_TEST(a_query_equals_the_inverted_tree_at_every_leaf)
             float value[3], again[3];
             TreeTaps taps;
             tree_value(&tree, geodesic_center(6, id), value);
-            tree_walk_mean(&tree, 6, geodesic_center(6, id), &taps);
+            tree_walk_interpolated(&tree, geodesic_center(6, id), &taps);
             tree_sum(&tree, &taps, 1, 2, again + 1);
             for (uint32_t c = 0; c < 3; c++) {
                 assert_near(value[c], leaves[3 * id + c], 3e-4);
@@ -183,34 +183,6 @@ HEMISPHERE_TEST(options_out_of_range_are_refused_in_words)
                  "tree level is 11");
 }
 
-/* Every mean of the tree is the exact mean of its leaves. */
-HEMISPHERE_TEST(a_mean_at_any_level_is_the_mean_of_its_leaves)
-{
-    HaarShape   shape = {6, 4, 1, HAAR_AREA};
-    HaarTreeOptions options = {.shape = shape, .keep_share = 0.03f};
-    uint32_t    count = haar_leaf_count(&shape);
-    TreeReport  report;
-    float      *source = leaves_of_signals(&shape, &f->arena);
-    Tree        tree = build_and_open(f, &options, source, &report);
-    float      *leaves = ARENA_NEW(&f->arena, float, count);
-    tree_expand(&tree, leaves, f->arena);
-    for (int level = 0; level <= 6; level++)
-        for (uint32_t id = 0; id < geodesic_count(level); id++) {
-            uint32_t first = id << 2 * (6 - level), leaf_count = 1u << 2 * (6 - level);
-            double   sum = 0, area = 0;
-            float    mean;
-            if (level < 4 || id % 17 == 0) {
-                for (uint32_t i = first; i < first + leaf_count; i++) {
-                    double a = (double)f->geodesic->areas[6][i & 4095];
-                    area += a;
-                    sum += a * (double)leaves[i];
-                }
-                tree_mean(&tree, level, geodesic_center(level, id), &mean);
-                assert_near(mean, sum / area, 1e-3);
-            }
-        }
-}
-
 /* ---- interpolation ----------------------------------------------------------------------- */
 
 /* The interpolant straight from its definition, with all leaves at hand. */
@@ -299,9 +271,6 @@ HEMISPHERE_TEST(half_trees_equal_whole_trees_of_symmetric_functions)
         if (i % 2) d.y *= 1e-2f;
         tree_interpolate(&a, d, &x);
         tree_interpolate(&b, d, &y);
-        assert_near(x, y, 1e-5);
-        tree_mean(&a, i % 6, d, &x);
-        tree_mean(&b, i % 6, d, &y);
         assert_near(x, y, 1e-5);
     }
 }

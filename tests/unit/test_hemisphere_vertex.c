@@ -295,8 +295,8 @@ HEMISPHERE_TEST(ranges_of_components_are_parts_of_the_whole)
     }
 }
 
-/* Unpacked, a tree's rows are other bytes and the same numbers: all components, parts of them,
- * coarser levels. 3 and 13 components end within eight, 40 behind 32. */
+/* Unpacked, a tree's rows are other bytes and the same numbers: all components, parts of them.
+ * 3 and 13 components end within eight, 40 behind 32. */
 HEMISPHERE_TEST(unpacked_trees_answer_with_the_same_bits)
 {
     const Example examples[] = {{{5, 2}, 3, PEAKED, 0.01f}, {{6, 4}, 13, NOISE, 0.05f},
@@ -311,39 +311,20 @@ HEMISPHERE_TEST(unpacked_trees_answer_with_the_same_bits)
         for (int q = 0; q < 4000; q++) {
             Vec3  d = random_direction(&seed);
             float a[40], b[40];
-            int   n = tree.components, level = q % (tree.level + 1);
-            size_t size = (size_t)n * sizeof *a;
             tree_interpolate(&tree, d, a);
             tree_interpolate(&unpacked, d, b);
-            assert_memory_equal(a, b, size);
-            tree_mean(&tree, level, d, a);
-            tree_mean(&unpacked, level, d, b);
-            assert_memory_equal(a, b, size);
+            assert_memory_equal(a, b, (size_t)tree.components * sizeof *a);
         }
     }
 }
 
-/* Coarser levels interpolate between coarser vertices; the finest level is the value. */
-HEMISPHERE_TEST(levels_of_detail_end_in_the_value)
+HEMISPHERE_TEST(an_expanded_tree_has_the_values_at_its_centres)
 {
     const Example e = {{6, 4}, 3, PEAKED, 0.002f};
     const float  *values;
     TreeReport    report;
-    uint32_t      seed = 19;
     Tree          tree = build_example(f, &e, &values, &report);
-    float         last[3], value[3], coarse[3];
-    for (int q = 0; q < 500; q++) {
-        Vec3 d = random_direction(&seed);
-        tree_interpolate(&tree, d, value);
-        tree_mean(&tree, tree.level, d, last);
-        assert_memory_equal(last, value, sizeof last);
-    }
-    for (uint32_t id = 0; id < 4; id++) {
-        Vec3 corner = geodesic_triangle(0, id).corner[2];
-        tree_mean(&tree, 0, corner, coarse);
-        tree_interpolate(&tree, corner, value);
-        for (int c = 0; c < 3; c++) assert_near(coarse[c], value[c], 1e-6);
-    }
+    float         value[3];
     float *leaves = ARENA_NEW(&f->arena, float, 3 * geodesic_count(6));
     tree_expand(&tree, leaves, f->arena);
     tree_interpolate(&tree, geodesic_center(6, 4711), value);

@@ -19,7 +19,6 @@ static const Command *const commands[] = {
     &command_panel_report,
     &command_panel_show,
     &command_panel_simulate,
-    &command_panel_wavelets,
 };
 
 enum { COMMAND_COUNT = COUNT_OF(commands) };

@@ -47,7 +47,7 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
         {"--level-max", OPTION_NUMBER, "N", "highest code of --levels (default: 255, 1023, "
          "4095 or 65535, whichever it ends at)", &out->level_max, 1, 65535},
         {"--basis", OPTION_CHOICE, "vertex|haar",
-         "basis on the hemisphere (default vertex); haar: see `panel wavelets`", &out->basis},
+         "basis on the hemisphere (default vertex); haar: `parhelion help the-paper`", &out->basis},
         {"--level", OPTION_INTEGER, "N",
          "subdivision level of the trees (default: what the samples need, up to 9)",
          &out->level, 2, 9},

@@ -14,4 +14,3 @@ extern const Command command_panel_plot;
 extern const Command command_panel_report;
 extern const Command command_panel_show;
 extern const Command command_panel_simulate;
-extern const Command command_panel_wavelets;

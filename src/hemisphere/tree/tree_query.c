@@ -78,22 +78,6 @@ static uint32_t step_down(const Tree *tree, uint32_t index, int level, uint32_t 
     return child_node(node, child);
 }
 
-void tree_walk_mean(const Tree *tree, int level, Vec3 direction, TreeTaps *taps)
-{
-    if (tree->basis == TREE_VERTEX) {
-        vertex_tree_walk(tree, level, direction, taps);
-        return;
-    }
-    GeodesicWalk walk = geodesic_walk_start(direction);
-    uint32_t     index = octant_in_tree(tree, walk.octant);
-    start_taps(taps);
-    taps->mean_weight[index] = 1;
-    for (int i = 0; i < level && index != NO_NODE; i++) {
-        geodesic_walk_down(tree->geodesic, i, &walk);
-        index = step_down(tree, index, i, walk.place, 1, taps);
-    }
-}
-
 /* ---- interpolation ----------------------------------------------------------------------- */
 
 #define MAX_LEAVES 11 /* the leaf and up to 5 more around each of two corners */
@@ -359,7 +343,7 @@ static bool walk_to_leaf(const Tree *tree, Path *path, TreeTaps *taps)
 void tree_walk_interpolated(const Tree *tree, Vec3 direction, TreeTaps *taps)
 {
     if (tree->basis == TREE_VERTEX) {
-        vertex_tree_walk(tree, tree->level, direction, taps);
+        vertex_tree_walk(tree, direction, taps);
         return;
     }
     Path path = {.walk = geodesic_walk_start(direction)};
@@ -386,13 +370,6 @@ void tree_walk_interpolated(const Tree *tree, Vec3 direction, TreeTaps *taps)
 }
 
 /* ---- walk and sum ------------------------------------------------------------------------ */
-
-void tree_mean(const Tree *tree, int level, Vec3 direction, float *out)
-{
-    TreeTaps taps;
-    tree_walk_mean(tree, level, direction, &taps);
-    tree_sum(tree, &taps, 0, tree->components, out);
-}
 
 void tree_interpolate(const Tree *tree, Vec3 direction, float *out)
 {

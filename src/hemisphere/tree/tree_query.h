@@ -12,13 +12,6 @@
 #pragma once
 #include "hemisphere/tree.h"
 
-/* The mean over the triangle of `level` around the direction (level of detail); level =
- * tree->level is the leaf's value. With area weights it is the exact mean of the tree. A vertex
- * tree has no means: it answers with the interpolation between the vertices of `level` (of its
- * base level at least), which is smooth too but filters nothing; at level = tree->level that is
- * the value. */
-void tree_walk_mean(const Tree *tree, int level, Vec3 direction, TreeTaps *taps);
-
 /* Continuous interpolation. Vertex tree: barycentric between the vertices around. Haar tree:
  * between its leaves; a leaf's centre keeps the leaf's value, each corner takes the area mean
  * of the leaves around it, linear in between (over the three triangles between centre and
@@ -26,5 +19,4 @@ void tree_walk_mean(const Tree *tree, int level, Vec3 direction, TreeTaps *taps)
 void tree_walk_interpolated(const Tree *tree, Vec3 direction, TreeTaps *taps);
 
 /* Walk and sum of all components. */
-void tree_mean(const Tree *tree, int level, Vec3 direction, float *out);
 void tree_interpolate(const Tree *tree, Vec3 direction, float *out);

@@ -243,7 +243,7 @@ void vertex_tree_expand_level(const Tree *tree, int level, float *values)
                                  (float)(y < 0 ? -y : y) / (float)n,
                                  (x < 0 ? 1u : 0u) | (y < 0 ? 2u : 0u)};
             TreeTaps    taps;
-            vertex_tree_walk_place(tree, tree->level, place, &taps);
+            vertex_tree_walk_place(tree, place, &taps);
             vertex_tree_sum(tree, &taps, 0, tree->components,
                             values + vertex_index(lattice, x, y) * (size_t)tree->components);
         }

@@ -150,26 +150,26 @@ static inline int depth_at(const Tree *tree, VertexPlace place)
     return tree->depths[at / 2] >> at % 2 * 4 & 15;
 }
 
-static inline void walk(const Tree *tree, int level, VertexPlace place, TreeTaps *taps)
+static inline void walk(const Tree *tree, VertexPlace place, TreeTaps *taps)
 {
     put_base(tree, place, taps);
     for (int q = 0; q < 4; q++) taps->mean_weight[q] = 0;
     int depth = depth_at(tree, place);
-    if (depth > level - tree->base_level) depth = level - tree->base_level;
+    if (depth > tree->level - tree->base_level) depth = tree->level - tree->base_level;
     for (int l = 0; l < depth; l++)
         put_level(tree, &tree->levels[l], place, tree->base_level + l, taps);
 }
 
-void vertex_tree_walk_place(const Tree *tree, int level, VertexPlace place, TreeTaps *taps)
+void vertex_tree_walk_place(const Tree *tree, VertexPlace place, TreeTaps *taps)
 {
-    walk(tree, level, place, taps);
+    walk(tree, place, taps);
 }
 
-void vertex_tree_walk(const Tree *tree, int level, Vec3 direction, TreeTaps *taps)
+void vertex_tree_walk(const Tree *tree, Vec3 direction, TreeTaps *taps)
 {
     VertexPlace place = map_place(tree->geodesic, tree->plane_level, direction);
     place.octant &= (uint32_t)tree->octants - 1; /* 2 octants: y is folded */
-    walk(tree, level, place, taps);
+    walk(tree, place, taps);
 }
 
 /* ---- sums -------------------------------------------------------------------------------- */

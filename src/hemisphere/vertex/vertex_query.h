@@ -6,11 +6,11 @@
 #pragma once
 #include "hemisphere/vertex/vertex_tree.h"
 
-/* HOT. The interpolation between vertices of `level` (tree->level: all). */
-void vertex_tree_walk(const Tree *tree, int level, Vec3 direction, TreeTaps *taps);
+/* HOT. The interpolation between vertices. */
+void vertex_tree_walk(const Tree *tree, Vec3 direction, TreeTaps *taps);
 
 /* HOT. The same for a place (of octants that the tree has). */
-void vertex_tree_walk_place(const Tree *tree, int level, VertexPlace place, TreeTaps *taps);
+void vertex_tree_walk_place(const Tree *tree, VertexPlace place, TreeTaps *taps);
 
 /* HOT. tree_sum: what a walk found in a vertex tree, summed up. */
 void vertex_tree_sum(const Tree *tree, const TreeTaps *taps, int first, int count, float *out);
