@@ -13,6 +13,8 @@
 #include "cli/render/command_line.h"
 #include "cli/render/dealt_part.h"
 #include "cli/render/render_answer.h"
+#include "cli/review/cmd_review.h"
+#include "cli/review/review_merge.h"
 #include "film/film_frame.h"
 #include "film/film_merge.h"
 #include "image/frame_view.h"
@@ -25,6 +27,7 @@ typedef struct MergeRun {
     Cli         cli;
     const char *output;
     bool        keeps_sums;   /* --part */
+    bool        is_of_reviews;
     Arena      *arena;
     const char **files;       /* the parts' */
     int         count;
@@ -43,22 +46,28 @@ static bool parse(int argc, char **argv, MergeRun *work, Error *err)
 {
     const Option options[] = {
         {"-o", OPTION_TEXT, "FRAME.exr",
-         "what is written",
+         "what is written; of reviews: DIR",
          &work->output, .file = OPTION_OUTPUT},
         {"--part", OPTION_FLAG, NULL,
          "keep the exact sums, so that the frame can be merged again", &work->keeps_sums},
     };
     const CliCommand command = {
         "merge",
-        "make one frame of parts that were rendered with --part, --samples or --crop",
-        "PART.exr ... -o FRAME.exr",
+        "make one frame of parts that were rendered with --part, --samples or --crop; of reviews "
+        "of some conditions each (review --only) one of all",
+        "PART.exr ... -o FRAME.exr | REVIEW_DIR ... -o DIR",
         "parhelion merge part1.exr part2.exr -o frame.exr",
         options, COUNT_OF(options), 1, -1};
     if (!cli_parse(&command, argc, argv, work->arena, &work->cli, err)) return false;
     if (work->cli.help_shown) return true;
     work->files = work->cli.arguments;
     work->count = work->cli.argument_count;
-    if (!work->output) return error_set(err, ERROR_USAGE, "no output — add -o FRAME.exr");
+    work->is_of_reviews = review_merge_is_meant(work->files, work->count);
+    if (!work->output)
+        return error_set(err, ERROR_USAGE, "no output — add -o %s",
+                         work->is_of_reviews ? "DIR" : "FRAME.exr");
+    if (work->is_of_reviews)
+        return !work->keeps_sums || error_set(err, ERROR_USAGE, "--part: a review has no sums");
     if (strcmp(path_ending(work->output), ".exr") != 0)
         return error_set(err, ERROR_USAGE, "-o %s: required: a name that ends in .exr",
                          work->output);
@@ -385,8 +394,10 @@ static Outcome run_merge(int argc, char **argv, Arena *arena, Error *err)
     MergeRun  work = {.arena = arena};
     if (!parse(argc, argv, &work, err)) return OUTCOME_FAILED;
     if (work.cli.help_shown) return OUTCOME_DONE;
-    return outcome_of(merge(&work, err));
+    return work.is_of_reviews
+               ? cmd_review_merge(&work.cli, work.output, arena, err)
+               : outcome_of(merge(&work, err));
 }
 
 const Command command_merge = {
-    "merge", "make one frame of its parts, with the bits of one run", run_merge};
+    "merge", "make one frame, or review, of its parts, with the bits of one run", run_merge};

@@ -14,20 +14,13 @@
 #define BUFFER_BYTES ((size_t)1 << 16)
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "numbers go out as they lie");
+typedef struct KeptHead {
+    char     magic[8];
+    uint32_t byte_order, version;
+    uint64_t file_bytes, identity_bytes;
+} KeptHead;
+
 _Static_assert(sizeof(KeptHead) == 32, "the head has no gaps");
-
-KeptHead kept_head(const KeptFormat *format)
-{
-    KeptHead head = {.byte_order = BYTE_ORDER_MARK, .version = format->version};
-    memcpy(head.magic, format->magic, sizeof head.magic);
-    return head;
-}
-
-bool kept_head_is(const KeptHead *head, const KeptFormat *format)
-{
-    KeptHead required = kept_head(format);
-    return !memcmp(head, &required, sizeof required);
-}
 
 /* ---- writing ----------------------------------------------------------------------------- */
 
@@ -45,9 +38,10 @@ uint64_t kept_bytes(const KeptFile *file)
 bool kept_begin(const KeptFile *file, Arena *arena, KeptWriter **out, Error *err)
 {
     KeptWriter *writer = ARENA_NEW(arena, KeptWriter, 1);
-    KeptHead    head = kept_head(file->format);
-    head.file_bytes = kept_bytes(file);
-    head.identity_bytes = strlen(file->identity);
+    KeptHead    head = {.byte_order = BYTE_ORDER_MARK, .version = file->format->version,
+                        .file_bytes = kept_bytes(file),
+                        .identity_bytes = strlen(file->identity)};
+    memcpy(head.magic, file->format->magic, sizeof head.magic);
     XXH3_64bits_reset(&writer->sum);
     if (!file_writer_open(file->path, &writer->file, err) ||
         !kept_add(writer, &head, sizeof head, err) ||

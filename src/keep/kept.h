@@ -8,7 +8,6 @@
  *            identity    text: everything that decides what is kept
  *            body        the format's
  *            checksum    XXH3, 64 bits, of everything before
- *          A file that grows (journal.h) has such a head without sizes.
  * Memory   the arena's; a body goes through the caller's memory piece by piece.
  * Threads  one at a time.
  * Writing  seen when it is whole and on the disk: a process that is killed, or a full disk,
@@ -30,16 +29,6 @@ typedef struct KeptFormat {
     uint32_t    version;  /* others are refused */
     size_t      facts_bytes;
 } KeptFormat;
-
-typedef struct KeptHead {
-    char     magic[8];
-    uint32_t byte_order, version;
-    uint64_t file_bytes, identity_bytes;
-} KeptHead;
-
-/* Of a file without sizes, and whether a file begins with it. */
-KeptHead kept_head(const KeptFormat *format);
-bool     kept_head_is(const KeptHead *head, const KeptFormat *format);
 
 /* ---- writing ----------------------------------------------------------------------------- */
 

@@ -126,7 +126,7 @@ static const char *const environment_names[] = {
 static const char *const floor_names[] = {
     [FLOOR_LAND] = "land", [FLOOR_SEA] = "sea", [FLOOR_CLOUD] = "cloud"};
 
-void identity_add_daylight(Text *text, const DaylightInput *daylight)
+static void add_daylight(Text *text, const DaylightInput *daylight)
 {
     const SkyTime *when = &daylight->when;
     if (daylight->has_time)
@@ -167,7 +167,7 @@ void identity_add_environment(Text *text, const Scene *scene)
         identity_float(text, "hdri lux", environment->horizontal_illuminance_lx);
     }
     if (environment->kind >= ENVIRONMENT_CIE)
-        identity_add_daylight(text, &environment->daylight);
+        add_daylight(text, &environment->daylight);
     identity_line(text, "sun", "%s", environment->has_sun ? "set" : "not set");
     if (environment->has_sun) {
         identity_float(text, "sun azimuth", environment->sun_azimuth);

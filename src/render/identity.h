@@ -26,9 +26,6 @@ void identity_add_program(Text *text, const Kernel *kernel);
  * which it was loaded. */
 void identity_add_scene(Text *text, const SceneOptions *options, const Scene *scene);
 
-/* Time, place and parameters of a daylight sky. */
-void identity_add_daylight(Text *text, const DaylightInput *daylight);
-
 /* The scene's surroundings as they are now. */
 void identity_add_environment(Text *text, const Scene *scene);
 

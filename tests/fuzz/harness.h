@@ -79,9 +79,9 @@ void fuzz_mutate_places(uint8_t *data, size_t size, unsigned seed);
 uint32_t fuzz_random(uint64_t *state);
 
 FuzzMutate fuzz_mutate_json, fuzz_mutate_glb, fuzz_mutate_png, fuzz_mutate_panel,
-    fuzz_mutate_checkpoint, fuzz_mutate_field, fuzz_mutate_response, fuzz_mutate_journal;
+    fuzz_mutate_checkpoint, fuzz_mutate_field, fuzz_mutate_response;
 
-FuzzMake fuzz_make_field, fuzz_make_response, fuzz_make_journal, fuzz_make_answers;
+FuzzMake fuzz_make_field, fuzz_make_response, fuzz_make_condition;
 
 /* ---- targets ----------------------------------------------------------------------------- */
 
@@ -89,4 +89,4 @@ FuzzRun fuzz_scene, fuzz_panel, fuzz_import, fuzz_import_any, fuzz_import_text,
     fuzz_declaration, fuzz_image, fuzz_frame, fuzz_manifest, fuzz_recipe, fuzz_table,
     fuzz_weather, fuzz_curve, fuzz_primaries, fuzz_environment, fuzz_cli, fuzz_uri,
     fuzz_part, fuzz_checkpoint, fuzz_review, fuzz_field, fuzz_response,
-    fuzz_journal, fuzz_answers;
+    fuzz_condition;

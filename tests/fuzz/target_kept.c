@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What the program keeps for itself, and may get from anywhere: trained fields, responses,
- * journals of answers. Their checksums are corrected after most changes: whoever sends
- * such a file can do that. */
+ * rows of a condition. Checksums are corrected after most changes: whoever sends such a file can
+ * do that. */
 #include <math.h>
 #include <string.h>
 #define XXH_INLINE_ALL
@@ -11,12 +11,9 @@
 #include "base/file.h"
 #include "guide/guide_file.h"
 #include "harness.h"
-#include "keep/journal.h"
-#include "review/eye/eye_reading.h"
-#include "review/eye/false_suns.h"
-#include "review/eye/gaze_reading.h"
+#include "keep/pack.h"
+#include "review/engine/condition_rows.h"
 #include "review/light/response_file.h"
-#include "review/symbol/text_find.h"
 
 /* A file that was written, as an input. */
 static size_t take_file(const char *path, uint8_t *data, size_t max_size, Arena scratch)
@@ -35,8 +32,7 @@ static size_t change(uint8_t *data, size_t size, size_t max_size, uint64_t *stat
     return size;
 }
 
-/* What all have in common (keep/kept.c): a head, and a checksum at the end or, of a journal, of
- * each entry. */
+/* What all have in common (keep/kept.c): a head, and a checksum at the end. */
 enum { KEPT_HEAD = 32, AT_ORDER = 8, AT_BYTES = 16, AT_IDENTITY = 24 };
 
 static void mend_head(uint8_t *data, const char *magic, uint32_t version)
@@ -194,164 +190,39 @@ void fuzz_response(const uint8_t *data, size_t size, Arena *arena)
                "what a sun gives is a number");
 }
 
-/* ---- journals ---------------------------------------------------------------------------- */
+/* ---- what a review keeps of a condition (review/engine/condition_rows.c) ------------------ */
 
-enum { JOURNAL_ENTRY = 32, ENTRY_SUMMED = 24 };
-
-static JournalKey key_of(unsigned number)
+/* What is taken is added again with the bytes that it had. */
+void fuzz_condition(const uint8_t *data, size_t size, Arena *arena)
 {
-    return (JournalKey){number % 3 ? number : 0, number};
+    PackBytes from = {data, data + size};
+    Review    review;
+    Text      again = {.arena = arena};
+    if (!pack_take(&from, &condition_review, &review, arena)) return;
+    pack_add(&again, &condition_review, &review);
+    fuzz_claim(again.size == (size_t)(from.at - data) && !memcmp(again.data, data, again.size),
+               "rows have the bytes that they were read from");
 }
 
-static void open_journal(const char *path, Arena *arena, Journal **out)
+size_t fuzz_make_condition(uint8_t *data, size_t max_size, unsigned number, Arena *arena)
 {
-    Error    err = {0};
-    Problems problems = problems_start(arena);
-    fuzz_claim(journal_open(path, arena, &problems, out, &err), "a file becomes a journal");
-}
-
-size_t fuzz_make_journal(uint8_t *data, size_t max_size, unsigned number, Arena *arena)
-{
-    static const uint8_t answer[64] = {1, 2, 3};
-    const char *path = fuzz_file("made.journal", "", 0, arena);
-    Journal    *journal;
-    if (number > 2) return 0;
-    open_journal(path, arena, &journal);
-    for (unsigned i = 0; i <= 4 * number; i++)
-        journal_add(journal, key_of(i), answer, 13 * i % sizeof answer);
-    journal_close(journal);
-    return take_file(path, data, max_size, *arena);
-}
-
-size_t fuzz_mutate_journal(uint8_t *data, size_t size, size_t max_size, unsigned seed)
-{
-    const uint64_t no_sizes[2] = {0};
-    uint64_t       state = seed, answer, checksum;
-    XXH3_state_t   sum;
-    size = change(data, size, max_size, &state);
-    if (size < KEPT_HEAD || fuzz_random(&state) % 16 == 0) return size;
-    mend_head(data, "PRHLJRNL", 2);
-    memcpy(data + AT_BYTES, no_sizes, sizeof no_sizes);
-    for (size_t at = KEPT_HEAD; size - at >= JOURNAL_ENTRY; at += JOURNAL_ENTRY + answer) {
-        memcpy(&answer, data + at + 16, sizeof answer);
-        if (answer > size - at - JOURNAL_ENTRY) break;
-        XXH3_64bits_reset(&sum);
-        XXH3_64bits_update(&sum, data + at, ENTRY_SUMMED);
-        XXH3_64bits_update(&sum, data + at + JOURNAL_ENTRY, answer);
-        checksum = XXH3_64bits_digest(&sum);
-        memcpy(data + at + ENTRY_SUMMED, &checksum, sizeof checksum);
-    }
-    return size;
-}
-
-void fuzz_journal(const uint8_t *data, size_t size, Arena *arena)
-{
-    unsigned char answer[64];
-    Journal      *journal;
-    const char   *path = fuzz_file("a.answers", data, size, arena);
-    open_journal(path, arena, &journal);
-    int count = journal_count(journal);
-    fuzz_claim(count >= 0 && (size_t)count <= size / JOURNAL_ENTRY, "entries take room");
-    for (unsigned i = 0; i < 9; i++)
-        for (size_t bytes = 0; bytes <= sizeof answer; bytes += 13)
-            journal_find(journal, key_of(i), answer, bytes);
-    journal_add(journal, key_of(77), answer, 5);
-    count = journal_count(journal);
-    journal_close(journal);
-    open_journal(path, arena, &journal);
-    fuzz_claim(journal_count(journal) == count, "an answer that is added is kept");
-    journal_close(journal);
-}
-
-/* ---- answers: what a journal's entries may hold ------------------------------------------ */
-
-/* Rays with places in the table of cells, a gaze, an eye, a text: as bytes, so that any are
- * tried. */
-typedef struct AnswerBytes {
-    uint8_t parts, texts, rays, cells;
-} AnswerBytes;
-
-enum { PARTS_MOST = 16 };
-
-static bool take(const uint8_t **from, size_t *left, void *to, size_t bytes)
-{
-    if (*left < bytes) return false;
-    memcpy(to, *from, bytes);
-    *from += bytes;
-    *left -= bytes;
-    return true;
-}
-
-static void claim_suns(const FalseSunRays *rays, int parts, Arena *arena)
-{
-    float bands[LIGHT_BANDS];
-    if (!false_suns_are_sound(rays, parts)) return;
-    for (int i = 0; i < LIGHT_BANDS; i++) bands[i] = 1;
-    FalseSuns suns = false_suns_of(rays, bands, arena);
-    for (int i = 0; i < rays->count; i++) {
-        FalseSunSight sight = false_suns_at(&suns, rays->list[i].sun);
-        fuzz_claim(!isnan(sight.share) && sight.part_id < parts, "an image is of the scene");
-    }
-}
-
-static void run_suns(const AnswerBytes *head, const uint8_t **from, size_t *left, Arena *arena)
-{
-    FalseSunRay *list = ARENA_NEW(arena, FalseSunRay, head->rays);
-    int         *first = ARENA_NEW(arena, int, FALSE_SUN_CELLS + 1);
-    int          at[2], value = 0, cell = 0;
-    for (int i = 0; i < head->rays; i++)
-        if (!take(from, left, &list[i], sizeof *list)) return;
-    for (int i = 0; i < head->cells && take(from, left, at, sizeof at); i++) {
-        int end = at[0] & 0xffff;
-        for (; cell < end && cell < FALSE_SUN_CELLS; cell++) first[cell] = value;
-        value = at[1];
-    }
-    for (; cell <= FALSE_SUN_CELLS; cell++) first[cell] = value;
-    claim_suns(&(FalseSunRays){list, first, head->rays}, head->parts % PARTS_MOST, arena);
-}
-
-void fuzz_answers(const uint8_t *data, size_t size, Arena *arena)
-{
-    AnswerBytes  head;
-    GazeReading  gaze;
-    EyeReading   eye;
-    TextProposal text;
-    int          parts;
-    if (!take(&data, &size, &head, sizeof head)) return;
-    parts = head.parts % PARTS_MOST;
-    if (take(&data, &size, &gaze, sizeof gaze) && gaze_reading_is_sound(&gaze, parts))
-        fuzz_claim(gaze.most.pane_id < parts && gaze.most.part_id < parts &&
-                       gaze.most.source >= 0 && gaze.most.source < LIGHT_SETS,
-                   "what a gaze meets is of the scene");
-    if (take(&data, &size, &eye, sizeof eye) && eye_reading_is_sound(&eye))
-        fuzz_claim(isfinite(eye.veil) && isfinite(eye.vertical_lx),
-                   "an eye's light is a number");
-    for (int i = 0; i < head.texts % 6; i++)
-        if (take(&data, &size, &text, sizeof text) && text_proposal_is_sound(&text))
-            for (int k = 0; k < 4; k++)
-                fuzz_claim(text.uv[k] >= 0 && text.uv[k] <= 1, "a text lies in the content");
-    run_suns(&head, &data, &size, arena);
-}
-
-size_t fuzz_make_answers(uint8_t *data, size_t max_size, unsigned number, Arena *arena)
-{
-    (void)arena;
-    const AnswerBytes  head = {3, 1, (uint8_t)(2 * number), 2};
-    const GazeReading  gaze = {.most = {.pane_id = 1, .part_id = NO_ID}};
-    const TextProposal text = {.uv = {0.1, 0.2, 0.3, 0.4}, .height_px = 9, .characters = 4};
-    const int          cells[2][2] = {{9, 0}, {500, head.rays}};
-    size_t read = sizeof head + sizeof gaze + sizeof(EyeReading);
-    size_t size = read + sizeof text + head.rays * sizeof(FalseSunRay);
-    if (number > 2 || size + sizeof cells > max_size) return 0;
-    memset(data, 0, size);
-    memcpy(data, &head, sizeof head);
-    memcpy(data + sizeof head, &gaze, sizeof gaze);
-    memcpy(data + read, &text, sizeof text);
-    for (int i = 0; i < head.rays; i++) {
-        const FalseSunRay ray = {.sun = {0, 1, 0}, .seen = {0, 0, -1}, .sr = 1e-5f,
-                                 .part_id = i % 3};
-        memcpy(data + read + sizeof text + (size_t)i * sizeof ray, &ray, sizeof ray);
-    }
-    memcpy(data + size, cells, sizeof cells);
-    return size + sizeof cells;
+    ReviewCase c = review_case_unknown();
+    const LimitVerdict limit = {.name = "contrast", .kind = "contrast_ratio", .value = 2};
+    ReviewSweep sweep = {.condition = "sun", .eye = "driver", .symbol = "speed"};
+    ReviewFile  input = {"a.gltf", "0123456789abcdef"};
+    Text        text = {.arena = arena};
+    c.condition = "sun";
+    c.eye = "driver";
+    c.symbol = "speed";
+    c.limits = &limit;
+    c.limit_count = 1;
+    sweep.worst = c;
+    const Review review = {.cases = &c, .case_count = (int)(number & 1), .sweeps = &sweep,
+                           .sweep_count = (int)(number >> 1 & 1), .inputs = &input,
+                           .input_count = 1};
+    if (number > 3) return 0;
+    pack_add(&text, &condition_review, &review);
+    if (text.size > max_size) return 0;
+    memcpy(data, text.data, text.size);
+    return text.size;
 }

@@ -11,9 +11,9 @@ static inline const Kernel *kernel(void)
     return chosen;
 }
 
-static inline ReadingTools reading_tools(int threads, Journal *journal)
+static inline ReadingTools reading_tools(int threads)
 {
-    return (ReadingTools){.kernel = kernel(), .threads = threads, .journal = journal};
+    return (ReadingTools){.kernel = kernel(), .threads = threads};
 }
 
 /* user: a limit. */

@@ -2,12 +2,14 @@
 /* A whole review without a command line: a display on a wall under an even sky. */
 #include "wall_fixture.h"
 
+#include <jansson.h>
+#include <unistd.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include "base/count.h"
-#include "keep/kept.h"
 #include "review/engine/engine.h"
+#include "review/output/review_json.h"
 #include "review/request/request_read.h"
 #include "review/review_decide.h"
 
@@ -36,7 +38,8 @@ static bool hear_scene(void *user, const Scene *scene, Error *err)
     return !heard->refuses || error_set(err, ERROR_OUTPUT, "the disk is full");
 }
 
-static bool run_request(Heard *heard, Journal *journal, Arena *arena, ReviewOutcome *out,
+/* unfinished: where conditions are kept; NULL: nowhere. */
+static bool run_request(Heard *heard, const char *unfinished, Arena *arena, ReviewOutcome *out,
                         Error *err)
 {
     Problems       problems = problems_start(arena);
@@ -47,9 +50,8 @@ static bool run_request(Heard *heard, Journal *journal, Arena *arena, ReviewOutc
         !profile_load(request.profile, arena, &profile, &fault))
         fail_msg("%s: %s", fault.path, fault.text);
     Progress  progress = progress_start(PROGRESS_NONE, "review", "steps", 1);
-    ReviewRun run = {.request = &request, .profile = profile,
-                     .means = {.threads = 2, .journal = journal},
-                     .problems = &problems, .progress = &progress,
+    ReviewRun run = {.request = &request, .profile = profile, .means = {.threads = 2},
+                     .problems = &problems, .progress = &progress, .unfinished = unfinished,
                      .news = {hear_scene, heard}};
     return review_run(&run, false, arena, out, err);
 }
@@ -84,63 +86,72 @@ ARENA_TEST(a_listener_ends_it)
 
 /* ---- what was kept ----------------------------------------------------------------------- */
 
-static bool run_kept(Arena *arena, ReviewOutcome *out, int *answers, Error *fault)
+/* Of two conditions, each with a variant: scenes that were opened. */
+static int run_kept(Arena *arena, ReviewOutcome *out)
 {
-    Heard    heard = {0};
-    Problems problems = problems_start(arena);
-    Journal *journal;
-    assert_done(journal_open(in_folder("journal"), arena, &problems, &journal, &err));
-    assert_int_equal(problems.count, 0);
-    bool ok = run_request(&heard, journal, arena, out, fault);
-    *answers = journal_count(journal);
-    journal_close(journal);
-    return ok;
+    Heard heard = {0};
+    assert_done(run_request(&heard, arena_format(arena, "%s", in_folder(".")), arena, out, &err));
+    return heard.scenes;
 }
 
-/* Every answer with other bytes, and a checksum that fits. */
-static void patch(const FileBytes *file, uint64_t word, size_t from, Arena arena)
+static char *text_of(const Review *review)
 {
-    unsigned char *bytes = ARENA_NEW(&arena, unsigned char, file->size);
-    memcpy(bytes, file->data, file->size);
-    for (size_t at = sizeof(KeptHead); at < file->size;) {
-        uint64_t     size;
-        XXH3_state_t sum;
-        memcpy(&size, bytes + at + 16, sizeof size);
-        for (size_t k = from; k + 8 <= size; k += 8) memcpy(bytes + at + 32 + k, &word, 8);
-        XXH3_64bits_reset(&sum);
-        XXH3_64bits_update(&sum, bytes + at, 24);
-        XXH3_64bits_update(&sum, bytes + at + 32, size);
-        uint64_t checksum = XXH3_64bits_digest(&sum);
-        memcpy(bytes + at + 24, &checksum, sizeof checksum);
-        at += 32 + size;
-    }
-    write_bytes(in_folder("journal"), bytes, file->size);
+    json_t *document = review_json(review);
+    char   *text = json_dumps(document, JSON_REAL_PRECISION(17));
+    json_decref(document);
+    return text;
 }
 
-/* No member may lead anywhere: numbers that are none, indices that are far off. */
-ARENA_TEST(answers_with_any_bytes_do_no_harm)
+/* A condition that is kept is not read again, and is the same to the last digit. */
+ARENA_TEST(a_review_goes_on_with_the_next_condition)
 {
-    static const uint64_t words[] = {UINT64_MAX,            /* NaN; -1, -1 */
-                                     0x7fe1ccf385ebc8a0u,   /* 1e308 */
-                                     0x7ffffff07ffffff0u,   /* large ints; NaN */
-                                     0x3ff0000040000000u,   /* 1 and somewhat */
-                                     0x8000000080000000u,   /* the least ints */
-                                     0x0000000700000007u};
+    ReviewOutcome first, again;
+    wall_write_files(request_text, arena);
+    assert_int_equal(run_kept(&arena, &first), 4);
+    char *wanted = text_of(&first.review);
+    assert_int_equal(run_kept(&arena, &again), 0);
+    char *found = text_of(&again.review);
+    assert_string_equal(found, wanted);
+    free(found);
+    assert_int_equal(unlink(in_folder("2-bright.condition")), 0);
+    assert_int_equal(run_kept(&arena, &again), 2);
+    found = text_of(&again.review);
+    assert_string_equal(found, wanted);
+    free(found);
+    free(wanted);
+}
+
+/* Of another request, or another file of the scene. */
+ARENA_TEST(what_is_no_longer_so_is_read_again)
+{
+    ReviewOutcome out;
+    wall_write_files(request_text, arena);
+    run_kept(&arena, &out);
+    wall_write("r.json", arena_format(&arena, "%s ", request_text), arena);
+    assert_int_equal(run_kept(&arena, &out), 4);
+}
+
+/* Every word of a file is another in turn, and its checksum fits: it is refused, or does no
+ * harm. */
+ARENA_TEST(conditions_with_any_bytes_do_no_harm)
+{
+    static const uint32_t words[] = {0, 1, 0xffffffffu, 0x7fffffffu, 0x7fc00000u};
     ReviewOutcome first, again;
     FileBytes     file;
-    int           count, kept;
+    const char   *path = arena_format(&arena, "%s", in_folder("2-bright.condition"));
     wall_write_files(request_text, arena);
-    assert_done(run_kept(&arena, &first, &count, &err));
-    assert_true(count > 4);
-    assert_done(file_read(in_folder("journal"), 1 << 26, &arena, &file, &err));
-    assert_done(run_kept(&arena, &again, &kept, &err));
-    assert_int_equal(kept, count);
-    assert_true(again.review.cases[0].contrast_ratio == first.review.cases[0].contrast_ratio);
-    for (int i = 0; i < COUNT_OF(words); i++) {
-        Arena room = arena;
-        patch(&file, words[i], i % 2 ? 8 : 0, room);
-        if (!run_kept(&room, &again, &kept, why())) assert_true(why()->text[0]);
-        else assert_int_equal(again.review.case_count, first.review.case_count);
+    run_kept(&arena, &first);
+    assert_done(file_read(path, 1 << 26, &arena, &file, &err));
+    for (size_t at = 32; at + 12 <= file.size; at += 4 * (1 + file.size / 400)) {
+        Arena          room = arena;
+        unsigned char *bytes = ARENA_NEW(&room, unsigned char, file.size);
+        memcpy(bytes, file.data, file.size);
+        memcpy(bytes + at, &words[at / 4 % COUNT_OF(words)], 4);
+        uint64_t sum = XXH3_64bits(bytes, file.size - 8);
+        memcpy(bytes + file.size - 8, &sum, sizeof sum);
+        write_bytes(path, bytes, file.size);
+        run_kept(&room, &again);
+        assert_int_equal(again.review.case_count, first.review.case_count);
     }
 }
 

@@ -263,24 +263,6 @@ TEST(both_add_up_to_what_a_camera_sees)
         fail_msg("%g + %g, a camera sees %g +- %g", found.through.mean, found.mirrored.mean,
                  wanted, sigma);
     assert_true(found.through.mean > 0 && found.mirrored.mean > 0);
-    assert_true(gaze_reading_is_sound(&found, world.scene->part_count));
-}
-
-TEST(a_gaze_at_what_is_not_there_is_unsound)
-{
-    const GazeReading good = {.most = {.pane_id = 1, .part_id = NO_ID}};
-    assert_true(gaze_reading_is_sound(&good, 2));
-    assert_false(gaze_reading_is_sound(&good, 1));
-    for (int i = 0; i < 5; i++) {
-        GazeReading wrong = good;
-        const int   far = 1 << 20, below = -2;
-        if (i == 0) wrong.most.pane_id = far;
-        if (i == 1) wrong.most.part_id = below;
-        if (i == 2) memcpy(&wrong.most.source, &far, sizeof far);
-        if (i == 3) wrong.through.mean = (double)NAN;
-        if (i == 4) wrong.mirrored.mean = (double)INFINITY;
-        if (gaze_reading_is_sound(&wrong, 2)) fail_msg("member %d", i);
-    }
 }
 
 TEST_PROGRAM(NULL, NULL)

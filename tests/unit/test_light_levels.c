@@ -79,7 +79,7 @@ TEST(emitters_of_other_levels_tell_the_same_light)
     static const double ONE[2] = {1, 1}, LEVELS[2] = {0.25, 4}, FAR[2] = {8, 0.05};
     ReadingGoal  longer = {.most = all_laws() ? 1 << 17 : 1 << 16};
     ENDS_BY(world_end) World world = room();
-    ReadingTools tools = reading_tools(2, NULL);
+    ReadingTools tools = reading_tools(2);
     for (int by_meter = 0; by_meter < 2; by_meter++) {
         Reading  kept, own;
         ProbeAim aim = aim_of(&world, 5, by_meter);

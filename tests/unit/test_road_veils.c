@@ -28,7 +28,6 @@ static RoadReading read_road(World *world)
                     road_veils_start(world->scene, &ages, &world->arena)};
     eye_read(&setup, &look, world->arena);
     road_veils_read(look.road, &found);
-    assert_true(road_reading_is_sound(&found, world->scene->part_count));
     return found;
 }
 

@@ -3,7 +3,7 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "review/folder/live.h"
+#include "review/folder/sweep_output.h"
 
 #define CELL_DEG 5.0
 #define HOUR_DEG 15.0 /* that the sun moves, at most */

@@ -244,27 +244,8 @@ EASEL_TEST(the_same_content_gives_the_same_list)
     assert_int_equal(a.count, b.count);
     for (int i = 0; i < a.count; i++)
         assert_memory_equal(a.list[i].uv, b.list[i].uv, sizeof a.list[i].uv);
-    for (int i = 0; i < a.count; i++) assert_true(text_proposal_is_sound(&a.list[i]));
     for (int i = 1; i < a.count; i++)
         assert_true(a.list[i].height_px <= a.list[i - 1].height_px);
-}
-
-TEST(a_text_outside_the_content_is_unsound)
-{
-    const TextProposal good = {.uv = {0.1, 0.2, 0.3, 0.4}};
-    const double       bad[] = {NAN, INFINITY, -INFINITY, -1e-9, 1.001};
-    assert_true(text_proposal_is_sound(&good));
-    for (int i = 0; i < 4; i++)
-        for (int k = 0; k < 5; k++) {
-            TextProposal wrong = good;
-            wrong.uv[i] = bad[k];
-            if (text_proposal_is_sound(&wrong)) fail_msg("uv[%d] %g", i, bad[k]);
-        }
-    assert_false(text_proposal_is_sound(&(TextProposal){.uv = {0.3, 0.2, 0.1, 0.4}}));
-    assert_false(text_proposal_is_sound(&(TextProposal){.uv = {0.1, 0.4, 0.3, 0.2}}));
-    TextProposal odd = good;
-    memset(&odd.is_light_on_dark, 0x7f, 1);
-    assert_false(text_proposal_is_sound(&odd));
 }
 
 TEST_PROGRAM(easel_open, easel_close)

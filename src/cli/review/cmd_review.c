@@ -14,6 +14,7 @@
 #include "cli/options/cli.h"
 #include "cli/options/outputs.h"
 #include "cli/options/scene_options.h"
+#include "cli/review/review_merge.h"
 #include "cli/review/review_print.h"
 #include "print/print.h"
 #include "render/signals.h"
@@ -34,9 +35,13 @@
 typedef struct ReviewWords {
     const char *folder, *profile, *root, *isa, *diff, *init, *responses, *summary;
     bool        is_strict, dry_run, is_self_contained, is_alone;
+    CliTexts    only;
     StateWords  state_words;
     SceneState  state;
     Cli         cli;
+    const char *const *typed; /* all of them but review_own_word's */
+    int         typed_count;
+    const ReviewMerge *merge; /* NULL: it is none */
 } ReviewWords;
 
 /* That the words go together. */
@@ -72,6 +77,9 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
          "the review by itself, whatever variants it has", &out->is_alone},
         {"--summary", OPTION_TEXT, "SYMBOL",
          "one page of paper about this symbol, instead of one about each", &out->summary},
+        {"--only", OPTION_TEXTS, "CONDITION",
+         "reviews this condition of the request: merge makes one review of several such",
+         &out->only},
         {"--diff", OPTION_TEXT, "DIR", "an earlier review to hold this one against",
          &out->diff},
         {"--responses", OPTION_TEXT, "DIR",
@@ -116,10 +124,9 @@ static bool print_plan(const Cli *cli, const ReviewRequest *r, const ReviewPlan 
 }
 
 /* Points to the remains of a review that was stopped. */
-static void print_unfinished(const ReviewFolder *folder, Arena *arena)
+static void print_unfinished(const ReviewFolder *folder, const Arena *arena)
 {
-    const char *journal = arena_format(arena, "%s/unfinished/journal", folder->target);
-    if (file_exists(journal))
+    if (review_has_unfinished(folder->target, *arena))
         print("%s/unfinished holds what is done of a review that was stopped: it goes on "
               "there\n", folder->target);
 }
@@ -175,7 +182,7 @@ static Outcome report_stopped(const ReviewFolder *folder, Arena *arena)
 static Outcome tell_kept(const ReviewFolder *folder, Error *err)
 {
     const Error before = *err;
-    if (err->code == ERROR_OUTPUT && journal_count(folder->draft.journal))
+    if (err->code == ERROR_OUTPUT && review_has_unfinished(folder->target, *folder->draft.arena))
         error_at(err, before.code, before.file, before.path,
                  "%.900s — what is done is kept: the same command goes on", before.text);
     return OUTCOME_FAILED;
@@ -203,21 +210,27 @@ static bool make_all(const ReviewWords *words, ReviewFolder *folder, ReviewRun *
     return ok && review_folder_write(folder, outcome, arena, err);
 }
 
+/* Of a merge: its parts' responses. */
+static bool take_parts(const ReviewWords *words, const ReviewFolder *folder, Arena scratch,
+                       Error *err)
+{
+    return !words->merge || !folder->has_own_responses ||
+           review_merge_responses(words->merge, folder->responses, scratch, err);
+}
+
 static Outcome make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
                     Arena *arena, Error *err)
 {
     ReviewOutcome found;
     signals_watch();
-    if (!review_variants_check(run, err) ||
-        !review_folder_open(folder, arena, run->problems, err))
+    if ((!words->merge && !review_variants_check(run, err)) ||
+        !review_folder_open(folder, arena, err))
         return OUTCOME_FAILED;
     run->folder = folder->name;
     run->unfinished = folder->draft.unfinished;
     run->responses = folder->responses;
     run->responses_shown = folder->responses_shown;
-    run->means.journal = folder->draft.journal;
-    run->means.guides = folder->draft.unfinished;
-    if (!make_all(words, folder, run, &found, arena, err)) {
+    if (!take_parts(words, folder, *arena, err) || !make_all(words, folder, run, &found, arena, err)) {
         Outcome outcome = err->code ? tell_kept(folder, err) : report_stopped(folder, arena);
         review_folder_close(folder);
         return outcome;
@@ -247,18 +260,42 @@ static bool check_symbol(const ReviewRequest *request, const char *name, Arena s
                                                         advice, sizeof advice));
 }
 
+/* *out: [condition]; NULL: all of them. */
+static bool find_only(const ReviewRequest *request, const CliTexts *only, Arena *arena,
+                      const bool **out, Error *err)
+{
+    char         advice[320];
+    int          count = request->condition_count;
+    bool        *is_wanted = ARENA_NEW(arena, bool, count);
+    const char **names = ARENA_NEW(arena, const char *, count);
+    *out = only->count ? is_wanted : NULL;
+    for (int i = 0; i < count; i++) names[i] = request->conditions[i].name;
+    for (int k = 0; k < only->count; k++) {
+        const ReviewCondition *found = review_condition_named(request, only->list[k]);
+        if (!found)
+            return error_set(err, ERROR_USAGE, "--only %.100s: is no condition of %.200s: %s",
+                             only->list[k], request->file,
+                             nearest_word_advice(only->list[k], names, count, advice,
+                                                 sizeof advice));
+        is_wanted[found - request->conditions] = true;
+    }
+    return true;
+}
+
 static Outcome review(const ReviewWords *words, Arena *arena, Error *err)
 {
     const char    *file = words->cli.arguments[0];
     Problems       problems = problems_start(arena);
     ReviewRequest  request;
     const Profile *profile;
+    const bool    *only;
     ReviewFolder   folder = {.target = words->folder, .request = &request, .diff = words->diff,
                              .profile = words->profile, .root = words->root,
                              .state_text = state_options_text(&words->state, arena),
                              .responses = words->responses,
                              .threads = words->cli.threads,
                              .is_strict = words->is_strict,
+                             .only = words->only.list, .only_count = words->only.count,
                              .summary = words->summary, .is_alone = words->is_alone,
                              .is_self_contained = words->is_self_contained};
     if (!review_request_read(file, words->root, arena, &problems, &request, err))
@@ -272,27 +309,55 @@ static Outcome review(const ReviewWords *words, Arena *arena, Error *err)
         request.variant_count = 0;
         request.is_compared = false;
     }
-    if ((words->summary && !check_symbol(&request, words->summary, *arena, err)) ||
+    if (!find_only(&request, &words->only, arena, &only, err) ||
+        (words->summary && !check_symbol(&request, words->summary, *arena, err)) ||
         !review_check(&request, *arena, err) ||
         (folder.target && (!review_files_check(folder.target, &request, *arena, err) ||
                            !review_files_spare(folder.target, &request, &files, *arena, err))))
         return OUTCOME_FAILED;
     Progress  progress = progress_start(words->cli.progress, "review", "steps",
-                                        review_steps(&request));
+                                        review_steps(&request, only));
     ReviewRun run = {.request = &request, .profile = profile,
                      .means = {.root = words->root, .state = words->state,
                                .threads = words->cli.threads, .isa = words->isa},
+                     .only = only, .state_text = folder.state_text, .words = words->typed,
+                     .word_count = words->typed_count,
                      .problems = &problems, .progress = &progress};
+    if (words->merge && !review_merge_check(words->merge, &run, arena, err))
+        return OUTCOME_FAILED;
     return words->dry_run ? outcome_of(plan(words, &folder, &run, arena, err))
                           : make(words, &folder, &run, arena, err);
 }
 
-static Outcome run(int argc, char **argv, Arena *arena, Error *err)
+static Outcome run_words(int argc, char **argv, const ReviewMerge *merge, Arena *arena,
+                         Error *err)
 {
-    ReviewWords words = {0};
+    ReviewWords words = {.merge = merge};
     if (!parse(argc, argv, arena, &words, err)) return OUTCOME_FAILED;
     if (words.cli.help_shown) return OUTCOME_DONE;
+    words.typed = review_merge_words(argc, argv, arena, &words.typed_count);
     return words.init ? outcome_of(start(&words, arena, err)) : review(&words, arena, err);
+}
+
+Outcome cmd_review_merge(const Cli *cli, const char *output, Arena *arena, Error *err)
+{
+    ReviewMerge merge;
+    const char *own[] = {"review", "-o", output, cli->quiet ? "--quiet" : "--progress=plain",
+                         arena_format(arena, "--threads=%d", cli->threads), "--json"};
+    int own_count = COUNT_OF(own) - !cli->json, argc = 0;
+    if (!review_merge_find(cli->arguments, cli->argument_count, arena, &merge, err))
+        return OUTCOME_FAILED;
+    char **argv = ARENA_NEW(arena, char *, own_count + merge.words.count + 1);
+    for (int i = 0; i < own_count + merge.words.count; i++) {
+        const char *word = i < own_count ? own[i] : merge.words.list[i - own_count];
+        argv[argc++] = arena_string(arena, word, strlen(word));
+    }
+    return run_words(argc, argv, &merge, arena, err);
+}
+
+static Outcome run(int argc, char **argv, Arena *arena, Error *err)
+{
+    return run_words(argc, argv, NULL, arena, err);
 }
 
 const Command command_review = {

@@ -10,7 +10,7 @@
  *          (review/keep/frame_kept.h), once signals are watched.
  */
 #pragma once
-#include "review/run/job.h"
+#include "review/run/review_run.h"
 
 /* is_strict: as in review_decide. Pictures and checkpoints are written into the run's folders;
  * nothing else is written here. */

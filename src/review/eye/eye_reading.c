@@ -467,7 +467,7 @@ static EyeReading sum_up(const EyePaths *paths, const PupilSums *pupils, Arena s
     return *r;
 }
 
-static EyeReading read_eye(const Setup *setup, const EyeLook *look, Arena scratch)
+EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch)
 {
     int      count = look->rounds * PATHS;
     EyePaths paths = {.setup = setup, .count = count, .gaze = vec3_normalize(look->towards),
@@ -486,31 +486,4 @@ static EyeReading read_eye(const Setup *setup, const EyeLook *look, Arena scratc
     parallel_for(setup->tools.threads, count / CHUNK, read_chunk, &paths);
     PupilSums *pupils = read_pupil(&paths, &scratch);
     return sum_up(&paths, pupils, scratch);
-}
-
-bool eye_reading_is_sound(const EyeReading *reading)
-{
-    return isfinite(reading->veil) && isfinite(reading->vertical_lx);
-}
-
-EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch)
-{
-    const ReadingTools   *tools = &setup->tools;
-    const HumanEye       *observer = &setup->request->observer;
-    const double         *ahead = setup->request->forward;
-    EyeReading reading;
-    if (!tools->journal) return read_eye(setup, look, scratch);
-    ProbeAim   aim = {.context = &setup->context, .eye = look->eye, .targets = &look->towards,
-                      .target_count = 1, .seed = review_seed(setup->request, SEED)};
-    double     numbers[] = {observer->age_years, observer->pigment, look->rounds, ahead[0],
-                            ahead[1], ahead[2], look->images ? look->images->count : -1};
-    Question   question = {.base = tools->base, .kind = look->is_close ? "close eye" : "eye",
-                           .numbers = numbers, .number_count = COUNT_OF(numbers)};
-    JournalKey key = question_key(&question, &aim, scratch);
-    if (!look->road && journal_find(tools->journal, key, &reading, sizeof reading) &&
-        eye_reading_is_sound(&reading))
-        return reading;
-    reading = read_eye(setup, look, scratch);
-    journal_add(tools->journal, key, &reading, sizeof reading);
-    return reading;
 }

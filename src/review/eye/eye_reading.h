@@ -56,8 +56,5 @@ typedef struct EyeReading {
     double vertical_lx;        /* on the pupil's plane, all light */
 } EyeReading;
 
-/* As a file keeps it: whether any eye may have read it. */
-bool eye_reading_is_sound(const EyeReading *reading);
-
-/* The request's observer. With a road it is read even where a journal has the answer. */
+/* The request's observer. */
 EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch);

@@ -297,8 +297,6 @@ FalseSunSight false_suns_at(const FalseSuns *suns, Vec3 towards)
 
 /* ---- searches that are kept -------------------------------------------------------------- */
 
-#define KEPT_MOST (1 << 24) /* rays: a search follows some 2 million */
-#define UNIT_SLACK 1e-3f
 #define BYTES ((size_t)1 << 34) /* address space: what is not touched costs nothing */
 
 struct SunSearch {
@@ -324,64 +322,6 @@ static bool is_of(const SunSearch *search, const Setup *setup, Vec3 eye)
            !strcmp(search->identity, setup->identity);
 }
 
-/* Nothing but the scene and the eye decides it. */
-static JournalKey key_of(const Setup *setup, Vec3 eye, const char *what, Arena scratch)
-{
-    return journal_key(arena_format(&scratch, "suns in mirrors, %s\n%016llx%016llx\n%a %a %a",
-                                    what, (unsigned long long)setup->tools.base.high,
-                                    (unsigned long long)setup->tools.base.low, (double)eye.x,
-                                    (double)eye.y, (double)eye.z));
-}
-
-static bool ray_is_sound(const FalseSunRay *ray, int part_count)
-{
-    float  sun = vec3_length(ray->sun), seen = vec3_length(ray->seen);
-    bool   ok = fabsf(sun - 1) < UNIT_SLACK && fabsf(seen - 1) < UNIT_SLACK && ray->sr >= 0 &&
-              isfinite(ray->sr) && ray->part_id >= 0 && ray->part_id < part_count;
-    for (int k = 0; k < LIGHT_BANDS; k++)
-        ok = ok && ray->share[k] >= 0 && isfinite(ray->share[k]);
-    return ok;
-}
-
-bool false_suns_are_sound(const FalseSunRays *rays, int part_count)
-{
-    bool ok = rays->first[0] == 0 && rays->first[FALSE_SUN_CELLS] == rays->count;
-    for (int i = 0; ok && i < FALSE_SUN_CELLS; i++) ok = rays->first[i] <= rays->first[i + 1];
-    for (int i = 0; ok && i < rays->count; i++) ok = ray_is_sound(&rays->list[i], part_count);
-    return ok;
-}
-
-static bool find_kept(const Setup *setup, Vec3 eye, Arena *arena, FalseSunRays *out)
-{
-    const Journal *journal = setup->tools.journal;
-    int            count;
-    if (!journal_find(journal, key_of(setup, eye, "count", *arena), &count, sizeof count) ||
-        count < 0 || count > KEPT_MOST)
-        return false;
-    size_t bytes = (size_t)count * sizeof(FalseSunRay);
-    JournalKey   rays = key_of(setup, eye, "rays", *arena);
-    JournalKey   cells = key_of(setup, eye, "cells", *arena);
-    FalseSunRay *list = ARENA_NEW(arena, FalseSunRay, count);
-    int         *first = ARENA_NEW(arena, int, FALSE_SUN_CELLS + 1);
-    *out = (FalseSunRays){list, first, count};
-    return (!count || journal_find(journal, rays, list, bytes)) &&
-           journal_find(journal, cells, first, (FALSE_SUN_CELLS + 1) * sizeof *first) &&
-           false_suns_are_sound(out, setup->scene->part_count);
-}
-
-/* The count comes last: the others are there when it is. */
-static void keep(const Setup *setup, Vec3 eye, const FalseSunRays *rays, Arena scratch)
-{
-    Journal *journal = setup->tools.journal;
-    if (rays->count)
-        journal_add(journal, key_of(setup, eye, "rays", scratch), rays->list,
-                    (size_t)rays->count * sizeof *rays->list);
-    journal_add(journal, key_of(setup, eye, "cells", scratch), rays->first,
-                (FALSE_SUN_CELLS + 1) * sizeof *rays->first);
-    journal_add(journal, key_of(setup, eye, "count", scratch), &rays->count,
-                sizeof rays->count);
-}
-
 const FalseSunRays *sun_searches_find(SunSearches *searches, const Setup *setup, Vec3 eye)
 {
     Arena *arena = &searches->arena;
@@ -391,10 +331,7 @@ const FalseSunRays *sun_searches_find(SunSearches *searches, const Setup *setup,
     *search = (SunSearch){.identity = arena_string(arena, setup->identity,
                                                    strlen(setup->identity)),
                           .eye = eye, .before = searches->last};
-    if (!setup->guides || !find_kept(setup, eye, arena, &search->rays)) {
-        false_suns_search(setup, eye, arena, &search->rays);
-        if (setup->guides) keep(setup, eye, &search->rays, *arena);
-    }
+    false_suns_search(setup, eye, arena, &search->rays);
     searches->last = search;
     return &search->rays;
 }

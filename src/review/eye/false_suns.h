@@ -41,9 +41,6 @@ typedef struct FalseSunRays {
 /* The setup may be dark: no light of it counts. */
 void false_suns_search(const Setup *setup, Vec3 eye, Arena *arena, FalseSunRays *out);
 
-/* Rays as a file keeps them: what a search can have found in a scene of so many parts. */
-bool false_suns_are_sound(const FalseSunRays *rays, int part_count);
-
 /* A ray under suns of one spectrum. */
 typedef struct FalseSun {
     Vec3  sun, seen; /* the ray's */
@@ -81,8 +78,7 @@ FalseSunSight false_suns_at(const FalseSuns *suns, Vec3 towards);
 /* ---- searches that are kept -------------------------------------------------------------- */
 
 /* One serves all gazes, moments and sweeps in which the same eye sees the same scene: it takes
- * some 2 million rays; neither the sun nor any other light has a part in it. Where guides are
- * kept, in a review that machines share, the setup's journal keeps it, too. One thread at a
+ * some 2 million rays; neither the sun nor any other light has a part in it. One thread at a
  * time. */
 typedef struct SunSearch SunSearch;
 

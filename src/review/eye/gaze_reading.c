@@ -367,7 +367,7 @@ static GazeMirrored find_mirrored(const GazePair *pair)
                           most < parts ? LIGHTS_SUN : (LightSet)(most - parts)};
 }
 
-static GazeReading read_gaze(const Setup *setup, const GazeGoal *goal, Arena scratch)
+GazeReading gaze_read(const Setup *setup, const GazeGoal *goal, Arena scratch)
 {
     uint32_t seed = review_seed(setup->request, SEED);
     uint32_t first = hash_combine(hash_u32(seed), PILOT_SEED);
@@ -379,38 +379,4 @@ static GazeReading read_gaze(const Setup *setup, const GazeGoal *goal, Arena scr
     read_mirrors(&fresh, pilot.mirror_paths);
     return (GazeReading){figure_of(&fresh, GAZE_THROUGH), figure_of(&fresh, GAZE_MIRRORED),
                          find_mirrored(&fresh)};
-}
-
-static bool is_part(int id, int part_count)
-{
-    return id == NO_ID || (id >= 0 && id < part_count);
-}
-
-bool gaze_reading_is_sound(const GazeReading *reading, int part_count)
-{
-    unsigned            source;
-    const GazeMirrored *most = &reading->most;
-    memcpy(&source, &most->source, sizeof source);
-    return isfinite(reading->through.mean) && isfinite(reading->mirrored.mean) &&
-           is_part(most->pane_id, part_count) && is_part(most->part_id, part_count) &&
-           source < LIGHT_SETS;
-}
-
-GazeReading gaze_read(const Setup *setup, const GazeGoal *goal, Arena scratch)
-{
-    const ReadingTools *tools = &setup->tools;
-    GazeReading reading;
-    if (!tools->journal) return read_gaze(setup, goal, scratch);
-    ProbeAim   aim = {.context = &setup->context, .eye = goal->eye, .targets = &goal->towards,
-                      .target_count = 1, .seed = review_seed(setup->request, SEED)};
-    double     numbers[] = {goal->precision, goal->most};
-    Question   question = {.base = tools->base, .kind = "gaze", .numbers = numbers,
-                           .number_count = COUNT_OF(numbers)};
-    JournalKey key = question_key(&question, &aim, scratch);
-    if (journal_find(tools->journal, key, &reading, sizeof reading) &&
-        gaze_reading_is_sound(&reading, setup->scene->part_count))
-        return reading;
-    reading = read_gaze(setup, goal, scratch);
-    if (!signals_stop_requested()) journal_add(tools->journal, key, &reading, sizeof reading);
-    return reading;
 }

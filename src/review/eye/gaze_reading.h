@@ -99,7 +99,4 @@ typedef struct GazeReading {
     GazeMirrored most; /* most of what is mirrored */
 } GazeReading;
 
-/* As a file keeps it: whether it may be of a scene with so many parts. */
-bool gaze_reading_is_sound(const GazeReading *reading, int part_count);
-
 GazeReading gaze_read(const Setup *setup, const GazeGoal *goal, Arena scratch);

@@ -29,26 +29,8 @@ struct RoadVeils {
 
 RoadReading road_reading_start(int ages, int displays, Arena *arena)
 {
-    size_t found = (size_t)ages * (size_t)(displays + 1) * sizeof(RoadFound);
-    size_t shares = (size_t)displays * sizeof(RoadShares);
-    size_t size = found + shares + sizeof(double);
-    char  *block = ARENA_NEW(arena, char, size);
-    return (RoadReading){ages, displays, (RoadFound *)(void *)block,
-                         (RoadShares *)(void *)(block + found),
-                         (double *)(void *)(block + found + shares), block, size};
-}
-
-bool road_reading_is_sound(const RoadReading *reading, int part_count)
-{
-    for (int i = 0; i < reading->ages * (reading->displays + 1); i++) {
-        const RoadFound *f = &reading->found[i];
-        if (!(f->mean >= 0 && f->low <= f->high && isfinite(f->high))) return false;
-    }
-    for (int d = 0; d < reading->displays; d++) {
-        double mirror = reading->shares[d].mirror;
-        if (!(mirror >= 0 && mirror < part_count && mirror == floor(mirror))) return false;
-    }
-    return *reading->without_data >= 0 && *reading->without_data <= 1;
+    return (RoadReading){ages, displays, ARENA_NEW(arena, RoadFound, ages * (displays + 1)),
+                         ARENA_NEW(arena, RoadShares, displays), ARENA_NEW(arena, double, 1)};
 }
 
 /* ---- gathered ---------------------------------------------------------------------------- */

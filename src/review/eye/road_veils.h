@@ -41,22 +41,16 @@ typedef struct RoadShares {
     double mirrored; /* and so much; 0: none does, and `mirror` means nothing */
 } RoadShares;
 
-/* All numbers, so that a file can keep it. */
 typedef struct RoadReading {
     int         ages, displays;
     RoadFound  *found;        /* [age][display], and behind a row's displays the whole */
     RoadShares *shares;       /* [display] */
     double     *without_data; /* of the whole for the first age, the share that came by
                                  materials without optical data */
-    void       *block;        /* all of it, */
-    size_t      size;         /* bytes */
 } RoadReading;
 
 /* Empty: all 0. */
 RoadReading road_reading_start(int ages, int displays, Arena *arena);
-
-/* As a file keeps it: whether it may be of a scene of so many parts. */
-bool road_reading_is_sound(const RoadReading *reading, int part_count);
 
 static inline RoadFound road_found(const RoadReading *r, int age, int display)
 {

@@ -4,10 +4,12 @@
 #include <ctype.h>
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -31,8 +33,7 @@ const char *const review_files_fixed[REVIEW_FILES_FIXED] = {
     "live.js",        REVIEW_PAGE_BESIDE, LIST};
 
 /* Behind a frame's name. */
-static const char *const of_frame[] = {".png",          ".exr",         ".layers.js",
-                                       "-luminance.png", "-contrast.png"};
+static const char *const of_frame[] = {".png", ".exr", "-luminance.png", "-contrast.png"};
 #define OF_VARIANT "-variant-"
 
 /* ---- names ------------------------------------------------------------------------------- */
@@ -70,7 +71,8 @@ static bool review_files_may_have(const char *name)
     bool is_summary = starts_with(name, "summary-") && !strchr(name, '/') &&
                       !strcmp(path_ending(name), ".html");
     return is_summary || is_among(review_files_fixed, REVIEW_FILES_FIXED, name) ||
-           is_numbered(name, "frames/") || is_numbered(name, "sweeps/");
+           is_numbered(name, "frames/") || is_numbered(name, "sweeps/") ||
+           is_numbered(name, "conditions/");
 }
 
 /* Is the rest of a name, behind a frame's, one of its files? */
@@ -284,7 +286,7 @@ bool review_files_spare(const char *dir, const ReviewRequest *request, const Lin
 
 /* ---- folders ----------------------------------------------------------------------------- */
 
-static const char *const parts[] = {"", "/sweeps", "/frames"};
+static const char *const parts[] = {"", "/sweeps", "/frames", "/conditions"};
 
 static bool make_parts(const char *folder, Arena scratch, Error *err)
 {
@@ -300,9 +302,15 @@ static void remove_parts(const char *folder, Arena scratch)
         rmdir(arena_format(&scratch, "%s%s", folder, parts[i]));
 }
 
+static const char *lock_path(const ReviewDraft *draft, Arena *arena)
+{
+    return arena_format(arena, "%s/lock", draft->unfinished);
+}
+
 void review_draft_close(ReviewDraft *draft)
 {
-    journal_close(draft->journal);
+    unlink(lock_path(draft, draft->arena));
+    close(draft->lock);
     remove_parts(draft->folder, *draft->arena);
     rmdir(draft->unfinished);
     remove_parts(draft->target, *draft->arena);
@@ -318,16 +326,33 @@ static bool check_files(const char *target, Arena scratch, Error *err)
     return true;
 }
 
-/* The journal comes first: it knows of another review that is at work here. */
-bool review_draft_open(const char *target, Arena *arena, Problems *problems, ReviewDraft *out,
-                       Error *err)
+/* Two processes never have one folder. A folder that came from somewhere may have a link or a
+ * pipe in the lock's place; a file system without locks is no reason to fail. */
+static bool take_lock(ReviewDraft *draft, Arena *arena, Error *err)
+{
+    const char *path = lock_path(draft, arena);
+    struct stat info;
+    draft->lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+    if (draft->lock < 0)
+        return error_at(err, ERROR_OUTPUT, path, "", "cannot be created: %s", strerror(errno));
+    if (fstat(draft->lock, &info) != 0 || !S_ISREG(info.st_mode))
+        error_at(err, ERROR_OUTPUT, path, "", "is not a regular file");
+    else if (flock(draft->lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return true;
+    else
+        error_at(err, ERROR_OUTPUT, draft->unfinished, "",
+                 "another review is at work in this folder: wait for it, or name another "
+                 "folder");
+    close(draft->lock);
+    return false;
+}
+
+bool review_draft_open(const char *target, Arena *arena, ReviewDraft *out, Error *err)
 {
     ReviewDraft draft = {.arena = arena, .target = target,
                          .unfinished = arena_format(arena, "%s/unfinished", target)};
-    const char *journal = arena_format(arena, "%s/journal", draft.unfinished);
     draft.folder = arena_format(arena, "%s/new", draft.unfinished);
     if (!folder_make(target, err) || !folder_make(draft.unfinished, err) ||
-        !journal_open(journal, arena, problems, &draft.journal, err)) {
+        !take_lock(&draft, arena, err)) {
         rmdir(draft.unfinished);
         rmdir(target);
         return false;
@@ -384,16 +409,15 @@ static Lines to_publish(const ReviewDraft *draft, const Review *review, Arena *a
     return files;
 }
 
-/* Removes what reviews made here and this one does not have. The page loads a frame's layers
- * only if they are published with it. Returns what stays. */
+/* Removes what reviews made here and this one does not have. Returns what stays. */
 static Lines remove_earlier(const ReviewDraft *draft, const Review *review, const Lines *made,
                             const Lines *published, Arena *arena)
 {
     Lines stays = {.arena = arena};
     for (int i = 0; i < made->count; i++) {
         const char *name = made->list[i];
-        bool        is_kept = review_files_is_named(review, name) && !has_ending(name, ".js");
-        if (is_kept || review_files_has(published, name)) lines_put(&stays, name);
+        if (review_files_is_named(review, name) || review_files_has(published, name))
+            lines_put(&stays, name);
         else unlink(arena_format(arena, "%s/%s", draft->target, name));
     }
     return stays;
@@ -419,20 +443,35 @@ bool review_draft_publish(const ReviewDraft *draft, const Review *review, Arena 
            review_files_write(draft->target, &stays, scratch, err);
 }
 
+/* Of a review that was stopped. */
+static bool is_kept(const char *name)
+{
+    return has_ending(name, ".condition") || has_ending(name, ".frame") ||
+           has_ending(name, ".checkpoint");
+}
+
+bool review_has_unfinished(const char *target, Arena scratch)
+{
+    Lines files = {.arena = &scratch};
+    review_files_list(&files, arena_format(&scratch, "%s/unfinished", target), "");
+    for (int i = 0; i < files.count; i++)
+        if (is_kept(files.list[i]) && !strchr(files.list[i], '/')) return true;
+    return false;
+}
+
 void review_draft_finish(ReviewDraft *draft)
 {
     Arena      scratch = *draft->arena;
     Lines files = {.arena = &scratch};
     review_files_list(&files, draft->unfinished, "new/sweeps/");
     review_files_list(&files, draft->unfinished, "new/frames/");
+    review_files_list(&files, draft->unfinished, "new/conditions/");
     review_files_list(&files, draft->unfinished, "");
     for (int i = 0; i < files.count; i++) {
         const char *name = files.list[i];
         bool is_drafted = starts_with(name, "new/") && review_files_may_have(name + 4);
-        if (is_drafted || has_ending(name, ".checkpoint") || has_ending(name, ".lesson") ||
-            is_leftover(name))
+        if (is_drafted || is_kept(name) || is_leftover(name))
             unlink(arena_format(&scratch, "%s/%s", draft->unfinished, name));
     }
-    unlink(arena_format(&scratch, "%s/journal", draft->unfinished));
     review_draft_close(draft);
 }

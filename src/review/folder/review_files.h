@@ -9,7 +9,6 @@
  */
 #pragma once
 #include "base/lines.h"
-#include "keep/journal.h"
 #include "review/request/request.h"
 #include "review/verdict.h"
 
@@ -29,8 +28,9 @@ bool review_files_spare(const char *dir, const ReviewRequest *request, const Lin
 /* A review's files while it is not finished: DIR/unfinished holds them, with
  * what goes on after a kill, until they take their places all together.
  *
- *     DIR/unfinished/journal         readings that were taken (keep/journal.h)
- *     DIR/unfinished/HASH.lesson     a moment's trained guide
+ *     DIR/unfinished/lock            while somebody is at work
+ *     DIR/unfinished/N-NAME.condition what was found of a condition (engine/condition_file.h)
+ *     DIR/unfinished/HASH.frame      of a frame that is whole
  *     DIR/unfinished/HASH.checkpoint of the frame in hand
  *     DIR/unfinished/new/            files as they will stand in DIR
  *
@@ -47,12 +47,14 @@ typedef struct ReviewDraft {
     const char *target;     /* DIR */
     const char *unfinished; /* DIR/unfinished */
     const char *folder;     /* DIR/unfinished/new */
-    Journal    *journal;
+    int         lock;
 } ReviewDraft;
 
 /* Makes the folders that are not there. Work that was begun before goes on. */
-bool review_draft_open(const char *target, Arena *arena, Problems *problems, ReviewDraft *out,
-                       Error *err);
+bool review_draft_open(const char *target, Arena *arena, ReviewDraft *out, Error *err);
+
+/* Is anything there of a review that was stopped? */
+bool review_has_unfinished(const char *target, Arena scratch);
 
 /* All files but frames that `review` does not name take their places, and what the review that
  * stood there named and this one does not is removed. */
@@ -62,5 +64,5 @@ bool review_draft_publish(const ReviewDraft *draft, const Review *review, Arena 
 /* Nothing is left to go on with. */
 void review_draft_finish(ReviewDraft *draft);
 
-/* After a failure: what was found stays; folders and a journal with nothing in them go. */
+/* After a failure: what was found stays; folders with nothing in them go. */
 void review_draft_close(ReviewDraft *draft);

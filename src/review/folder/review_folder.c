@@ -13,7 +13,7 @@
 #include "image/develop.h"
 #include "render/render.h"
 #include "review/run/frames.h"
-#include "review/folder/live.h"
+#include "review/folder/sweep_output.h"
 #include "review/output/review_link.h"
 #include "review/export/review_junit.h"
 #include "review/output/review_json.h"
@@ -50,13 +50,13 @@ static bool open_responses(ReviewFolder *folder, Arena *arena, Error *err)
     return folder_make(folder->responses, err);
 }
 
-bool review_folder_open(ReviewFolder *folder, Arena *arena, Problems *problems, Error *err)
+bool review_folder_open(ReviewFolder *folder, Arena *arena, Error *err)
 {
     const ReviewFrames *frames = &folder->request->frames;
     folder->begun_s = monotonic_seconds();
     if (frames->worst && frames->is_denoised && !denoise_check(err)) return false;
     if (!read_earlier(folder, arena, err) ||
-        !review_draft_open(folder->target, arena, problems, &folder->draft, err))
+        !review_draft_open(folder->target, arena, &folder->draft, err))
         return false;
     folder->name = folder->draft.folder;
     if (open_responses(folder, arena, err)) return true;
@@ -274,32 +274,16 @@ const char *review_folder_command(const ReviewFolder *folder, Arena *arena)
         folder->summary
             ? arena_format(arena, " --summary %s", escape_shell(folder->summary, arena))
             : "";
-    return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s%s%s%s%s",
+    Text only = {.arena = arena};
+    text_add(&only, "");
+    for (int i = 0; i < folder->only_count; i++)
+        text_format(&only, " --only %s", escape_shell(folder->only[i], arena));
+    return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s%s%s%s%s%s",
                         folder->request->file,
                         folder->target, profile, root, folder->state_text, diff, responses,
-                        summary, folder->is_alone ? " --no-variants" : "",
+                        summary, only.data, folder->is_alone ? " --no-variants" : "",
                         folder->is_strict ? " --strict" : "",
                         folder->is_self_contained ? " --self-contained" : "");
-}
-
-/* "frames/NAME.layers.js" of "frames/NAME.png". */
-static const char *layers_name(const char *frame, Arena *arena)
-{
-    return arena_format(arena, "%.*s.layers.js", (int)(path_ending(frame) - frame), frame);
-}
-
-static bool put_layers_beside(const ReviewFolder *folder, ReviewLive *live, Arena *arena,
-                              Error *err)
-{
-    LivePicture *beside = ARENA_NEW(arena, LivePicture, live->picture_count);
-    for (int i = 0; i < live->picture_count; i++) {
-        beside[i] = live->pictures[i];
-        beside[i].beside = layers_name(beside[i].frame, arena);
-        const char *path = arena_format(arena, "%s/%s", folder->name, beside[i].beside);
-        if (!live_layers_write(&beside[i], path, err)) return false;
-    }
-    live->pictures = beside;
-    return true;
 }
 
 /* Fills all of the page but the review. */
@@ -307,11 +291,8 @@ static bool fill_page(const ReviewFolder *folder, const ReviewOutcome *outcome,
                       ReviewPage *page, Arena *arena, Error *err)
 {
     ReviewLive *live = ARENA_NEW(arena, ReviewLive, 1);
-    LiveArgs     args = {folder->request, outcome, folder->name, folder->threads};
-    if (!live_make(&args, arena, live, err) ||
-        (!folder->is_self_contained && !put_layers_beside(folder, live, arena, err)))
-        return false;
-    if (!folder->is_self_contained && live->sweep_count + live->picture_count) {
+    *live = sweep_live(folder->request, outcome, arena);
+    if (!folder->is_self_contained && live->sweep_count) {
         live->beside = LIVE_FILE;
         if (!review_live_write(&outcome->review, live,
                                arena_format(arena, "%s/%s", folder->name, LIVE_FILE), err))

@@ -2,8 +2,7 @@
 /* review_folder.h -- the folder of a review: page, documents, tables, pictures.
  *
  * index.html (with many cases cases.html beside it), live.js, summary-SYMBOL.html, review.json,
- * cases.csv, junit.xml; sweeps/NAME.csv; frames/NAME.exr and .png, and
- * NAME.layers.js, which the page loads when its reader looks at the picture;
+ * cases.csv, junit.xml; sweeps/NAME.csv; frames/NAME.exr and .png;
  * responses/NAME.response; run.json with what may differ from run to run; diff.json beside an
  * earlier review; unfinished/ (review_files.h) until all is there.
  *
@@ -13,13 +12,15 @@
  */
 #pragma once
 #include "review/folder/review_files.h"
-#include "review/folder/live.h"
+#include "review/run/review_run.h"
 
 typedef struct ReviewFolder {
     const char          *target; /* as on the command line */
     const ReviewRequest *request;
     const char          *diff; /* folder of an earlier review; NULL: none */
     const char          *summary; /* the symbol that --summary names; NULL: all */
+    const char *const   *only;    /* conditions that --only names */
+    int                  only_count;
     const char          *profile, *root; /* as on the command line; NULL: not given */
     const char          *state_text;     /* the same, each option with a blank before it */
     const char          *responses; /* the same, then where they are */
@@ -42,7 +43,7 @@ void review_folder_responses(ReviewFolder *folder, Arena *arena);
 /* Before the work: makes it and what is in it, sees that it can be written and that frames can
  * be denoised, and reads the earlier review, which may lie in the same folder. What it made is
  * gone again when it fails. */
-bool review_folder_open(ReviewFolder *folder, Arena *arena, Problems *problems, Error *err);
+bool review_folder_open(ReviewFolder *folder, Arena *arena, Error *err);
 
 /* After a failure: what was found is kept; the folders that were made go as far as they are
  * empty. */

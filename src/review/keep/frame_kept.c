@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "base/file_write.h"
+#include "keep/kept.h"
 #include "print/print.h"
 #include "render/signals.h"
 
@@ -36,28 +37,43 @@ static bool hash_files(const FrameKept *kept, uint64_t out[FRAME_FILES_MOST])
     return true;
 }
 
-static JournalKey key_of(const FrameKept *kept)
+/* Beside the checkpoint: what the files of a whole frame are. */
+static const KeptFormat format = {"PRHLFRAM", "the record of a frame", 1, 0};
+
+static const char *path_of(const FrameKept *kept, const char *ending)
 {
-    return journal_key(arena_format(kept->arena, "frame\n%016llx", (unsigned long long)
-                                      XXH3_64bits(kept->identity, strlen(kept->identity))));
+    uint64_t hash = XXH3_64bits(kept->identity, strlen(kept->identity));
+    return arena_format(kept->arena, "%s/%016llx.%s", kept->unfinished,
+                        (unsigned long long)hash, ending);
 }
 
 bool frame_kept_is_whole(const FrameKept *kept)
 {
-    uint64_t written[FRAME_FILES_MOST], there[FRAME_FILES_MOST];
-    return journal_find(kept->journal, key_of(kept), written, sizeof written) &&
-           hash_files(kept, there) && !memcmp(written, there, sizeof there);
+    uint64_t   written[FRAME_FILES_MOST], there[FRAME_FILES_MOST];
+    KeptReader reader;
+    Error      ignored;
+    const char *path = kept->unfinished ? path_of(kept, "frame") : "";
+    if (!kept_is_there(&format, path) ||
+        !kept_open(&format, path, NULL, kept->arena, &reader, &ignored))
+        return false;
+    bool is_whole = !strcmp(reader.identity, kept->identity) &&
+                    kept_has_left(&reader, sizeof written, &ignored) &&
+                    kept_take(&reader, written, sizeof written, &ignored) &&
+                    hash_files(kept, there) && !memcmp(written, there, sizeof there);
+    kept_close(&reader);
+    return is_whole;
 }
 
 bool frame_kept_end(const FrameKept *kept, Error *err)
 {
     uint64_t hashes[FRAME_FILES_MOST];
-    if (!kept->journal) return true;
+    if (!kept->unfinished) return true;
     if (!hash_files(kept, hashes))
         return error_at(err, ERROR_OUTPUT, kept->files[0], "", "is gone after it was written");
-    journal_add(kept->journal, key_of(kept), hashes, sizeof hashes);
+    const KeptFile file = {&format, path_of(kept, "frame"), kept->identity, "", sizeof hashes};
+    if (!kept_write(&file, hashes, *kept->arena, err)) return false;
     file_remove(kept->checkpoint);
-    return journal_ok(kept->journal, err);
+    return true;
 }
 
 /* ---- checkpoints ------------------------------------------------------------------------- */
@@ -95,11 +111,9 @@ static bool find_checkpoint(const FrameKept *kept, Checkpoint *out, Error *err)
 bool frame_kept_begin(FrameKept *kept, RenderOptions *options, Error *err)
 {
     Error fault;
-    if (!kept->journal) return true;
+    if (!kept->unfinished) return true;
     kept->options = options;
-    kept->checkpoint = arena_format(kept->arena, "%s/%016llx.checkpoint", kept->unfinished,
-                                    (unsigned long long)XXH3_64bits(kept->identity,
-                                                                    strlen(kept->identity)));
+    kept->checkpoint = path_of(kept, "checkpoint");
     if (file_exists(kept->checkpoint)) {
         Checkpoint *found = ARENA_NEW(kept->arena, Checkpoint, 1);
         if (find_checkpoint(kept, found, &fault)) options->resume = found;
@@ -111,9 +125,7 @@ bool frame_kept_begin(FrameKept *kept, RenderOptions *options, Error *err)
     return file_check_writable(kept->checkpoint, err);
 }
 
-/* ---- x ----------------------------------------------------------------------------------- */
-
-bool review_goes_on(const Journal *journal, Error *err)
+bool review_goes_on(Error *err)
 {
-    return signals_stop_requested() ? signals_stopped(err) : journal_ok(journal, err);
+    return !signals_stop_requested() || signals_stopped(err);
 }

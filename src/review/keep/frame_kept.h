@@ -7,14 +7,12 @@
  *          frame begins anew.
  */
 #pragma once
-#include "keep/journal.h"
 #include "render/render.h"
 
 enum { FRAME_FILES_MOST = 4 };
 
 typedef struct FrameKept {
-    Journal    *journal;    /* NULL: nothing is kept */
-    const char *unfinished; /* folder */
+    const char *unfinished; /* folder; NULL: nothing is kept */
     const char *identity;   /* all that decides the frame (render/identity.h) */
     const char *files[FRAME_FILES_MOST]; /* the frame, its pictures */
     int         file_count;
@@ -37,6 +35,5 @@ bool frame_kept_end(const FrameKept *kept, Error *err);
  *
  * Threads  the one that reviews. */
 
-/* False: INT, TERM or HUP requested to stop (signals_stopped: there is no error), or the
- * journal (NULL: none) could not keep what was found. */
-bool review_goes_on(const Journal *journal, Error *err);
+/* False: INT, TERM or HUP requested to stop (signals_stopped: there is no error). */
+bool review_goes_on(Error *err);

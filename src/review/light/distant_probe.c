@@ -147,7 +147,7 @@ static SkyProbe sky_probe(DistantProbe *probe, bool *is_asked, Arena *scratch)
     return out;
 }
 
-/* ---- skies that were summed before ------------------------------------------------------- */
+/* ---- skies that are sampled -------------------------------------------------------------- */
 
 /* A probe's answers to all skies of a table, in one piece: sky, sky_bright, sky_without. */
 static size_t answer_bytes(const SkyTable *table)
@@ -170,107 +170,6 @@ static void forget_answers(DistantProbe *probe, const SkyTable *table)
     memset(probe->sky, 0, answer_bytes(table));
     for (int i = 0; i < table->count * SKY_AZIMUTHS; i++) probe->sky[i] = (double)NAN;
 }
-
-/* All that decides a table's skies and suns, and where the vehicle points. */
-static const char *table_words(const DistantTools *tools, const char *what, Arena *arena)
-{
-    const SkyTable *table = tools->table;
-    const double   *forward = tools->setup->request->forward;
-    Text            text = {.arena = arena};
-    text_format(&text, "%s\n", what);
-    identity_add_program(&text, tools->setup->tools.kernel);
-    identity_add_daylight(&text, &table->like);
-    identity_line(&text, "elevations", "%d, %.17g to %.17g", table->count,
-                  table->elevation_deg[0], table->elevation_deg[table->count - 1]);
-    identity_line(&text, "azimuths", "%d from %d", table->azimuths, table->first_azimuth);
-    identity_line(&text, "forward", "%.17g %.17g %.17g", forward[0], forward[1], forward[2]);
-    return text.data;
-}
-
-static JournalKey answers_key(const DistantProbe *probe, const DistantTools *tools,
-                              Arena scratch)
-{
-    const Response *response = &probe->response;
-    double   numbers[] = {(double)response->paths, response->relative_error};
-    Question question = {.base = tools->setup->tools.base,
-                         .kind = table_words(tools, "skies", &scratch), .numbers = numbers,
-                         .number_count = COUNT_OF(numbers)};
-    return question_key(&question, &probe->aim, scratch);
-}
-
-static size_t suns_bytes(const SkyTable *table)
-{
-    return (size_t)table->count * sizeof *table->sun_bands;
-}
-
-/* NULL: nothing is kept. */
-static Journal *journal_of(const DistantTools *tools)
-{
-    return tools->setup ? tools->setup->tools.journal : NULL;
-}
-
-static bool find_suns(const DistantTools *tools, Arena scratch)
-{
-    if (!journal_of(tools)) return false;
-    JournalKey key = journal_key(table_words(tools, "suns of skies", &scratch));
-    return journal_find_floats(journal_of(tools), key, tools->table->sun_bands[0],
-                               (size_t)tools->table->count * LIGHT_BANDS);
-}
-
-static void keep_suns(const DistantTools *tools, Arena scratch)
-{
-    if (!journal_of(tools)) return;
-    JournalKey key = journal_key(table_words(tools, "suns of skies", &scratch));
-    journal_add(journal_of(tools), key, tools->table->sun_bands, suns_bytes(tools->table));
-}
-
-static bool find_answers(const DistantProbe *probe, const DistantTools *tools, Arena scratch)
-{
-    const SkyTable *table = tools->table;
-    const Journal  *journal = journal_of(tools);
-    if (!journal || !journal_find(journal, answers_key(probe, tools, scratch), probe->sky,
-                                  answer_bytes(table)))
-        return false;
-    bool is_sound = true;
-    for (int i = 0; i < table->count * table->azimuths; i++) {
-        int azimuth = (table->first_azimuth + i % table->azimuths) % SKY_AZIMUTHS;
-        int place = i / table->azimuths * SKY_AZIMUTHS + azimuth;
-        const BrightSamples *bright = &probe->sky_bright[place];
-        is_sound = is_sound && isfinite(probe->sky[place]) && isfinite(bright->squares) &&
-                   isfinite(bright->fourths);
-        for (int k = 0; k < RESPONSE_GROUPS; k++)
-            is_sound =
-                is_sound && isfinite(probe->sky_without[place * RESPONSE_GROUPS + k]);
-    }
-    return is_sound;
-}
-
-/* Those that are not known; *count: how many. */
-static DistantProbe **probes_to_sample(DistantProbe *const *probes, int *count,
-                                       const DistantTools *tools, Arena *arena)
-{
-    DistantProbe **list = ARENA_NEW(arena, DistantProbe *, *count);
-    int            left = 0;
-    for (int i = 0; i < *count; i++) {
-        place_answers(probes[i], tools->table, arena);
-        if (find_answers(probes[i], tools, *arena)) continue;
-        forget_answers(probes[i], tools->table);
-        list[left++] = probes[i];
-    }
-    *count = left;
-    return list;
-}
-
-static void keep_answers(DistantProbe *const *probes, int count, const DistantTools *tools,
-                         Arena scratch)
-{
-    Journal *journal = journal_of(tools);
-    for (int i = 0; i < count && journal; i++)
-        journal_add(journal, answers_key(probes[i], tools, scratch), probes[i]->sky,
-                    answer_bytes(tools->table));
-}
-
-/* ---- skies that are sampled -------------------------------------------------------------- */
 
 static bool sum_skies(DistantProbe *const *probes, int count, const DistantTools *tools,
                       Arena scratch, Error *err)
@@ -301,14 +200,12 @@ static bool sum_skies(DistantProbe *const *probes, int count, const DistantTools
 static bool sample_table(DistantProbe *const *probes, int count, const DistantTools *tools,
                          Arena *arena, Error *err)
 {
-    DistantProbe **list = probes_to_sample(probes, &count, tools, arena);
-    if (!count && find_suns(tools, *arena)) return true;
-    if (count ? !sum_skies(list, count, tools, *arena, err)
-              : !sky_table_make_suns(tools->table, arena, err))
-        return false;
-    keep_answers(list, count, tools, *arena);
-    keep_suns(tools, *arena);
-    return true;
+    for (int i = 0; i < count; i++) {
+        place_answers(probes[i], tools->table, arena);
+        forget_answers(probes[i], tools->table);
+    }
+    return count ? sum_skies(probes, count, tools, *arena, err)
+                 : sky_table_make_suns(tools->table, arena, err);
 }
 
 /* ---- probes ------------------------------------------------------------------------------ */
@@ -333,28 +230,11 @@ void distant_probe_respond(DistantProbe *probe, const DistantTools *tools, Arena
     response_trace(&probe->aim, &options, arena, &probe->response);
 }
 
-static const float *sample_suns(const DistantProbe *probe, const ReadingTools *with,
-                                const ResponseOptions *options, const ProbeSuns *suns,
-                                Arena *arena)
+static const float *sample_suns(const DistantProbe *probe, const ResponseOptions *options,
+                                const ProbeSuns *suns, Arena *arena)
 {
     const LightParts *parts = probe->parts;
-    const ProbeAim   *aim = parts ? &parts->aim : &probe->aim;
-    if (!with->journal) return sun_parts_worst(aim, parts, options, suns, arena);
-    int      wide = !parts ? 0 : parts->takes_least ? -parts->wide : parts->wide;
-    double   numbers[] = {options->paths, (double)suns->radius, suns->by_mirror,
-                          parts ? light_parts_count(parts) : 0, wide};
-    Question question = {.base = with->base, .kind = "suns", .numbers = numbers,
-                         .number_count = COUNT_OF(numbers), .towards = suns->towards,
-                         .towards_count = suns->count};
-    JournalKey key = question_key(&question, aim, *arena);
-    Arena    before = *arena;
-    size_t   count = (size_t)suns->count * RESPONSE_BANDS;
-    float   *kept = ARENA_NEW(arena, float, count);
-    if (journal_find_floats(with->journal, key, kept, count)) return kept;
-    *arena = before;
-    const float *found = sun_parts_worst(aim, parts, options, suns, arena);
-    journal_add(with->journal, key, found, count * sizeof *found);
-    return found;
+    return sun_parts_worst(parts ? &parts->aim : &probe->aim, parts, options, suns, arena);
 }
 
 /* Those that may light the first vertex, by the response; *count: how many. */
@@ -369,7 +249,7 @@ static int *suns_that_reach(const Response *response, const ProbeSuns *suns, int
 }
 
 /* Samples only suns that may light it: most of them stand behind a roof. */
-static const float *sample_scattered_suns(const DistantProbe *probe, const ReadingTools *with,
+static const float *sample_scattered_suns(const DistantProbe *probe,
                                           const ResponseOptions *options, const ProbeSuns *all,
                                           Arena *arena)
 {
@@ -381,7 +261,7 @@ static const float *sample_scattered_suns(const DistantProbe *probe, const Readi
     for (int i = 0; i < some.count; i++) towards[i] = all->towards[list[i]];
     some.towards = towards;
     if (!some.count) return shares;
-    const float *found = sample_suns(probe, with, options, &some, &scratch);
+    const float *found = sample_suns(probe, options, &some, &scratch);
     for (int i = 0; i < some.count; i++)
         memcpy(shares + (size_t)list[i] * RESPONSE_BANDS, found + (size_t)i * RESPONSE_BANDS,
                RESPONSE_BANDS * sizeof(float));
@@ -395,10 +275,10 @@ void distant_probe_sample_suns(DistantProbe *probe, const DistantTools *tools, A
                                0};
     ProbeSuns suns = {.towards = sun_directions(tools, arena), .count = tools->suns.count,
                       .radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG)};
-    probe->scattered = sample_scattered_suns(probe, with, &options, &suns, arena);
+    probe->scattered = sample_scattered_suns(probe, &options, &suns, arena);
     suns.by_mirror = true;
     options.paths = response_mirror_paths(&probe->aim, suns.radius);
-    probe->mirror = tools->has_mirror ? sample_suns(probe, with, &options, &suns, arena) : NULL;
+    probe->mirror = tools->has_mirror ? sample_suns(probe, &options, &suns, arena) : NULL;
 }
 
 /* Skies of hours are many: their errors are those of an even one. */

@@ -54,46 +54,12 @@ static void add_aim(XXH3_state_t *state, const ProbeAim *aim)
                             (size_t)aim->target_count * sizeof *aim->patches);
 }
 
-uint64_t question_aim(const ProbeAim *aim)
+uint64_t reading_aim_hash(const ProbeAim *aim)
 {
     XXH3_state_t state;
     XXH3_128bits_reset(&state);
     add_aim(&state, aim);
     return XXH3_128bits_digest(&state).low64;
-}
-
-/* The light that shines now: surroundings and displays. */
-static void add_light(XXH3_state_t *state, const PathContext *context, Arena scratch)
-{
-    const Scene *scene = context->scene;
-    Text         text = {.arena = &scratch};
-    identity_add_environment(&text, scene);
-    XXH3_128bits_update(state, text.data, text.size);
-    for (int i = 0; i < scene->display_count; i++)
-        XXH3_128bits_update(state, &scene->displays[i].level, sizeof(float));
-    add_count(state, context->max_bounces);
-    add_count(state, (int64_t)context->strategy);
-    add_count(state, context->without_mirrored_sun);
-    add_count(state, context->guide ? (int64_t)guide_hash(context->guide) : 0);
-}
-
-JournalKey question_key(const Question *question, const ProbeAim *aim, Arena scratch)
-{
-    XXH3_state_t state;
-    XXH3_128bits_reset(&state);
-    XXH3_128bits_update(&state, &question->base, sizeof question->base);
-    XXH3_128bits_update(&state, question->kind, strlen(question->kind));
-    add_light(&state, aim->context, scratch);
-    add_aim(&state, aim);
-    add_count(&state, question->number_count);
-    XXH3_128bits_update(&state, question->numbers,
-                        (size_t)question->number_count * sizeof *question->numbers);
-    add_count(&state, question->towards_count);
-    if (question->towards_count)
-        XXH3_128bits_update(&state, question->towards,
-                            (size_t)question->towards_count * sizeof *question->towards);
-    XXH128_hash_t hash = XXH3_128bits_digest(&state);
-    return (JournalKey){hash.low64, hash.high64};
 }
 
 #define BATCHES READING_BATCHES
@@ -323,82 +289,18 @@ static Reading take_planned(const ProbeAim *aim, const ReadingGoal *goal,
     return stream_read(&fresh, paths > goal->least ? paths : goal->least, goal);
 }
 
-static Reading take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
-                    Arena scratch)
+Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
+                     Arena scratch)
 {
     Reading reading = take_planned(aim, goal, tools, scratch);
     reading.reached = uncertainty(&reading, goal);
     return reading;
 }
 
-/* ---- what is kept ------------------------------------------------------------------------ */
-
-/* Where a stop was requested a reading may be cut off: nobody goes on with it
- * (review_goes_on). */
-static void keep(Journal *journal, JournalKey key, const void *answer, size_t size)
-{
-    if (!signals_stop_requested()) journal_add(journal, key, answer, size);
-}
-
-static JournalKey key_of(const ProbeAim *aim, const ReadingGoal *goal,
-                         const ReadingTools *tools, Arena scratch)
-{
-    const ReadingQuestion *asked = goal->question;
-    double   numbers[] = {goal->brighter, goal->darker, goal->precision, (double)goal->most,
-                          goal->known, asked ? asked->precision : 0,
-                          (double)goal->times, (double)goal->least};
-    Question question = {.base = tools->base, .kind = asked ? asked->name : "reading",
-                         .numbers = numbers, .number_count = COUNT_OF(numbers)};
-    return question_key(&question, aim, scratch);
-}
-
-/* No plan requires more: whoever kept it took no more. */
-static long most_paths(const ReadingGoal *goal)
-{
-    long most = goal->most > READING_ASKED_LEAST ? goal->most : READING_ASKED_LEAST;
-    if (goal->times > 1) most *= goal->times;
-    return most > goal->least ? most : goal->least;
-}
-
-/* Whether it may have been taken for that goal: a checksum can be made to fit. */
-static bool is_sound(const Reading *reading, const ReadingGoal *goal)
-{
-    bool ok = reading->paths > 0 && reading->paths <= most_paths(goal) &&
-              isfinite(reading->reflected) && isfinite(reading->mirror) &&
-              reading->sigma >= 0 && reading->interval.low <= reading->interval.high &&
-              reading->found_share >= 0 && reading->found_share <= 1 &&
-              reading->bright.squares >= 0 && reading->bright.fourths >= 0;
-    for (int i = 0; i < BATCHES; i++) ok = ok && isfinite(reading->batches[i]);
-    return ok;
-}
-
-static bool find_reading(const Journal *journal, JournalKey key, const ReadingGoal *goal,
-                         Reading *out)
-{
-    return journal_find(journal, key, out, sizeof *out) && is_sound(out, goal);
-}
-
-Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
-                     Arena scratch)
-{
-    Reading reading;
-    if (!tools->journal) return take(aim, goal, tools, scratch);
-    JournalKey key = key_of(aim, goal, tools, scratch);
-    if (find_reading(tools->journal, key, goal, &reading)) return reading;
-    reading = take(aim, goal, tools, scratch);
-    keep(tools->journal, key, &reading, sizeof reading);
-    return reading;
-}
-
 /* ---- target by target -------------------------------------------------------------------- */
 
-static size_t targets_bytes(const ProbeAim *aim)
-{
-    return (size_t)aim->target_count * sizeof(TargetLight);
-}
-
-static void trace_field(const ProbeAim *aim, long paths, const ReadingTools *tools,
-                        Batch *batches, TargetLight *targets, Arena scratch)
+Reading reading_field(const ProbeAim *aim, long paths, double known, const ReadingTools *tools,
+                      TargetLight *targets, Arena scratch)
 {
     ReadingGoal goal = {.known = 0};
     size_t      count = (size_t)aim->target_count;
@@ -411,65 +313,5 @@ static void trace_field(const ProbeAim *aim, long paths, const ReadingTools *too
         to->sum += stream.targets[i].sum;
         to->squares += stream.targets[i].squares;
     }
-    memcpy(batches, stream.batches, BATCHES * sizeof *batches);
-}
-
-static JournalKey field_key(const ProbeAim *aim, long paths, const ReadingTools *tools,
-                            Arena scratch)
-{
-    double   numbers[] = {(double)paths};
-    Question question = {.base = tools->base, .kind = "field", .numbers = numbers,
-                         .number_count = COUNT_OF(numbers)};
-    return question_key(&question, aim, scratch);
-}
-
-/* A sum of numbers is finite only if each of them is. */
-static bool batches_are_sound(const Batch *batches, long paths)
-{
-    bool ok = true;
-    for (int i = 0; i < BATCHES; i++) {
-        const Batch *b = &batches[i];
-        ok = ok && isfinite(b->reflected + b->mirror + b->sent_on + b->bright.squares +
-                            b->bright.fourths) &&
-             b->found >= 0 && b->found <= paths && b->sky_finds >= 0;
-    }
-    return ok;
-}
-
-static bool field_is_sound(const ProbeAim *aim, long paths, const TargetLight *targets,
-                           const Batch *batches)
-{
-    bool ok = batches_are_sound(batches, paths / BATCHES);
-    for (int i = 0; i < aim->target_count; i++)
-        ok = ok && targets[i].paths >= 0 && isfinite(targets[i].paths) &&
-             isfinite(targets[i].sum) && isfinite(targets[i].squares);
-    return ok;
-}
-
-/* Kept: the targets, then the batches. */
-static void find_field(const ProbeAim *aim, long paths, const ReadingTools *tools,
-                       Batch *batches, TargetLight *targets, Arena scratch)
-{
-    size_t         bytes = targets_bytes(aim) + BATCHES * sizeof *batches;
-    unsigned char *kept = ARENA_NEW(&scratch, unsigned char, bytes);
-    JournalKey     key = field_key(aim, paths, tools, scratch);
-    if (journal_find(tools->journal, key, kept, bytes)) {
-        memcpy(targets, kept, targets_bytes(aim));
-        memcpy(batches, kept + targets_bytes(aim), BATCHES * sizeof *batches);
-        if (field_is_sound(aim, paths, targets, batches)) return;
-        memset(targets, 0, targets_bytes(aim));
-    }
-    trace_field(aim, paths, tools, batches, targets, scratch);
-    memcpy(kept, targets, targets_bytes(aim));
-    memcpy(kept + targets_bytes(aim), batches, BATCHES * sizeof *batches);
-    keep(tools->journal, key, kept, bytes);
-}
-
-Reading reading_field(const ProbeAim *aim, long paths, double known, const ReadingTools *tools,
-                      TargetLight *targets, Arena scratch)
-{
-    Batch *batches = ARENA_NEW(&scratch, Batch, BATCHES);
-    if (tools->journal) find_field(aim, paths, tools, batches, targets, scratch);
-    else trace_field(aim, paths, tools, batches, targets, scratch);
-    return reading_of(aim, batches, (int)(paths / BATCHES), known);
+    return reading_of(aim, stream.batches, (int)(paths / BATCHES), known);
 }

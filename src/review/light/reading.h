@@ -15,31 +15,11 @@
 #pragma once
 #include "base/arena.h"
 #include "estimate/estimate.h"
-#include "keep/journal.h"
 #include "kernel/kernel.h"
 #include "review/light/light_parts.h"
 
-/* What a probe has to find, as the key of its answer (keep/journal.h).
- *
- * Everything that decides the answer is in it: the program, the scene's files, its light as it
- * is now, where the probe is and looks, and what it has to find.
- *
- * Threads  pure functions. */
-
-/* All that decides the answer besides the aim and the light. */
-typedef struct Question {
-    JournalKey    base; /* program, scene and the files that the request names */
-    const char   *kind;
-    const double *numbers;
-    int           number_count;
-    const Vec3   *towards; /* directions */
-    int           towards_count;
-} Question;
-
-JournalKey question_key(const Question *question, const ProbeAim *aim, Arena scratch);
-
 /* Where the probe is and looks, as a hash. */
-uint64_t question_aim(const ProbeAim *aim);
+uint64_t reading_aim_hash(const ProbeAim *aim);
 
 /* A decision that depends on a reading, such as a verdict. */
 typedef struct ReadingQuestion {
@@ -50,8 +30,6 @@ typedef struct ReadingQuestion {
     void  *user;
     double precision; /* at which a decided question may end: coarser than the goal's, and
                          requested of the reading itself too */
-    const char *name; /* besides the reading, all that decides the answer: readings that are
-                         kept are known by it */
 } ReadingQuestion;
 
 /* When a reading is sure enough: when one standard error moves the contrast of what is shown by
@@ -72,8 +50,6 @@ typedef struct ReadingGoal {
 typedef struct ReadingTools {
     const Kernel *kernel;
     int           threads;
-    Journal      *journal; /* readings that were taken before; NULL: none is kept */
-    JournalKey    base;    /* in the journal's keys (question_key) */
 } ReadingTools;
 
 #define READING_BATCHES ESTIMATE_BATCHES /* batches are alike and independent: each has a

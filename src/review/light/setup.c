@@ -8,7 +8,6 @@
 #include "base/units.h"
 #include "camera/camera.h"
 #include "guide/guide_file.h"
-#include "keep/journal.h"
 #include "render/identity.h"
 #include "render/train.h"
 #include "review/light/reading.h"
@@ -92,29 +91,19 @@ static void set_change(const ReviewChange *change, SceneOptions *scene)
     scene->panel_count = change->panel_count;
 }
 
-static void add_inputs(const ReviewRequest *request, bool with_request, Text *text)
-{
-    for (int i = 0; i < request->input_count; i++)
-        if (with_request || strcmp(request->inputs[i].path, request->file) != 0)
-            identity_line(text, "request", "%016llx",
-                          (unsigned long long)request->inputs[i].hash);
-}
-
-/* The identity has the setup's scene; keys other files, too; plans the request as well. What is
- * requested stands in each key, so that a changed word of the request keeps the other
- * answers. */
+/* Of the files that the request names: contents and pictures of skies among them. */
 static void identify(Setup *setup, const SceneOptions *options, Arena *arena)
 {
-    Text own = {.arena = arena}, files = {.arena = arena}, all = {.arena = arena};
+    const ReviewRequest *request = setup->request;
+    Text own = {.arena = arena}, files = {.arena = arena};
     identity_add_program(&own, setup->tools.kernel);
     identity_add_scene(&own, options, setup->scene);
-    text_add(&files, own.data);
-    add_inputs(setup->request, false, &files);
-    text_add(&all, own.data);
-    add_inputs(setup->request, true, &all);
+    for (int i = 0; i < request->input_count; i++)
+        if (strcmp(request->inputs[i].path, request->file) != 0)
+            identity_line(&files, "request", "%016llx",
+                          (unsigned long long)request->inputs[i].hash);
     setup->identity = own.data;
-    setup->tools.base = journal_key(files.data);
-    setup->planned = journal_key(all.data);
+    setup->files = files.data ? files.data : "";
 }
 
 static SceneOptions scene_options(const SetupOptions *options, Arena *arena)
@@ -147,9 +136,7 @@ bool setup_open(const SetupOptions *options, Arena *arena, Problems *problems, S
 {
     SceneOptions scene = scene_options(options, arena);
     *out = (Setup){.request = options->request, .condition = options->condition,
-                   .tools = {.threads = options->means.threads,
-                             .journal = options->means.journal},
-                   .sensor_lux = (double)NAN, .guides = options->means.guides};
+                   .tools = {.threads = options->means.threads}, .sensor_lux = (double)NAN};
     if (!kernel_choose(options->means.isa, &out->tools.kernel, err)) return false;
     if (!load_even(&scene, arena, problems, &out->scene, err)) return false;
     if (!bvh_create(out->scene, options->means.threads, options->means.isa, &out->bvh, err)) {
@@ -383,33 +370,6 @@ Vec3 *setup_eye_points(const Setup *setup, const ReviewEye *eye, int *count, Are
 #define TRAINING_HEIGHT 270
 #define TRAINING_DEG 60.0
 
-static int condition_id(const Setup *setup)
-{
-    return (int)(setup->condition - setup->request->conditions);
-}
-
-static const char *guide_file(const Setup *setup, Vec3 eye, Vec3 towards, Arena *arena)
-{
-    Text text = {.arena = arena};
-    identity_line(&text, "lesson", "%016llx%016llx, condition %d",
-                  (unsigned long long)setup->planned.high,
-                  (unsigned long long)setup->planned.low,
-                  condition_id(setup));
-    identity_vector(&text, "eye", eye);
-    identity_vector(&text, "towards", towards);
-    JournalKey key = journal_key(text.data);
-    return arena_format(arena, "%s/%016llx%016llx.lesson", setup->guides,
-                        (unsigned long long)key.high, (unsigned long long)key.low);
-}
-
-static bool read_guide(Setup *setup, const char *file, Arena *arena)
-{
-    GuideScene scene = train_guide_scene(&setup->context);
-    Error      ignored;
-    return file_exists(file) &&
-           guide_read(file, &scene, arena, &setup->context.guide, &ignored);
-}
-
 void trained_guide_take(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena)
 {
     SceneCamera    look = camera_look_at(eye, vec3_add(eye, towards),
@@ -417,9 +377,5 @@ void trained_guide_take(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena)
     Camera         camera = camera_from_scene(&look, TRAINING_WIDTH, TRAINING_HEIGHT);
     TrainOptions   options = {setup->tools.kernel, setup->tools.threads, true};
     PathStatistics cost;
-    const char    *file = setup->guides ? guide_file(setup, eye, towards, arena) : NULL;
-    if (file && read_guide(setup, file, arena)) return;
     setup->context.guide = train_guide(&setup->context, &camera, &options, arena, &cost);
-    Error ignored; /* unkept, it is trained again: the same guide, of the same seed */
-    if (file && setup->context.guide) guide_write(file, setup->context.guide, *arena, &ignored);
 }

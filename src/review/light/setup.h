@@ -25,8 +25,7 @@ typedef struct Setup {
     double       sensor_lux;   /* NaN: no level follows the light */
     double      *scene_levels; /* the displays', before the condition's */
     const char  *identity;     /* program and scene (render/identity.h), not its light */
-    const char  *guides;       /* SetupOptions' */
-    JournalKey   planned;      /* program, files and request */
+    const char  *files;        /* hashes of those that the request names besides */
 } Setup;
 
 /* By what means: the same for all setups of a review. */
@@ -35,9 +34,6 @@ typedef struct SetupMeans {
     SceneState  state;     /* scene.h's */
     int         threads;
     const char *isa;       /* kernel.h's; NULL: the best */
-    Journal    *journal;   /* of readings that were taken before; NULL: none is kept */
-    const char *guides;    /* folder of guides that were trained before (run/cases.h); NULL:
-                              none is kept */
 } SetupMeans;
 
 typedef struct SetupOptions {
@@ -122,6 +118,5 @@ bool setup_eye_middle(const Setup *setup, const ReviewEye *eye, Arena scratch, V
  * Memory   the guide comes from the arena.
  * Threads  starts its own; the same guide for any count. */
 
-/* A guide for an eye, m, that looks towards what is judged: from the setup's folder of guides,
- * or a new one, which is kept there. One that is damaged is trained again. */
+/* For an eye, m, that looks towards what is judged. */
 void trained_guide_take(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena);

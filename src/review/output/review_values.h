@@ -26,7 +26,7 @@ typedef struct ReviewPicture {
     const Picture    *picture; /* NULL: the file */
     const char       *file;    /* PNG or JPEG by its ending; goes into the page as it stands */
     const char       *beside;  /* its name from the page on goes there instead; or NULL */
-    bool              is_frame; /* the frame itself: review_look.js shows it in its stead */
+    bool              is_frame; /* the frame itself */
     const char       *id;      /* a file's that several cards show: it stands in the first */
     bool              is_again; /* of them, and this is another; NULL: one card shows it */
 } ReviewPicture;

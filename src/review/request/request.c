@@ -316,11 +316,12 @@ int review_condition_steps(const ReviewRequest *request, const ReviewCondition *
     return sights + (is_variant ? 0 : review_look_count(request));
 }
 
-int review_steps(const ReviewRequest *request)
+int review_steps(const ReviewRequest *request, const bool *only)
 {
     int steps = 0;
     for (int i = 0; i < request->condition_count; i++)
-        steps += review_condition_steps(request, &request->conditions[i]) *
-                 (1 + request->variant_count);
+        if (!only || only[i])
+            steps += review_condition_steps(request, &request->conditions[i]) *
+                     (1 + request->variant_count);
     return steps + (request->frames.worst ? request->frames.worst + request->variant_count : 0);
 }

@@ -382,7 +382,7 @@ bool review_is_compared(const ReviewRequest *request);
  * the response and one for its suns; a frame. As many as the request names: where a symbol is
  * text to be found there may be more of it. */
 int review_condition_steps(const ReviewRequest *request, const ReviewCondition *condition);
-int review_steps(const ReviewRequest *request);
+int review_steps(const ReviewRequest *request, const bool *only); /* [condition]; NULL: all */
 
 /* The factor on a display's level; 1 where no change sets it. */
 double review_brightness(const ReviewRequest *request, ReviewDisplayName display);

@@ -140,36 +140,6 @@ static double known_share(DirectSun direct, MeanInterval reflected)
     return range > 0 ? fmin(4 * RESPONSE_MIRROR_ERROR * direct.mirror / range, 1) : 0;
 }
 
-/* All that decides whether it is, besides the light: whose case it is, and the limits. */
-static const char *name_of(const VerdictArgs *args, Arena *arena)
-{
-    const Profile *profile = args->tools->profile;
-    Text           text = {.arena = arena};
-    text_format(&text, "verdict\n%s\n%s\n%s\n", args->of->condition, args->of->eye,
-                args->of->symbol);
-    text_format(&text, "%d %.17g %.17g\n", profile->uses_veil, profile->night_below_lx,
-                profile->twilight_below_lx);
-    for (int i = 0; i < args->of->visibility_count; i++) {
-        const CaseVisibility *v = &args->of->visibilities[i];
-        text_format(&text, "%.17g %.17g\n", v->age_years, v->glance_s);
-    }
-    if (args->of->must_not_be_read)
-        text_format(&text, "security %d %.17g\n", profile->is_security_own,
-                    profile->security.value);
-    for (int i = 0; i < profile->limit_count; i++) {
-        const ProfileLimit *limit = &profile->limits[i];
-        const LimitSlope   *slope = &limit->slope;
-        text_format(&text, "%d %d %d %.17g", (int)limit->kind, limit->is_upper,
-                    limit->is_advice, limit->value);
-        for (int k = 0; k < AMBIENT_COUNT; k++) text_format(&text, " %d", limit->ambients[k]);
-        if (slope->has_slope)
-            text_format(&text, " %.17g %.17g %.17g %.17g", slope->per_arcmin,
-                        slope->reference_arcmin, slope->from_arcmin, slope->to_arcmin);
-        text_add(&text, "\n");
-    }
-    return text.data;
-}
-
 /* For a variant: paths of its review's same case, a sweep's worst or a moment's; else 0. */
 static long base_paths(const VerdictArgs *args)
 {
@@ -188,8 +158,7 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictArg
     const Setup          *setup = args->tools->setup;
     const ReviewRequest  *request = setup->request;
     const CaseLuminances *shown = &args->of->luminance_cd_m2;
-    ReadingQuestion question = {is_verdict_clear, args, request->precision_clear,
-                                name_of(args, &scratch)};
+    ReadingQuestion question = {is_verdict_clear, args, request->precision_clear};
     ReadingGoal     goal = {.brighter = fmax(shown->foreground, shown->background),
                             .darker = fmin(shown->foreground, shown->background),
                             .precision = request->precision_contrast,
@@ -483,11 +452,12 @@ static bool case_of(const CaseTools *tools, const CaseArgs *args, Arena *arena, 
     Vec3      *points = setup_eye_points(tools->setup, args->eye, &count, arena, err);
     ReviewCase c = start_case(tools, args->eye, args->symbol);
     CaseLook   look = {.symbol = args->symbol, .is_bare = args->is_bare};
-    if (!points || !review_goes_on(tools->setup->tools.journal, err)) return false;
+    if (!points || !review_goes_on(err)) return false;
     c.display_lux = args->face_lux;
     c.eye_failed_share = (double)NAN;
     look.eye = worst_place(tools, &look, (EyePlaces){points, count, NULL}, &c, arena);
-    if (!tools->no_images) look.points = points, look.point_count = count;
+    look.points = points;
+    look.point_count = count;
     ProbeAim aim = judge_look(tools, &look, &c, arena);
     world_from_scene(tools->setup->scene->origin, look.eye, c.eye_m);
     c.panel = symbol_panel(args->symbol, arena);
@@ -530,7 +500,6 @@ bool setup_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *e
     bool   *is_known = ARENA_NEW(arena, bool, symbols);
     for (int i = 0; i < count; i++) {
         int s = i % symbols;
-        if (!moment_share_has(&tools->share, i, count)) continue;
         if (!is_known[s]) faces[s] = face_lux(tools, &tools->symbols[s], *arena);
         is_known[s] = true;
         CaseArgs args = {&request->eyes[i / symbols], &tools->symbols[s], faces[s],

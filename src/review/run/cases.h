@@ -11,7 +11,7 @@
 #include "review/eye/eye_reading.h"
 #include "review/profile.h"
 #include "review/run/symbols.h"
-#include "review/run/job.h"
+#include "review/run/review_run.h"
 #include "review/verdict.h"
 
 typedef struct CaseTools {
@@ -22,12 +22,9 @@ typedef struct CaseTools {
     long               cause_paths; /* by which causes are found; 0: CAUSE_PATHS */
     int                cause_rays;  /* that are kept of each; 0: CAUSE_RAYS */
     Progress          *progress;    /* of setup_cases, in cases; or NULL */
-    MomentShare        share;       /* of setup_cases: others' are left alone */
     const Review      *base;        /* of a variant: the review itself. Cases are bare then
                                        (setup_verdict), and read from no fewer paths than its
                                        own, so that what differs is known sharply; or NULL */
-    bool               no_images;   /* what must not be read is not looked for in glass: of a
-                                       part of a job, whose merge does */
 } CaseTools;
 
 /* Share of what a display reflects from which on its light is that of direct sun. */

@@ -4,13 +4,13 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/file_write.h"
 #include "base/parallel.h"
 #include "base/units.h"
 #include "camera/camera.h"
 #include "denoise/denoise.h"
 #include "film/film_frame.h"
 #include "image/develop.h"
-#include "keep/journal.h"
 #include "render/identity.h"
 #include "render/render.h"
 #include "render/signals.h"
@@ -201,10 +201,8 @@ static const char *identity_of(const FrameArgs *args, const SceneCamera *camera,
 {
     const Scene *scene = args->setup->scene;
     Text text = {.arena = arena};
-    JournalKey base = args->setup->tools.base; /* pictures of skies, too */
     text_add(&text, args->setup->identity);
-    identity_line(&text, "files", "%016llx%016llx", (unsigned long long)base.high,
-                  (unsigned long long)base.low);
+    text_add(&text, args->setup->files); /* pictures of skies, too */
     identity_line(&text, "name", "%s", args->name);
     identity_line(&text, "condition", "%s", args->setup->condition->name);
     identity_line(&text, "review", "%s", args->setup->request->file);
@@ -236,7 +234,7 @@ static bool render(const FrameArgs *args, FrameKept *kept, const SceneCamera *ca
     render.camera = camera_from_scene(camera, options->width, options->height);
     render.context.guide =
         train_guide(&setup->context, &render.camera, &train, arena, &render.training);
-    if (!review_goes_on(setup->tools.journal, err) ||
+    if (!review_goes_on(err) ||
         !render_prepared(&render, options, arena, result, err))
         return false;
     if (!result->stopped_by) return true;
@@ -253,7 +251,7 @@ static bool frame_make(const FrameArgs *args, Arena *arena, const char **out, Er
     const char   *exr = exr_of(args, arena);
     Arena         scratch = *arena;
     if (!frame_camera(args, &camera, scratch, err)) return false;
-    FrameKept kept = {.journal = args->setup->tools.journal, .unfinished = args->unfinished,
+    FrameKept kept = {.unfinished = args->unfinished,
                       .identity = identity_of(args, &camera, &options, &scratch),
                       .arena = &scratch};
     kept.files[kept.file_count++] = exr;
@@ -278,6 +276,7 @@ static bool frame_make(const FrameArgs *args, Arena *arena, const char **out, Er
 typedef struct Candidate {
     ReviewCase       *of;
     const SweepTable *table; /* NULL: a moment */
+    ReviewCase        made;  /* of a merge: with the frame that its part has */
 } Candidate;
 
 /* `of`: null where nothing is seen. */
@@ -287,13 +286,13 @@ static Candidate candidate_of(ReviewOutcome *outcome, const ReviewCase *c)
     for (int i = 0; i < review->case_count; i++)
         if (c == &review->cases[i])
             return (Candidate){
-                case_is_seen(c) ? &review->cases[i] : NULL, NULL};
+                case_is_seen(c) ? &review->cases[i] : NULL, NULL, *c};
     for (int i = 0; i < outcome->table_count; i++) {
         const SweepTable *table = &outcome->tables[i];
         ReviewCase       *worst = &review->sweeps[table->sweep_id].worst;
-        if (c == worst && table->figures.worst >= 0) return (Candidate){worst, table};
+        if (c == worst && table->figures.worst >= 0) return (Candidate){worst, table, *c};
     }
-    return (Candidate){NULL, NULL};
+    return (Candidate){.of = NULL};
 }
 
 /* In the order of the page, so that its first screen has a picture. */
@@ -443,13 +442,80 @@ static bool make_frame(const FrameWork *work, ReviewCase *of, Arena *arena, cons
     return ok;
 }
 
+/* ---- of a merge -------------------------------------------------------------------------- */
+
+/* The folder of the review that has a condition: DIR of DIR/conditions/NAME. */
+static const char *part_of(const ReviewRun *run, const char *condition, Arena *arena)
+{
+    const ReviewRequest *request = run->request;
+    int id = (int)(review_condition_named(request, condition) - request->conditions);
+    const char *path = run->merged[id];
+    const char *folder = arena_string(arena, path, (size_t)(path_name(path) - path));
+    return arena_format(arena, "%s..", folder);
+}
+
+static bool copy_file(const char *from, const char *to, Arena scratch, Error *err)
+{
+    FileBytes bytes;
+    return file_read(from, SIZE_MAX, &scratch, &bytes, err) &&
+           file_write(to, bytes.data, bytes.size, err);
+}
+
+/* A frame's file and its views, under another name. */
+typedef struct FrameCopy {
+    const char *part;      /* folder of the review that has it */
+    const char *from, *to; /* pictures, within the folders */
+    int         views;
+} FrameCopy;
+
+static bool take_frame(const ReviewRun *run, FrameCopy copy, Arena scratch, Error *err)
+{
+    const char *from = arena_format(&scratch, "%s/%s", copy.part, copy.from);
+    const char *to = arena_format(&scratch, "%s/%s", run->folder, copy.to);
+    int         from_stem = (int)(path_ending(from) - from);
+    int         to_stem = (int)(path_ending(to) - to);
+    if (!copy_file(arena_format(&scratch, "%.*s.exr", from_stem, from),
+                   arena_format(&scratch, "%.*s.exr", to_stem, to), scratch, err))
+        return false;
+    for (FrameView view = FRAME_PICTURE; (int)view < copy.views; view++)
+        if (!copy_file(frame_view(from, view, &scratch), frame_view(to, view, &scratch),
+                       scratch, err))
+            return false;
+    return true;
+}
+
+static bool take_worst(const ReviewRun *run, const Candidate *of, const char *name, Arena *arena,
+                       Error *err)
+{
+    ReviewCase       *c = of->of;
+    const ReviewCase *made = &of->made;
+    const char       *part = part_of(run, c->condition, arena);
+    if (!made->frame)
+        return error_at(err, ERROR_INPUT, part, "", "has no frame of %.200s, seen by %.100s",
+                        c->symbol, c->eye);
+    c->frame = arena_format(arena, "frames/%s.png", name);
+    c->view = made->view;
+    c->rim = made->rim;
+    c->rim_count = made->rim_count;
+    return take_frame(run, (FrameCopy){part, made->frame, c->frame, FRAME_VIEWS}, *arena, err);
+}
+
+static void forget_frame(ReviewCase *c)
+{
+    c->frame = NULL;
+    c->view = NULL;
+    c->rim = NULL;
+    c->rim_count = 0;
+}
+
 static bool make_worst(const ReviewRun *run, const Candidate *of, int number, Arena *arena,
                        Error *err)
 {
     FrameWork work = {run, of, NULL, NULL};
     work.name = words_file_name(arena_format(arena, "%d-%s-%s", number, of->of->condition,
                                           of->of->eye), arena);
-    return make_frame(&work, of->of, arena, &of->of->frame, err);
+    return run->merged ? take_worst(run, of, work.name, arena, err)
+                       : make_frame(&work, of->of, arena, &of->of->frame, err);
 }
 
 /* ---- of variants ------------------------------------------------------------------------- */
@@ -474,7 +540,15 @@ static bool make_pair(const FrameWork *before, int number, ReviewVariantFound *v
     work.run = &own;
     work.name = arena_format(arena, "%s-variant-%d-%s", name, number + 1,
                              words_file_name(variant->name, arena));
-    if (!make_frame(&work, NULL, arena, &variant->frame, err))
+    if (own.merged) {
+        FrameCopy copy = {part_of(&own, work.of->of->condition, arena),
+                          arena_format(arena, "frames/%s%s.png",
+                                       name_of(work.of->made.frame, arena),
+                                       work.name + strlen(name)),
+                          arena_format(arena, "frames/%s.png", work.name), 1};
+        variant->frame = copy.to;
+        if (!take_frame(&own, copy, *arena, err)) return false;
+    } else if (!make_frame(&work, NULL, arena, &variant->frame, err))
         return !err->code ? false
                                : error_prefix(err, "variant '%.100s'", variant->name);
     variant->frame_before = work.of->of->frame;
@@ -487,11 +561,11 @@ static bool make_pairs(const ReviewRun *run, const Candidate *of, Review *review
 {
     FrameWork work = {run, of, name_of(of->of->frame, arena), NULL};
     Arena     scratch = arena_reserve(SETUP_BYTES);
-    bool      ok = !review->variant_count ||
+    bool      ok = !review->variant_count || run->merged ||
               frame_exposure(arena_format(&scratch, "%s/frames/%s.exr", run->folder, work.name),
                              &scratch, &work.exposure, err);
     for (int i = 0; i < review->variant_count && ok; i++)
-        ok = review_goes_on(run->means.journal, err) &&
+        ok = review_goes_on(err) &&
              make_pair(&work, i, &review->variants[i], arena, err);
     arena_release(&scratch);
     return ok;
@@ -503,6 +577,7 @@ bool review_frames(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, E
 {
     int        count, made = 0;
     Candidate *list = candidates(outcome, &count, arena);
+    for (int i = 0; i < count; i++) forget_frame(list[i].of);
     for (int i = 0; i < count; i++) {
         int same = 0;
         while (same < i && !(list[same].of->frame && is_one_view(&list[same], &list[i])))
@@ -511,7 +586,7 @@ bool review_frames(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, E
             list[i].of->frame = list[same].of->frame;
             list[i].of->view = list[same].of->view;
         } else if (made < run->request->frames.worst &&
-                 (!review_goes_on(run->means.journal, err) ||
+                 (!review_goes_on(err) ||
                   !make_worst(run, &list[i], ++made, arena, err)))
             return false;
     }

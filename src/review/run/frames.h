@@ -17,7 +17,7 @@
  */
 #pragma once
 #include "review/light/setup.h"
-#include "review/run/job.h"
+#include "review/run/review_run.h"
 #include "review/verdict.h"
 
 #define FRAMES_SAMPLES 256

@@ -113,13 +113,6 @@ static double sun_from_gaze(const Setup *setup, Vec3 gaze)
     return degrees_from_radians(acos(fmin(fmax(cosine, -1), 1)));
 }
 
-/* What a road needs of the light; known from a journal, it is read no more. */
-static RoadVeils *road_veils_wanted(const RoadKept *kept, RoadReading *out, Arena *scratch)
-{
-    if (!out || road_reading_find(kept, out, *scratch)) return NULL;
-    return road_veils_start(kept->setup->scene, kept->ages, scratch);
-}
-
 /* The sun in mirrors is looked for, if there is a sun. ages: of a road, or NULL. */
 static EyeReading read_eye(const Setup *setup, SunSearches *searches, const GazeGoal *goal,
                            const RoadAges *ages, RoadReading *road)
@@ -133,14 +126,9 @@ static EyeReading read_eye(const Setup *setup, SunSearches *searches, const Gaze
         images = false_suns_of(sun_searches_find(searches, setup, goal->eye), bands, &scratch);
         look.images = &images;
     }
-    RoadKept kept = {setup, goal->eye, goal->towards, ages, ROUNDS,
-                     look.images ? look.images->count : -1};
-    look.road = road_veils_wanted(&kept, road, &scratch);
+    if (road) look.road = road_veils_start(setup->scene, ages, &scratch);
     EyeReading eye = eye_read(setup, &look, scratch);
-    if (look.road) {
-        road_veils_read(look.road, road);
-        road_reading_keep(&kept, road, scratch);
-    }
+    if (road) road_veils_read(look.road, road);
     arena_release(&scratch);
     return eye;
 }
@@ -228,7 +216,7 @@ bool setup_gazes(const GazesArgs *gazes, Arena *arena, GazeFinding *out, Error *
 {
     const Setup         *setup = gazes->setup;
     const ReviewRequest *request = setup->request;
-    int at = -1, looks = review_look_count(request);
+    int at = -1;
     for (int g = 0; g < request->gaze_count; g++)
         for (int e = 0; e < request->eye_count; e++) {
             const ReviewGaze *gaze = &request->gazes[g];
@@ -236,7 +224,7 @@ bool setup_gazes(const GazesArgs *gazes, Arena *arena, GazeFinding *out, Error *
             int count;
             if (gaze->at_symbols || !gaze->for_eye[e]) continue;
             if (gazes->roads_only && !is_wanted(setup, gaze)) continue;
-            if (!moment_share_has(gazes->share, ++at, looks)) continue;
+            at++;
             Vec3 *points = setup_eye_points(setup, eye, &count, arena, err);
             if (!points) return false;
             GazeGoal goal = goal_of(worst_point(setup, gaze, points, count, *arena), gaze,

@@ -10,12 +10,11 @@
  */
 #pragma once
 #include "review/eye/false_suns.h"
-#include "review/run/job.h"
+#include "review/run/review_run.h"
 #include "review/verdict.h"
 
 typedef struct GazesArgs {
     const Setup       *setup;
-    const MomentShare *share;
     SunSearches       *searches;
     const Profile     *profile; /* limits of roads */
     const ReviewCase  *cases;   /* of this moment, which are made before */
@@ -23,7 +22,7 @@ typedef struct GazesArgs {
     bool               roads_only; /* of others nothing is set, and they are left out */
 } GazesArgs;
 
-/* Fills review_look_count(request) findings, eyes fastest, but for those that are others'; with
+/* Fills review_look_count(request) findings, eyes fastest; with
  * roads_only those of roads that are evaluated in the condition, one behind the other.
  * Fails where an eye's camera is missing. */
 bool setup_gazes(const GazesArgs *gazes, Arena *arena, GazeFinding *out, Error *err);

@@ -93,6 +93,11 @@ static void add(ReviewRest rest, Review *review, Arena *arena)
     review->rests_on_count++;
 }
 
+void rests_add_of(const Review *of, Review *review, Arena *arena)
+{
+    for (int i = 0; i < of->rests_on_count; i++) add(of->rests_on[i], review, arena);
+}
+
 /* ---- what the request says --------------------------------------------------------------- */
 
 static void add_eyes(const ReviewRequest *request, Review *review, Arena *arena)

@@ -26,3 +26,6 @@ void rests_add_scene(const ReviewRequest *request, const Scene *scene, Review *r
 void rests_add_scene_files(const Scene *scene, Review *review, Arena *arena);
 void rests_add_masks(const SetupSymbol *symbols, int count, Review *review, Arena *arena);
 void rests_add_files_of(const Review *of, Review *review, Arena *arena);
+
+/* The facts of another part of the review. */
+void rests_add_of(const Review *of, Review *review, Arena *arena);

@@ -34,35 +34,6 @@ RoadAges road_ages(const ReviewRequest *request, const ReviewRoad *road, Arena *
                       road->age_count ? road->age_count : 1, request->observer.pigment};
 }
 
-/* ---- kept -------------------------------------------------------------------------------- */
-
-static JournalKey key_of(const RoadKept *of, Arena scratch)
-{
-    const Setup  *setup = of->setup;
-    const double *ahead = setup->request->forward;
-    double   numbers[ROAD_AGES_MOST + 6] = {of->ages->pigment, of->rounds, (double)of->images,
-                                            ahead[0], ahead[1], ahead[2]};
-    for (int i = 0; i < of->ages->count; i++) numbers[6 + i] = of->ages->list[i];
-    ProbeAim aim = {.context = &setup->context, .eye = of->eye, .targets = &of->towards,
-                    .target_count = 1, .seed = review_seed(setup->request, SEED)};
-    Question question = {.base = setup->tools.base, .kind = "road", .numbers = numbers,
-                         .number_count = 6 + of->ages->count};
-    return question_key(&question, &aim, scratch);
-}
-
-bool road_reading_find(const RoadKept *of, RoadReading *out, Arena scratch)
-{
-    const Journal *journal = of->setup->tools.journal;
-    return journal && journal_find(journal, key_of(of, scratch), out->block, out->size) &&
-           road_reading_is_sound(out, of->setup->scene->part_count);
-}
-
-void road_reading_keep(const RoadKept *of, const RoadReading *reading, Arena scratch)
-{
-    Journal *journal = of->setup->tools.journal;
-    if (journal) journal_add(journal, key_of(of, scratch), reading->block, reading->size);
-}
-
 /* ---- displays ---------------------------------------------------------------------------- */
 
 /* What a display's panel states of itself. */

@@ -19,18 +19,6 @@ RoadLeftOut road_left_out(const Setup *setup, const ReviewRoad *road);
 /* The ages of the request's road, of its observer where it names none. */
 RoadAges road_ages(const ReviewRequest *request, const ReviewRoad *road, Arena *arena);
 
-/* An eye's reading as the setup's journal keeps it; rounds: of eye_read. */
-typedef struct RoadKept {
-    const Setup    *setup;
-    Vec3            eye, towards;
-    const RoadAges *ages;
-    int             rounds;
-    long            images; /* of the sun in mirrors; -1: nobody looked */
-} RoadKept;
-
-bool road_reading_find(const RoadKept *of, RoadReading *out, Arena scratch);
-void road_reading_keep(const RoadKept *of, const RoadReading *reading, Arena scratch);
-
 /* A road that is left out: what is stated of it. */
 GazeRoad *road_stated(const ReviewRoad *road, RoadLeftOut left_out, Arena *arena);
 

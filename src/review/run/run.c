@@ -3,7 +3,6 @@
 
 #include <string.h>
 
-#include "keep/journal.h"
 #include "render/identity.h"
 #include "review/keep/frame_kept.h"
 #include "review/request/request_check.h"
@@ -23,22 +22,17 @@
 /* The most address space that a setup takes; what is not touched costs nothing. */
 #define SETUP_BYTES ((size_t)1 << 36)
 
+/* Of one condition. */
 static int most_cases(const ReviewRequest *request)
 {
-    return request->condition_count * request->eye_count * request->symbol_count *
-           SYMBOLS_FOUND_MOST;
+    return request->eye_count * request->symbol_count * SYMBOLS_FOUND_MOST;
 }
 
-static int most_false_suns(const ReviewRequest *request)
-{
-    return request->condition_count * request->eye_count * FALSE_SUNS_LISTED;
-}
-
-/* A response for each sight, face and sensor of a condition. */
+/* A response for each sight, face and sensor. */
 static int most_responses(const ReviewRequest *request)
 {
-    int faces = request->symbol_count * SYMBOLS_FOUND_MOST;
-    return most_cases(request) + request->condition_count * (faces + request->level_count);
+    return most_cases(request) + request->symbol_count * SYMBOLS_FOUND_MOST +
+           request->level_count;
 }
 
 /* Names of symbols that were found live in the setup's memory. */
@@ -47,21 +41,6 @@ static void keep_names(ReviewCase *cases, int count, Arena *arena)
     for (int i = 0; i < count; i++)
         cases[i].symbol = arena_string(arena, cases[i].symbol, strlen(cases[i].symbol));
 }
-
-/* The place of a moment among those of the request. */
-static MomentShare share_of(const ReviewRun *run, const ReviewCondition *condition)
-{
-    const ReviewRequest *request = run->request;
-    MomentShare          share = {.of = run->share};
-    for (int i = 0; i < request->condition_count; i++) {
-        if (request->conditions[i].kind != CONDITION_MOMENT) continue;
-        if (&request->conditions[i] == condition) share.place = share.moments;
-        share.moments++;
-    }
-    return share;
-}
-
-static const MomentShare ALL_OF_IT = {{0, 0}, 0, 1};
 
 /* Of a variant's gazes only the roads' increments: nothing else of them has a limit. */
 static bool add_roads(const GazesArgs *looks, Arena *arena, Review *review, Error *err)
@@ -77,8 +56,7 @@ static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena
     const ReviewCondition *condition = setup->condition;
     Review   *review = &out->review;
     CaseTools tools = {.setup = setup, .profile = run->profile, .progress = run->progress,
-                       .share = share_of(run, condition), .base = run->base,
-                       .no_images = run->share.count > 0};
+                       .base = run->base};
     SetupSymbol *symbols;
     const Environment *sky = condition->has_environment ? &condition->environment : NULL;
     if (!setup_light(setup, sky, scratch, err) ||
@@ -92,38 +70,34 @@ static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena
     if (!setup_learn(setup, symbols, tools.symbol_count, scratch, err)) return false;
     ReviewCase *cases = review->cases + review->case_count;
     if (!setup_cases(&tools, arena, cases, err)) return false;
-    if (!run->share.count) keep_names(cases, count, arena); /* others' cases have none */
+    keep_names(cases, count, arena);
     review->case_count += count;
-    GazesArgs roads = {setup, &ALL_OF_IT, run->sun_searches, run->profile, cases, count, true};
+    GazesArgs roads = {setup, run->sun_searches, run->profile, cases, count, true};
     if (run->base) return add_roads(&roads, arena, review, err);
     GazeFinding *gazes = review->gazes + review->gaze_count;
-    GazesArgs looks = {setup, &tools.share, run->sun_searches, run->profile, cases, count,
-                      false};
+    GazesArgs looks = {setup, run->sun_searches, run->profile, cases, count, false};
     if (!setup_gazes(&looks, arena, gazes, err)) return false;
     progress_update(run->progress, count + look_count);
     review->gaze_count += look_count;
-    /* The merge looks for images in panes: they are needed once. */
-    return !run->request->pane_images || run->share.count > 0 ||
-           setup_pane_images(setup, arena, review, err);
+    return !run->request->pane_images || setup_pane_images(setup, arena, review, err);
 }
 
 /* The roads of a sweep, as it is after dark: with its lamps, displays and levels, but
- * without sun and sky. The merge answers what is needed once. */
+ * without sun and sky. */
 static bool run_after_dark(const ReviewRun *run, const ReviewCondition *condition, Arena *arena,
                            ReviewOutcome *out, Error *err)
 {
     SetupOptions options = {run->request, condition, run->means};
     Review      *review = &out->review;
     int          count = roads_of_sweep(run->request, condition);
-    if (!count || run->base || run->share.count) return true;
+    if (!count || run->base) return true;
     Arena scratch = arena_reserve(SETUP_BYTES);
     Setup setup;
     GazeFinding *found = review->gazes + review->gaze_count;
     bool  ok = setup_open(&options, &scratch, run->problems, &setup, err);
     if (ok) {
         Environment dark = setup.scene->environment;
-        GazesArgs    looks = {&setup, &ALL_OF_IT, run->sun_searches, run->profile, NULL, 0,
-                              true};
+        GazesArgs    looks = {&setup, run->sun_searches, run->profile, NULL, 0, true};
         dark.kind = ENVIRONMENT_NONE;
         dark.has_sun = false;
         ok = setup_light(&setup, &dark, &scratch, err) &&
@@ -154,21 +128,6 @@ static bool same_scene(const ReviewRequest *request, const ReviewCondition *a,
     return true;
 }
 
-/* A sweep with all later ones of its scene; they are done then. */
-static SweepGroup group_of(const ReviewRequest *request, int first, bool *is_done, Arena *arena)
-{
-    SweepGroup group = {ARENA_NEW(arena, const ReviewCondition *, request->condition_count), 0};
-    for (int i = first; i < request->condition_count; i++) {
-        const ReviewCondition *c = &request->conditions[i];
-        if (c->kind == CONDITION_MOMENT || is_done[i] ||
-            !same_scene(request, &request->conditions[first], c))
-            continue;
-        group.conditions[group.count++] = c;
-        is_done[i] = true;
-    }
-    return group;
-}
-
 bool review_check(const ReviewRequest *request, Arena scratch, Error *err)
 {
     for (int i = 0; i < request->condition_count; i++)
@@ -176,30 +135,6 @@ bool review_check(const ReviewRequest *request, Arena scratch, Error *err)
             !sweep_check(request, i, scratch, err))
             return false;
     return true;
-}
-
-/* ---- what it was planned for ------------------------------------------------------------- */
-
-static void add_condition(Text *text, const ReviewRequest *request,
-                          const ReviewCondition *condition, JournalKey base)
-{
-    identity_line(text, arena_format(text->arena, "condition %d",
-                                     (int)(condition - request->conditions)),
-                  "%016llx%016llx", (unsigned long long)base.high,
-                  (unsigned long long)base.low);
-}
-
-/* Answers of something else would find nobody who needs them. */
-static bool check_planned(const ReviewRun *run, const Setup *setup, Arena scratch, Error *err)
-{
-    Text own = {.arena = &scratch};
-    if (!run->identity) return true;
-    add_condition(&own, run->request, setup->condition, setup->planned);
-    return strstr(run->identity, own.data) ||
-           error_at(err, ERROR_INPUT, run->request->file, "",
-                    "the program, the request or a file of condition '%.200s' is not what the "
-                    "job was planned for — plan it again, in another folder",
-                    setup->condition->name);
 }
 
 /* Keeps the list of the scene that has most of them. */
@@ -212,9 +147,8 @@ static void report_without_data(const Scene *scene, Review *review, Arena scratc
     review->without_data = scene_names_of(scene, list, count, arena);
 }
 
-/* group: of sweeps; NULL: a moment. */
-static bool run_condition(const ReviewRun *run, const ReviewCondition *condition,
-                          const SweepGroup *group, Arena *arena, ReviewOutcome *out, Error *err)
+static bool run_condition(const ReviewRun *run, const ReviewCondition *condition, Arena *arena,
+                          ReviewOutcome *out, Error *err)
 {
     SetupOptions options = {run->request, condition, run->means};
     Arena scratch = arena_reserve(SETUP_BYTES);
@@ -227,58 +161,44 @@ static bool run_condition(const ReviewRun *run, const ReviewCondition *condition
         ok = (!run->news.read || run->news.read(run->news.user, setup.scene, err)) &&
              (review_request_check(run->request, setup.scene, run->problems) ||
               problems_verdict(run->problems, err)) &&
-             check_planned(run, &setup, scratch, err) &&
-             (group ? run_sweeps(run, &setup, group, arena, out, err)
-                    : run_moment(run, &setup, &scratch, arena, out, err));
+             (condition->kind == CONDITION_MOMENT
+                  ? run_moment(run, &setup, &scratch, arena, out, err)
+                  : run_sweep(run, &setup, arena, out, err));
         setup_close(&setup);
     }
     arena_release(&scratch);
     return ok;
 }
 
-/* group: empty: a moment. Progress counts what of it is read. */
-static bool run_counted(const ReviewRun *run, const ReviewCondition *condition,
-                        const SweepGroup *group, Arena *arena, ReviewOutcome *out, Error *err)
+static void start(const ReviewRequest *request, ReviewOutcome *out, Arena *arena)
 {
-    int steps = 0;
-    for (int i = 0; i < group->count + !group->count; i++)
-        steps += review_condition_steps(run->request,
-                                        group->count ? group->conditions[i] : condition);
+    int most = most_cases(request);
+    *out = (ReviewOutcome){.tables = ARENA_NEW(arena, SweepTable, most)};
+    out->review = (Review){.cases = ARENA_NEW(arena, ReviewCase, most),
+                           .sweeps = ARENA_NEW(arena, ReviewSweep, most),
+                           .gazes = ARENA_NEW(arena, GazeFinding, review_look_count(request)),
+                           .responses = ARENA_NEW(arena, ReviewResponse,
+                                                  most_responses(request)),
+                           .false_suns = ARENA_NEW(arena, ReviewFalseSun,
+                                                   request->eye_count * FALSE_SUNS_LISTED)};
+}
+
+/* Progress counts what of it is read. */
+bool review_run_condition(const ReviewRun *run, int condition_id, Arena *arena,
+                          ReviewOutcome *out, Error *err)
+{
+    const ReviewCondition *condition = &run->request->conditions[condition_id];
+    int       steps = review_condition_steps(run->request, condition);
     Progress  part = progress_part(run->progress, steps, steps);
     ReviewRun own = *run;
     own.progress = &part;
-    if (!run_condition(&own, condition, group->count ? group : NULL, arena, out, err))
+    start(run->request, out, arena);
+    if (!review_goes_on(err) || !run_condition(&own, condition, arena, out, err) ||
+        (condition->kind != CONDITION_MOMENT &&
+         !run_after_dark(&own, condition, arena, out, err)) ||
+        !review_goes_on(err)) /* else its last reading may be cut off */
         return false;
     progress_end(&part, part.total);
-    return true;
-}
-
-static bool run_roads(const ReviewRun *run, const SweepGroup *group, Arena *arena,
-                      ReviewOutcome *out, Error *err)
-{
-    for (int i = 0; i < group->count; i++)
-        if (!run_after_dark(run, group->conditions[i], arena, out, err)) return false;
-    return true;
-}
-
-static bool run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *err)
-{
-    const ReviewRequest *request = run->request;
-    bool    *is_done = ARENA_NEW(arena, bool, request->condition_count);
-    for (int i = 0; i < request->condition_count; i++) {
-        const ReviewCondition *condition = &request->conditions[i];
-        SweepGroup group = {NULL, 0};
-        if (is_done[i]) continue;
-        if (!review_goes_on(run->means.journal, err)) return false;
-        bool is_moment = condition->kind == CONDITION_MOMENT;
-        MomentShare share = share_of(run, condition);
-        if (is_moment && !moment_share_has_any(&share)) continue;
-        if (!is_moment) group = group_of(request, i, is_done, arena);
-        if (!run_counted(run, condition, &group, arena, out, err) ||
-            !run_roads(run, &group, arena, out, err) ||
-            !review_goes_on(run->means.journal, err)) /* else its last reading may be cut off */
-            return false;
-    }
     return true;
 }
 
@@ -298,13 +218,11 @@ static void mark_scene(const ReviewRequest *request, int first, int *done_by)
 
 /* A moment has symbols, but needs no response. */
 static bool plan_condition(const ReviewRun *run, const ReviewCondition *condition,
-                           ReviewPlan *plan, JournalKey *base, Error *err)
+                           ReviewPlan *plan, Error *err)
 {
     SetupOptions options = {run->request, condition, run->means};
     Arena scratch = arena_reserve(SETUP_BYTES);
     Setup setup;
-    options.means.journal = NULL; /* nothing is read */
-    options.means.guides = NULL;
     bool  ok = setup_open(&options, &scratch, run->problems, &setup, err);
     if (ok) {
         Sweep        sweep = {.run = run, .setup = &setup};
@@ -315,7 +233,6 @@ static bool plan_condition(const ReviewRun *run, const ReviewCondition *conditio
              (condition->kind == CONDITION_MOMENT
                   ? setup_symbols(&setup, &scratch, &symbols, &count, err)
                   : sweep_place_probes(&sweep, &scratch, err));
-        *base = setup.planned;
         plan->responses += sweep.call_count;
         for (int i = 0; i < sweep.call_count; i++)
             plan->responses_kept += sweep.calls[i].is_kept;
@@ -328,24 +245,15 @@ static bool plan_condition(const ReviewRun *run, const ReviewCondition *conditio
 bool review_plan(const ReviewRun *run, Arena *arena, ReviewPlan *out, Error *err)
 {
     const ReviewRequest *request = run->request;
-    const Kernel        *kernel;
-    int         count = request->condition_count;
-    int        *done_by = ARENA_NEW(arena, int, count);
-    JournalKey *bases = ARENA_NEW(arena, JournalKey, count);
-    Text        identity = {.arena = arena};
+    int                  count = request->condition_count;
+    int                 *done_by = ARENA_NEW(arena, int, count);
     *out = (ReviewPlan){0};
-    if (!kernel_choose(run->means.isa, &kernel, err)) return false;
-    identity_add_program(&identity, kernel);
     for (int i = 0; i < count; i++) done_by[i] = -1;
     for (int i = 0; i < count; i++) {
-        if (done_by[i] < 0) {
-            mark_scene(request, i, done_by);
-            if (!plan_condition(run, &request->conditions[i], out, &bases[i], err))
-                return false;
-        }
-        add_condition(&identity, request, &request->conditions[i], bases[done_by[i]]);
+        if (done_by[i] >= 0 || !review_is_wanted(run, i)) continue;
+        mark_scene(request, i, done_by);
+        if (!plan_condition(run, &request->conditions[i], out, err)) return false;
     }
-    out->identity = identity.data;
     return true;
 }
 
@@ -357,10 +265,11 @@ static void add_note(Review *review, const char ***notes, const char *text)
     review->notes = *notes;
 }
 
-static bool has_sweeps(const ReviewRequest *request)
+static bool has_sweeps(const ReviewRun *run)
 {
-    for (int i = 0; i < request->condition_count; i++)
-        if (request->conditions[i].kind != CONDITION_MOMENT) return true;
+    for (int i = 0; i < run->request->condition_count; i++)
+        if (review_is_wanted(run, i) && run->request->conditions[i].kind != CONDITION_MOMENT)
+            return true;
     return false;
 }
 
@@ -434,12 +343,12 @@ static void add_privacy_notes(const ReviewRun *run, Review *review, const char *
                  "night, so that its worst light was not reviewed.");
 }
 
-static void add_notes(const ReviewRun *run, Review *review, Arena *arena)
+void review_add_notes(const ReviewRun *run, Review *review, Arena *arena)
 {
     const ReviewRequest *request = run->request;
     const char **notes = ARENA_NEW(arena, const char *, 3 * request->weather_count + 7 +
                                                         request->condition_count);
-    if (has_sweeps(request)) {
+    if (has_sweeps(run)) {
         add_note(review, &notes,
                  "Sweeps: skies are clear, or those of a weather file where one is named; "
                  "light that comes by a second surface, glints via chrome or glass "
@@ -461,40 +370,4 @@ static void add_notes(const ReviewRun *run, Review *review, Arena *arena)
         add_weather_notes(request, i, review, &notes, arena);
     add_glasses_notes(request, review, &notes, arena);
     add_privacy_notes(run, review, &notes, arena);
-}
-
-/* ---- all of it --------------------------------------------------------------------------- */
-
-static void start(const ReviewRun *run, const ReviewRequest *request, ReviewOutcome *out,
-                  Arena *arena)
-{
-    int most = most_cases(request);
-    int most_looks = request->condition_count * review_look_count(request);
-    *out = (ReviewOutcome){.tables = ARENA_NEW(arena, SweepTable, most)};
-    out->review = (Review){.title = request->title,
-                           .profile = arena_format(arena, "%s, %s", run->profile->title,
-                                                   run->profile->edition),
-                           .cases = ARENA_NEW(arena, ReviewCase, most),
-                           .sweeps = ARENA_NEW(arena, ReviewSweep, most),
-                           .gazes = ARENA_NEW(arena, GazeFinding, most_looks),
-                           .responses = ARENA_NEW(arena, ReviewResponse,
-                                                  most_responses(request)),
-                           .false_suns = ARENA_NEW(arena, ReviewFalseSun,
-                                                   most_false_suns(request))};
-}
-
-bool review_run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *out,
-                           Error *err)
-{
-    SunSearches searches = sun_searches_start();
-    ReviewRun   with = *run;
-    with.sun_searches = &searches;
-    start(run, run->request, out, arena);
-    rests_add_request(run->request, run->profile, &out->review, arena);
-    bool ok = run_conditions(&with, arena, out, err);
-    sun_searches_end(&searches);
-    if (!ok || run->share.count) return ok;
-    if (!run->base) add_notes(run, &out->review, arena);
-    review_decide(&out->review);
-    return true;
 }

@@ -91,11 +91,11 @@ ReviewCase sun_figures_unread(const Sweep *sweep, const Sight *sight, Arena *are
 SunFigures sun_figures_start(int count, Arena *arena)
 {
     float *numbers = ARENA_NEW(arena, float, 8 * (size_t)count);
-    return (SunFigures){numbers, numbers + count, numbers + 2 * count, numbers + 3 * count,
-                        numbers + 4 * count, numbers + 5 * count, numbers + 6 * count,
-                        numbers + 7 * count,
-                        ARENA_NEW(arena, unsigned char, count),
-                        ARENA_NEW(arena, unsigned char, count), -1, false};
+    return (SunFigures){.contrast = numbers, .low = numbers + count,
+                        .high = numbers + 2 * count, .margin = numbers + 3 * count,
+                        .reflected = numbers + 4 * count, .mirror = numbers + 5 * count,
+                        .level = numbers + 6 * count, .lux = numbers + 7 * count,
+                        .verdict = ARENA_NEW(arena, unsigned char, count), .worst = -1};
 }
 
 /* Worse: by its verdict, then by its margin, then by its contrast. */
@@ -124,20 +124,6 @@ int sun_figures_next(const SunFigures *figures, const SweepSuns *suns, FarSteps 
     return next;
 }
 
-const LimitVerdict *const *sun_figures_limits(const Sight *sight, const Profile *profile,
-                                              Arena *arena)
-{
-    const LimitVerdict **asked = ARENA_NEW(arena, const LimitVerdict *, AMBIENT_COUNT);
-    for (int ambient = 0; ambient < AMBIENT_COUNT; ambient++) {
-        ReviewCase c = {.ambient = (Ambient)ambient, .visible_share = sight->seen.visible_share,
-                        .height_arcmin = sight->height_arcmin,
-                        .must_not_be_read = sight->is_private};
-        judge_case(&c, profile, arena);
-        asked[ambient] = c.limit_id >= 0 ? &c.limits[c.limit_id] : NULL;
-    }
-    return asked;
-}
-
 #define JUDGE_CHUNK 256 /* suns of one piece of work */
 #define JUDGE_BYTES ((size_t)1 << 20) /* scratch of a worker */
 
@@ -163,7 +149,6 @@ static void judge_sun(const JudgeWork *work, int sun, Arena scratch)
     figures->level[sun] = (float)c.level;
     figures->lux[sun] = (float)c.display_lux;
     figures->verdict[sun] = (unsigned char)c.verdict;
-    figures->ambient[sun] = (unsigned char)c.ambient;
 }
 
 static void judge_chunk(void *user, int item, int worker)

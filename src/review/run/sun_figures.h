@@ -29,9 +29,5 @@ typedef struct FarSteps {
 int sun_figures_next(const SunFigures *figures, const SweepSuns *suns, FarSteps of,
                      const SweepSun *others, int count);
 
-/* [ambient] the contrast limit that is required of a sight; NULL: none. */
-const LimitVerdict *const *sun_figures_limits(const Sight *sight, const Profile *profile,
-                                              Arena *arena);
-
 /* StepState's (suns/sweep_suns.h). */
 void sun_figures_states(const SunFigures *figures, int count, unsigned char *states);

@@ -280,10 +280,7 @@ static void add_table(const SweepReport *to, const Sight *sight, const SunFigure
 {
     int id = (int)(sight - to->sweep->sights);
     if (to->sweep->run->base) return; /* variants have no tables */
-    const Profile *profile = to->sweep->run->profile;
-    to->tables[id] = (SweepTable){to->first + id, *worst, to->suns, *figures,
-                                  sight->shown.foreground, sight->shown.background,
-                                  sun_figures_limits(sight, profile, to->arena)};
+    to->tables[id] = (SweepTable){to->first + id, *worst, to->suns, *figures};
 }
 
 /* A variant's figures, whose tables nobody needs, last as long as the scratch. asked: the
@@ -336,8 +333,7 @@ static bool report_sights(SweepReport *to, Arena room, Error *err)
         const Sight *sight = &sweep->sights[i % eyes * symbols + i / eyes];
         Arena        of_sight = room;
         Sight        asked = *sight;
-        if (sight->is_left) continue;
-        if (!review_goes_on(sweep->run->means.journal, err)) return false;
+        if (!review_goes_on(err)) return false;
         if (sight->twin == NO_ID) asked = sweep_sample_sight(sweep, sight, &of_sight);
         if (!report_sight(to, sight, &asked, err)) return false;
         progress_update(sweep->run->progress, sweep->run->progress->done + 1);
@@ -404,14 +400,11 @@ bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, 
            sweep_weather_check(request, condition, &suns, scratch, err);
 }
 
-/* Responses that are to be traced, then sights under each condition. */
-static int steps_of(const Sweep *sweep, const SweepGroup *group)
+/* Responses that are to be traced, then sights. */
+static int steps_of(const Sweep *sweep)
 {
-    int steps = 0;
-    for (int i = 0; i < sweep->call_count; i++)
-        steps += !sweep->calls[i].is_kept && !sweep->calls[i].is_left;
-    for (int k = 0; k < sweep->sight_count; k++)
-        steps += sweep->sights[k].is_left ? 0 : group->count;
+    int steps = sweep->sight_count;
+    for (int i = 0; i < sweep->call_count; i++) steps += !sweep->calls[i].is_kept;
     return steps;
 }
 
@@ -425,51 +418,40 @@ static void set_level(Sweep *sweep)
         has_level && sweep->level->is_curve ? &sweep->sensors[condition->level_id] : NULL;
 }
 
-static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOutcome *out,
-                            Error *err)
+/* Its probes are made. */
+static bool sweep_suns_of(Sweep *sweep, Arena scratch, Arena *arena, ReviewOutcome *out,
+                          Error *err)
 {
-    sweep->suns = sweep_suns(sweep->setup->condition, sweep->run->means.threads, arena);
+    SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);
+    sweep->suns = *suns = sweep_suns(sweep->setup->condition, sweep->run->means.threads, arena);
     set_level(sweep);
     if (!make_skies(sweep, &scratch, err)) return false;
     if (!sweep_sample_light(sweep, &scratch, err)) return false;
     DistantTools tools = sweep_tools(sweep);
-    SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);
-    *suns = sweep->suns;
     SweepReport to = {.sweep = sweep, .tools = &tools, .suns = suns, .out = out, .arena = arena,
                       .first = out->review.sweep_count, .scratch = sweep->figures,
                       .sights = ARENA_NEW(&scratch, SightFigures, sweep->sight_count),
                       .tables = ARENA_NEW(&scratch, SweepTable, sweep->sight_count)};
-    sweep->lit->is_ready = sweep->lit->is_lit = false;
-    if (!sweep->run->share.count && !sweep->run->base)
-        false_sun_times(sweep, scratch, arena, &out->review);
+    if (!sweep->run->base) false_sun_times(sweep, scratch, arena, &out->review);
     if (!report_sights(&to, scratch, err)) return false;
     keep_tables(&to);
     out->review.sweep_count += sweep->sight_count;
     return true;
 }
 
-static bool sweep_all(Sweep *sweep, const SweepGroup *group, Arena *scratch, Arena *arena,
-                      ReviewOutcome *out, Error *err)
+static bool sweep_all(Sweep *sweep, Arena *scratch, Arena *arena, ReviewOutcome *out,
+                      Error *err)
 {
     if (!sweep_place_probes(sweep, scratch, err)) return false;
     rests_add_masks(sweep->symbols, sweep->symbol_count, &out->review, arena);
-    sweep->run->progress->total = steps_of(sweep, group);
+    sweep->run->progress->total = steps_of(sweep);
     if (!sweep_make_probes(sweep, scratch, err)) return false;
     report_responses(sweep, arena, out);
-    PathContext dark = sweep->setup->context;
-    for (int i = 0; i < group->count; i++) {
-        Arena room = *scratch;
-        sweep->setup->condition = group->conditions[i];
-        sweep->setup->context = dark; /* the last one's is gone with its room */
-        if (!sweep_light_dark(sweep->setup, 1, &room, err) ||
-            !sweep_condition(sweep, room, arena, out, err))
-            return false;
-    }
-    return true;
+    return sweep_light_dark(sweep->setup, 1, scratch, err) &&
+           sweep_suns_of(sweep, *scratch, arena, out, err);
 }
 
-bool run_sweeps(const ReviewRun *run, Setup *setup, const SweepGroup *group, Arena *arena,
-                ReviewOutcome *out, Error *err)
+bool run_sweep(const ReviewRun *run, Setup *setup, Arena *arena, ReviewOutcome *out, Error *err)
 {
     Arena    scratch = arena_reserve(SWEEP_BYTES);
     SweepLit lit = {.of = setup, .room = arena_reserve(SWEEP_BYTES),
@@ -477,7 +459,7 @@ bool run_sweeps(const ReviewRun *run, Setup *setup, const SweepGroup *group, Are
     Sweep    sweep = {.run = run, .setup = setup, .lit = &lit,
                       .figures = arena_reserve(SWEEP_BYTES),
                       .between = arena_reserve(SWEEP_BYTES)};
-    bool     ok = sweep_all(&sweep, group, &scratch, arena, out, err);
+    bool     ok = sweep_all(&sweep, &scratch, arena, out, err);
     arena_release(&sweep.between);
     arena_release(&sweep.figures);
     arena_release(&lit.fresh);

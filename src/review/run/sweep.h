@@ -14,7 +14,7 @@
  */
 #pragma once
 #include "review/run/cases.h"
-#include "review/run/job.h"
+#include "review/run/review_run.h"
 
 /* Can the condition be swept? To be checked before long work; the error names its place. */
 bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, Error *err);
@@ -23,11 +23,4 @@ bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, 
  * sun has a step. */
 Environment sweep_environment(const Setup *setup, const SweepSun *sun);
 
-/* Sweeps of one scene: the same files, contents and polarities, so that responses serve all. */
-typedef struct SweepGroup {
-    const ReviewCondition **conditions;
-    int                     count;
-} SweepGroup;
-
-bool run_sweeps(const ReviewRun *run, Setup *setup, const SweepGroup *group, Arena *arena,
-                ReviewOutcome *out, Error *err);
+bool run_sweep(const ReviewRun *run, Setup *setup, Arena *arena, ReviewOutcome *out, Error *err);

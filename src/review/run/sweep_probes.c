@@ -33,7 +33,7 @@ static void add_eye(Text *text, const ProbeAim *aim)
 {
     identity_vector(text, "eye", aim->eye);
     identity_line(text, "looks at", "%d points, %016llx", aim->target_count,
-                  (unsigned long long)question_aim(aim));
+                  (unsigned long long)reading_aim_hash(aim));
 }
 
 /* Everything that decides the response and what the probe reads of the scene's own light. */
@@ -103,8 +103,8 @@ static bool responses_read_own(const Setup *setup, const ResponseArgs *calls, in
     Arena scratch = arena_reserve(OWN_BYTES);
     bool  ok = true;
     for (int i = 0; i < count && ok; i++) {
-        if (calls[i].is_kept || calls[i].is_left) continue;
-        ok = review_goes_on(setup->tools.journal, err);
+        if (calls[i].is_kept) continue;
+        ok = review_goes_on(err);
         if (!ok) break;
         double own = own_reading(setup, &calls[i].probe->aim, scratch);
         if (displays) calls[i].own->displays = own - calls[i].own->lamps;
@@ -123,8 +123,8 @@ static bool responses_trace(const ReviewRun *run, const Setup *setup, ResponseAr
     DistantTools tools = {.setup = setup};
     for (int i = 0; i < count; i++) {
         ResponseArgs *args = &calls[i];
-        if (args->is_kept || args->is_left) continue;
-        if (!review_goes_on(setup->tools.journal, err)) return false;
+        if (args->is_kept) continue;
+        if (!review_goes_on(err)) return false;
         tools.paths = args->paths;
         tools.precision = args->precision;
         distant_probe_respond(args->probe, &tools, arena);
@@ -265,7 +265,7 @@ static void find_twin(Sweep *sweep, Sight *sight)
     sight->twin = NO_ID;
     for (int i = same; i < id && sight->twin == NO_ID; i += sweep->symbol_count) {
         Sight *other = &sweep->sights[i];
-        if (other->is_left || other->is_private != sight->is_private ||
+        if (other->is_private != sight->is_private ||
             memcmp(&other->from, &sight->from, sizeof sight->from) != 0)
             continue;
         sight->twin = i;
@@ -288,29 +288,10 @@ static bool place_sights(Sweep *sweep, Arena *arena, Error *err)
             sight->is_private = review_is_private(request, sweep->symbols[s].symbol_id,
                                                   &request->eyes[e]);
             aim_sight(sweep, sight, arena);
+            find_twin(sweep, sight);
         }
     }
     return true;
-}
-
-/* ---- whose they are ---------------------------------------------------------------------- */
-
-/* Sights are shared, each with the meters that it takes. */
-static void leave_others(Sweep *sweep)
-{
-    const ReviewShare *share = &sweep->run->share;
-    bool has_any = false;
-    for (int i = 0; i < sweep->symbol_count; i++) sweep->faces[i].is_left = share->count > 0;
-    for (int i = 0; i < sweep->sight_count; i++) {
-        Sight *sight = &sweep->sights[i];
-        sight->is_left = !review_share_has(share, i);
-        if (sight->is_left) continue;
-        sweep->faces[sight->symbol - sweep->symbols].is_left = false;
-        has_any = true;
-        find_twin(sweep, sight);
-    }
-    for (int i = 0; i < sweep->run->request->level_count; i++)
-        sweep->sensors[i].is_left = !has_any;
 }
 
 /* ---- what they have to find -------------------------------------------------------------- */
@@ -329,8 +310,7 @@ static void add_meter_call(Sweep *sweep, SweepMeter *meter, const char *name)
                                   .seed = review_seed(sweep->run->request, METER_SEED)};
     sweep->calls[sweep->call_count++] =
         (ResponseArgs){.name = name, .probe = &meter->probe, .own = &meter->own,
-                      .paths = METER_PATHS, .precision = response_precision(sweep),
-                      .is_left = meter->is_left};
+                      .paths = METER_PATHS, .precision = response_precision(sweep)};
 }
 
 static void list_calls(Sweep *sweep, Arena *arena)
@@ -351,7 +331,7 @@ static void list_calls(Sweep *sweep, Arena *arena)
         sweep->calls[sweep->call_count++] = (ResponseArgs){
             .name = arena_format(arena, "%s, %s", sight->eye->name, sight->symbol->name),
             .probe = &sight->probe, .own = &sight->own, .paths = RESPONSE_PATHS,
-            .precision = response_precision(sweep), .is_left = sight->is_left};
+            .precision = response_precision(sweep)};
     }
 }
 
@@ -368,7 +348,7 @@ static void copy_twins(Sweep *sweep)
 {
     for (int i = 0; i < sweep->sight_count; i++) {
         Sight *sight = &sweep->sights[i];
-        if (sight->is_left || sight->twin == NO_ID) continue;
+        if (sight->twin == NO_ID) continue;
         sight->probe = sweep->sights[sight->twin].probe;
         sight->own = sweep->sights[sight->twin].own;
     }
@@ -379,12 +359,11 @@ static bool sample_skies(Sweep *sweep, const DistantTools *tools, Arena *arena, 
     int        most = sweep->symbol_count + 1 + sweep->sight_count, count = 0;
     DistantProbe **probes = ARENA_NEW(arena, DistantProbe *, most);
     for (int i = 0; i < sweep->symbol_count; i++)
-        if (!sweep->faces[i].is_left) probes[count++] = &sweep->faces[i].probe;
+        probes[count++] = &sweep->faces[i].probe;
     if (sweep->sensor) probes[count++] = &sweep->sensor->probe;
     for (int i = 0; i < sweep->sight_count; i++) {
         Sight *sight = &sweep->sights[i];
-        bool is_asked = !sight->is_left && sight->twin == NO_ID;
-        if (is_asked && sight->probe.aim.target_count) probes[count++] = &sight->probe;
+        if (sight->twin == NO_ID && sight->probe.aim.target_count) probes[count++] = &sight->probe;
     }
     if (!distant_probes_sample_skies(probes, count, tools, arena, err)) return false;
     copy_twins(sweep);
@@ -480,9 +459,8 @@ bool sweep_sample_light(Sweep *sweep, Arena *arena, Error *err)
     tools.has_mirror = false;
     tools.sun_paths = METER_SUN_PATHS;
     for (int i = 0; i < sweep->symbol_count; i++)
-        if (!sweep->faces[i].is_left) read_meter(&sweep->faces[i], &tools, between, arena);
-    if (sweep->sensor && !sweep->sensor->is_left)
-        read_meter(sweep->sensor, &tools, between, arena);
+        read_meter(&sweep->faces[i], &tools, between, arena);
+    if (sweep->sensor) read_meter(sweep->sensor, &tools, between, arena);
     return true;
 }
 
@@ -521,29 +499,6 @@ static bool find_false_suns(Sweep *sweep, Arena *arena, Error *err)
     return true;
 }
 
-/* For the merge: searches for the eyes that are this part's. */
-static bool search_own_suns(Sweep *sweep, Arena scratch, Error *err)
-{
-    const ReviewRun *run = sweep->run;
-    for (int e = 0; e < run->request->eye_count; e++) {
-        Vec3 from;
-        if (!review_share_has(&run->share, sweep->sight_count + e)) continue;
-        if (!setup_eye_middle(sweep->setup, &run->request->eyes[e], scratch, &from, err))
-            return false;
-        sun_searches_find(run->sun_searches, sweep->setup, from);
-    }
-    return true;
-}
-
-/* A variant reports none. */
-static bool find_suns(Sweep *sweep, Arena *arena, Error *err)
-{
-    const ReviewRun *run = sweep->run;
-    if (run->base) return true;
-    return run->share.count ? search_own_suns(sweep, *arena, err)
-                            : find_false_suns(sweep, arena, err);
-}
-
 /* ---- all of them ------------------------------------------------------------------------- */
 
 bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err)
@@ -554,7 +509,6 @@ bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err)
         return false;
     place_meters(sweep, arena);
     if (!place_sights(sweep, arena, err)) return false;
-    leave_others(sweep);
     list_calls(sweep, arena);
     responses_find(sweep->run, setup, sweep->calls, sweep->call_count, arena);
     return true;
@@ -568,5 +522,5 @@ bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err)
            sweep_light_dark(setup, 1, arena, err) &&
            responses_read_own(setup, sweep->calls, sweep->call_count, true, err) &&
            responses_trace(run, setup, sweep->calls, sweep->call_count, arena, err) &&
-           find_suns(sweep, arena, err);
+           (run->base || find_false_suns(sweep, arena, err)); /* a variant reports none */
 }

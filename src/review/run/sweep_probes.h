@@ -10,7 +10,7 @@
 #include "review/light/distant_probe.h"
 #include "review/light/response_file.h"
 #include "review/run/cases.h"
-#include "review/run/job.h"
+#include "review/run/review_run.h"
 
 /* The responses of a sweep's probes, and what they read of the scene's own
  * light: of files of an earlier review, or traced and then kept in files.
@@ -32,7 +32,6 @@ typedef struct ResponseArgs {
     ResponseFile file;
     const char  *shown;     /* the file's name as review.json has it */
     bool         is_kept;   /* it was read, not traced */
-    bool         is_left;   /* to another part: nothing is known of it */
 } ResponseArgs;
 
 typedef struct SweepMeter {
@@ -41,7 +40,6 @@ typedef struct SweepMeter {
     OwnLight own;
     const double *lux; /* [sun of the condition in hand] all of its light but its own */
     SunReadings  *kept; /* of other suns of that condition; NULL: none are kept */
-    bool     is_left; /* to other parts of the review (job.h): nothing is sampled with it */
 } SweepMeter;
 
 typedef struct Sight {
@@ -57,7 +55,6 @@ typedef struct Sight {
     int                twin;    /* an earlier sight from the same place, as an eye box about an
                                    eye is: what is sampled there holds for both; NO_ID: none */
     bool               has_twin; /* a later one has this for its twin */
-    bool               is_left; /* as a meter */
     bool               is_private; /* the eye must not read it */
 } Sight;
 

@@ -69,61 +69,21 @@ static bool read_mask(const ReviewSymbol *asked, ReviewInput *file, Image *mask,
     return image_read_memory(bytes.data, bytes.size, asked->mask, arena, mask, err);
 }
 
-/* As a journal keeps it. */
-typedef struct TextsFound {
-    int          count;
-    TextProposal list[SYMBOLS_FOUND_MOST];
-} TextsFound;
-
-static JournalKey key_of(const Setup *setup, const ContentLight *light, Arena scratch)
-{
-    size_t pixels = (size_t)light->width * (size_t)light->height;
-    Text   text = {.arena = &scratch};
-    text_add(&text, "text\n");
-    identity_add_program(&text, setup->tools.kernel);
-    identity_line(&text, "of", "%d x %d at %d, %d of %d x %d, %016llx", light->width,
-                  light->height, light->x, light->y, light->content_width,
-                  light->content_height,
-                  (unsigned long long)XXH3_64bits(light->cd_m2, pixels * sizeof *light->cd_m2));
-    return journal_key(text.data);
-}
-
-static bool find_kept(const Journal *journal, JournalKey key, TextsFound *found)
-{
-    bool ok = journal_find(journal, key, found, sizeof *found) && found->count >= 0 &&
-              found->count <= SYMBOLS_FOUND_MOST;
-    for (int i = 0; ok && i < found->count; i++) ok = text_proposal_is_sound(&found->list[i]);
-    return ok;
-}
-
-/* Every condition and variant does this again, mostly of the same content. */
-static TextsFound find_texts(const Setup *setup, const ContentLight *light, Arena scratch)
-{
-    TextsFound    found = {0};
-    TextProposal *list;
-    JournalKey    key = key_of(setup, light, scratch);
-    if (find_kept(setup->tools.journal, key, &found)) return found;
-    found = (TextsFound){0};
-    found.count = text_find(light, SYMBOLS_FOUND_MOST, &scratch, &list);
-    for (int i = 0; i < found.count; i++) found.list[i] = list[i];
-    journal_add(setup->tools.journal, key, &found, sizeof found);
-    return found;
-}
-
 static bool add_found(SymbolList *list, const SetupSymbol *symbol, SymbolQuestion *question,
                       Arena *arena, Error *err)
 {
     ContentLight light;
     if (!content_light(question->panel, question->content, question->uv, arena, &light, err))
         return false;
-    TextsFound found = find_texts(list->setup, &light, *arena);
-    if (found.count == 0) return error_set(err, ERROR_INPUT, "no text was found there");
-    for (int i = 0; i < found.count; i++) {
+    TextProposal *found;
+    int           count = text_find(&light, SYMBOLS_FOUND_MOST, arena, &found);
+    if (count == 0) return error_set(err, ERROR_INPUT, "no text was found there");
+    for (int i = 0; i < count; i++) {
         SetupSymbol one = *symbol;
         one.name = arena_format(arena, "%s %d", symbol->name, i + 1);
-        memcpy(question->uv, found.list[i].uv, sizeof question->uv);
+        memcpy(question->uv, found[i].uv, sizeof question->uv);
         question->polarity =
-            found.list[i].is_light_on_dark ? POLARITY_LIGHT_ON_DARK : POLARITY_DARK_ON_LIGHT;
+            found[i].is_light_on_dark ? POLARITY_LIGHT_ON_DARK : POLARITY_DARK_ON_LIGHT;
         if (!add_symbol(list, one, question, arena, err)) return false;
     }
     return true;
@@ -480,5 +440,5 @@ bool setup_learn(Setup *setup, const SetupSymbol *symbols, int count, Arena *are
     for (int i = 0; i < count; i++) sum = vec3_add(sum, symbol_middle(&symbols[i]).position);
     Vec3 towards = vec3_sub(vec3_scale(sum, 1 / (float)count), eye);
     if (vec3_dot(towards, towards) > 0) trained_guide_take(setup, eye, towards, arena);
-    return review_goes_on(setup->tools.journal, err);
+    return review_goes_on(err);
 }

@@ -374,11 +374,3 @@ int text_find(const ContentLight *light, int most, Arena *arena, TextProposal **
     *out = proposals;
     return count;
 }
-
-bool text_proposal_is_sound(const TextProposal *p)
-{
-    unsigned char is_light;
-    memcpy(&is_light, &p->is_light_on_dark, 1);
-    return is_light <= 1 && p->uv[0] >= 0 && p->uv[0] < p->uv[2] && p->uv[2] <= 1 &&
-           p->uv[1] >= 0 && p->uv[1] < p->uv[3] && p->uv[3] <= 1;
-}

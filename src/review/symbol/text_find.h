@@ -23,9 +23,6 @@ typedef struct TextProposal {
     int    characters;  /* or pieces of them, without dots */
 } TextProposal;
 
-/* As a file keeps it: whether it may have been found in any content. */
-bool text_proposal_is_sound(const TextProposal *proposal);
-
 /* The `most` with the tallest characters, tallest first (of equal ones: the topmost, then the
  * leftmost). Returns how many. */
 int text_find(const ContentLight *light, int most, Arena *arena, TextProposal **out);

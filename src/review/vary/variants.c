@@ -142,43 +142,24 @@ bool review_variants_check(const ReviewRun *run, Error *err)
 
 /* ---- all of them ------------------------------------------------------------------------- */
 
-static bool run_variant(const ReviewRun *run, const ReviewVariant *variant, const Review *base,
-                        Arena *arena, ReviewOutcome *out, Error *err)
+bool review_variant_condition(const ReviewRun *run, const ReviewVariant *variant,
+                              int condition_id, Arena *arena, ReviewOutcome *out, Error *err)
 {
     ReviewRequest *request = ARENA_NEW(arena, ReviewRequest, 1);
+    ReviewRun      own = *run;
     *request = review_request_variant(run->request, variant, arena);
-    ReviewRun own = review_run_of(run, request, base);
-    return review_run_conditions(&own, arena, out, err) ||
+    own.request = request;
+    return review_run_condition(&own, condition_id, arena, out, err) ||
            (err->code && error_prefix(err, "variant '%.100s'", variant->name));
 }
 
-/* A request that is another's but for a change, run for its verdicts, and held against that. */
-static bool review_variant(const ReviewRun *run, const ReviewVariant *variant,
-                           const Review *base, Arena *arena, ReviewVariantFound *out,
-                           Error *err)
+void review_variant_compare(const ReviewRun *run, const ReviewVariant *variant,
+                            Review *base, Review *found, Arena *arena, ReviewVariantFound *out)
 {
-    ReviewOutcome *outcome = ARENA_NEW(arena, ReviewOutcome, 1);
-    if (!run_variant(run, variant, base, arena, outcome, err)) return false;
     *out = (ReviewVariantFound){.name = variant->name, .words = variant->words,
-                                .word_count = variant->word_count,
-                                .review = &outcome->review};
-    out->review->is_strict = base->is_strict;
-    review_decide(out->review);
+                                .word_count = variant->word_count, .review = found};
+    found->is_strict = base->is_strict;
+    review_decide(found);
     compare(run->profile, base, out, arena);
-    return true;
-}
-
-bool review_variants(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Error *err)
-{
-    const ReviewRequest *request = run->request;
-    Review   *review = &outcome->review;
-    ReviewVariantFound *list = ARENA_NEW(arena, ReviewVariantFound, request->variant_count);
-    for (int i = 0; i < request->variant_count; i++) {
-        if (!review_variant(run, &request->variants[i], review, arena, &list[i], err))
-            return false;
-        rests_add_files_of(list[i].review, review, arena);
-    }
-    review->variants = list;
-    review->variant_count = request->variant_count;
-    return true;
+    rests_add_files_of(found, base, arena);
 }

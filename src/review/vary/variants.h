@@ -15,10 +15,16 @@
  * Fails      as a review does, naming the variant.
  */
 #pragma once
-#include "review/run/job.h"
+#include "review/run/review_run.h"
 
 /* Before long work: the scenes of all variants are loaded, and what they name is looked for. */
 bool review_variants_check(const ReviewRun *run, Error *err);
 
-/* The review must be complete. Sets outcome->review.variants. */
-bool review_variants(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Error *err);
+/* The variant under one condition; run->base: the review under that. */
+bool review_variant_condition(const ReviewRun *run, const ReviewVariant *variant,
+                              int condition_id, Arena *arena, ReviewOutcome *out, Error *err);
+
+/* A variant that was read under all conditions, held against the review, which gets its
+ * files. */
+void review_variant_compare(const ReviewRun *run, const ReviewVariant *variant,
+                            Review *base, Review *found, Arena *arena, ReviewVariantFound *out);
