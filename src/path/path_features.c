@@ -17,8 +17,7 @@ static void albedo_rgb(Spectrum albedo, const Wavelengths *wavelengths, float rg
 typedef struct SeenDisplay {
     const Display     *display;
     const TrianglePoint *point;
-    Frame              frame;     /* the display's */
-    Vec3               direction; /* to the eye, in it */
+    Vec3               direction; /* to the eye, in the display's frame */
     const PathResult  *path;
     const Wavelengths *wavelengths;
 } SeenDisplay;
@@ -30,7 +29,7 @@ static SeenDisplay view_of(const PathContext *context, const PathResult *path,
     const Display *display =
         &scene->displays[scene->materials[surface->material_id].display_id];
     Frame frame = display_frame(scene, display, path->first.triangle, &surface->point);
-    return (SeenDisplay){display, &surface->point, frame,
+    return (SeenDisplay){display, &surface->point,
                          frame_to_local(&frame, vec3_neg(path->direction)), path, wavelengths};
 }
 
