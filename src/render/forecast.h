@@ -8,7 +8,7 @@
  * 64, 9 % from 64 to 128, each doubling by some 0.6 of the one before. A Forecast watches that
  * growth and goes on with it.
  *
- * tests/bench/forecast.py measures how well it does. Only what is shown depends on it.
+ * Only what is shown depends on it.
  * Threads   a Forecast is a plain value; {0} begins one.
  */
 #pragma once

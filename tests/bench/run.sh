@@ -20,9 +20,6 @@ dashboard='scenes/car_dashboard.gltf scenes/noon.gltf'
 # shellcheck disable=SC2086
 .build/release/bench_tracing "$runs" $dashboard
 .build/release/bench_tracing "$runs" $out/box.gltf
-.build/release/bench_shaders "$runs"
-.build/release/bench_metrics "$runs"
-.build/release/bench_hemisphere
 python3 tests/bench/visibility.py .build/release/bench_visibility
 for panel in ips_cluster oled_centre; do
     for set in '' _avx2 _avx512; do

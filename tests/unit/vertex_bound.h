@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* vertex_bound.h -- the acceptance test of vertex trees that tests and benches use. */
+/* vertex_bound.h -- the acceptance test of vertex trees that tests use. */
 #pragma once
 #include <math.h>
 #include <stdbool.h>
