@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """review_resume.py [--all] [--kills N] PARHELION -- a review that is killed, stopped or starved
-goes on to the very files that it would have made, and its responses serve the next one; until
-it is whole, an earlier review in the same folder stays as it was. --kills: how many SIGKILLs at
-random moments (default 1). --all: reviews after damage, TERM, a full disk, too.
+goes on with the next condition, to the very files that it would have made, and its responses
+serve the next one; so do reviews of some conditions each that are merged. Until a review is
+whole, an earlier one in the same folder stays as it was. --kills: how many SIGKILLs at random
+moments (default 1). --all: reviews after damage, TERM, a full disk, too.
 """
 import argparse
 import json
@@ -86,7 +87,8 @@ class Work(Running):
             json.dump(what, file)
 
     def words(self, *options):
-        return [self.program, "review", "r.json", "-o", "out", "--quiet", *options]
+        output = () if "-o" in options else ("-o", "out")
+        return [self.program, "review", "r.json", *output, "--quiet", *options]
 
     def start(self, *options):
         self.started.append(subprocess.Popen(self.words(*options), cwd=self.folder, text=True,
@@ -153,21 +155,81 @@ def check_kills(work, wanted, took, kills):
     print(f"{hits} kills, {finished + 1} reviews finished, {took:.1f} s the first")
 
 
-def wait_for_work(work, running):
-    """Until something was found that is worth to be kept."""
+def wait_for_condition(work, running, name="1-grey"):
+    """Until it is kept."""
     until = time.monotonic() + PATIENCE_S
-    journal = work.path("out", "unfinished", "journal")
-    while running.poll() is None and time.monotonic() < until:
-        if os.path.exists(journal) and os.path.getsize(journal) > 100:
-            return
+    kept = work.path("out", "unfinished", f"{name}.condition")
+    while running.poll() is None and time.monotonic() < until and not os.path.exists(kept):
         time.sleep(0.005)
+    return kept
+
+
+def check_next(work, wanted):
+    """What is kept is not read again: the file stays as it was written."""
+    work.clear()
+    running = work.start("--threads", "1")
+    kept = wait_for_condition(work, running)
+    running.kill()
+    running.communicate(timeout=PATIENCE_S)
+    written = os.stat(kept).st_mtime_ns
+    running = work.start("--threads", "1")
+    wait_for_condition(work, running, "2-suns")
+    work.report.claim(os.stat(kept).st_mtime_ns == written, "a condition is read again")
+    _, err = running.communicate(timeout=PATIENCE_S)
+    work.claim_whole(running.returncode, err, wanted, "after a kill between conditions")
+
+
+# ---- parts -------------------------------------------------------------------------------
+
+def check_merge(work, wanted):
+    """A review a condition, one of them twice, in any order: the files of one review."""
+    for part in ("suns", "grey", "grey"):
+        done = work.run("-o", f"of {part}", "--only", part, "--threads", "1")
+        work.report.claim(done.returncode in (0, 1), f"--only {part}: {done.stderr}")
+        shutil.copytree(work.path(f"of {part}"), work.path("again"), dirs_exist_ok=True)
+    work.clear()
+    for parts, status, said in (
+            (("of suns",), 3, "r.json: no part has 'grey'"),
+            (("of suns", "none"), 3, ""), (("out", "of suns"), 3, ""),
+            (("of suns", "again", "of grey"), 0, "")):
+        done = subprocess.run([work.program, "merge", *parts, "-o", "out", "--quiet"],
+                              cwd=work.folder, capture_output=True, text=True,
+                              timeout=PATIENCE_S)
+        if status:
+            work.report.claim(done.returncode == status and said in done.stderr and
+                              done.stderr.count("\n") == 1, f"{parts}: {done.stderr}")
+    work.claim_whole(done.returncode, done.stderr, wanted, "merged")
+
+
+def check_strangers(work):
+    """Parts that do not belong together are refused in one line, by name."""
+    def merged(what, status, said):
+        done = subprocess.run([work.program, "merge", "of suns", what, "-o", "none"],
+                              cwd=work.folder, capture_output=True, text=True,
+                              timeout=PATIENCE_S)
+        work.report.claim(done.returncode == status and said in done.stderr and
+                          done.stderr.count("\n") == 1 and
+                          not os.path.exists(work.path("none")),
+                          f"{what}: status {done.returncode}: {done.stderr}")
+
+    for what, options, status, said in (
+            ("of sse2", ("--isa", "sse2"), 5, "was made with sse2"),
+            ("strict", ("--strict",), 3, "is of another review than")):
+        work.run("-o", what, "--only", "grey", *options)
+        merged(what, status, said)
+    work.ask(document("suns", "more suns"))
+    work.run("-o", "of other", "--only", "grey")
+    merged("of other", 3, "is of another review than")
+    work.ask(document("suns"))
+    done = work.run("--only", "gray")
+    work.report.claim(done.returncode == 2 and "did you mean grey?" in done.stderr, done.stderr)
 
 
 def check_stop(work, wanted):
     """TERM tells how to go on, and a second review in the same folder is refused meanwhile."""
     work.clear()
     running = work.start("--threads", "1")
-    wait_for_work(work, running)
+    wait_for_condition(work, running)
     second = work.run()
     work.report.claim(second.returncode == 4 and "another review is at work" in second.stderr
                       and second.stderr.count("\n") == 1, f"two at once: {second.stderr}")
@@ -312,9 +374,12 @@ def main():
     random.seed(given.kills)
     with tempfile.TemporaryDirectory() as folder, Work(report, given.program, folder) as work:
         wanted, took = reference(work)
+        check_merge(work, wanted)
         check_plan(work)
         check_damage(work, wanted)
         if given.all:
+            check_next(work, wanted)
+            check_strangers(work)
             check_reuse(work, wanted)
             check_full_disk(work, wanted)
             check_stop(work, wanted)

@@ -69,8 +69,8 @@ bool review_merge_is_meant(const char *const *folders, int count)
 {
     struct stat info;
     for (int i = 0; i < count; i++)
-        if (stat(folders[i], &info) != 0 || !S_ISDIR(info.st_mode)) return false;
-    return count > 0;
+        if (stat(folders[i], &info) == 0 && S_ISDIR(info.st_mode)) return true;
+    return false;
 }
 
 static int compare_names(const void *a, const void *b)

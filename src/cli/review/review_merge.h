@@ -23,7 +23,7 @@ typedef struct ReviewMerge {
     Lines      words; /* of the command, that all parts have in common */
 } ReviewMerge;
 
-/* Are the words folders of reviews? */
+/* Is any of the words a folder, of a review then? */
 bool review_merge_is_meant(const char *const *folders, int count);
 
 /* What is in the folders; whether it belongs together. */

@@ -54,14 +54,13 @@ static bool is_named(const char *line, const char *name)
 const char *condition_identity_without(const char *identity, const char *name, Arena *arena)
 {
     Text text = {.arena = arena};
-    text_add(&text, "");
     for (const char *line = identity; *line;) {
         size_t length = strcspn(line, "\n");
         length += line[length] == '\n';
         if (!is_named(line, name)) text_add_bytes(&text, line, length);
         line += length;
     }
-    return text.data;
+    return text.data ? text.data : "";
 }
 
 Lines condition_identity_values(const char *identity, const char *name, Arena *arena)

@@ -275,13 +275,12 @@ const char *review_folder_command(const ReviewFolder *folder, Arena *arena)
             ? arena_format(arena, " --summary %s", escape_shell(folder->summary, arena))
             : "";
     Text only = {.arena = arena};
-    text_add(&only, "");
     for (int i = 0; i < folder->only_count; i++)
         text_format(&only, " --only %s", escape_shell(folder->only[i], arena));
     return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s%s%s%s%s%s",
                         folder->request->file,
                         folder->target, profile, root, folder->state_text, diff, responses,
-                        summary, only.data, folder->is_alone ? " --no-variants" : "",
+                        summary, only.data ? only.data : "", folder->is_alone ? " --no-variants" : "",
                         folder->is_strict ? " --strict" : "",
                         folder->is_self_contained ? " --self-contained" : "");
 }
