@@ -15,7 +15,6 @@ values of 0 are masked. Albedo: of the cosine-weighted integral. Processor and w
 peak memory of the fit. --haar: the other basis with as many bytes beside each row, where a fit
 takes less than HAAR_SECONDS. --match: only rows whose source's name holds the text.
 """
-import json
 import math
 import os
 import sys

@@ -12,7 +12,7 @@ import tempfile
 
 from eye import Eye, luminances
 from glazing import INDEX, ROOT, THICKNESS, faces, laminate, pane
-from gltf import Scene, along, cross, dot, sub, unit
+from gltf import Scene, along, dot, sub, unit
 
 sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
 from report import Report  # noqa: E402

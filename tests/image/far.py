@@ -6,7 +6,6 @@ shift.
 The one near stands where the other's coordinates are, less its origin: so all that is no
 position must be the same to the last digit. --all: sweeps, and everything at every place.
 """
-import base64
 import json
 import math
 import os

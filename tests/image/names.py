@@ -5,7 +5,6 @@ Without --all by two names.
 """
 import itertools
 import os
-import shutil
 import subprocess
 import sys
 import tempfile

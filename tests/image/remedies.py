@@ -74,12 +74,12 @@ def agrees(report, what, foretold, found, share):
 
 # ---- a seat behind the eye, lit through a pane; its picture in a glossy display --------------
 
-def seat_cabin(forward=(0, 0, -1), top=-0.1):
+def seat_cabin(forward=(0, 0, -1)):
     cabin = Cabin(OLED, [0, 0.15, 0.7], forward)
     seat = cabin.cloth(0.5, "Stoff 3")
     pane = cabin.scene.window(1.5)
     cabin.scene.document["materials"][pane]["name"] = "Glas"
-    cabin.quad(SEAT, seat, [0.4, -0.9, 1.05], [-0.8, 0, 0], [0, top + 0.9, 0])
+    cabin.quad(SEAT, seat, [0.4, -0.9, 1.05], [-0.8, 0, 0], [0, 0.8, 0])
     cabin.quad(PANE, pane, [-2, 0.4, -0.5], [4, 0, 0], [0, 2, 0])
     return cabin
 

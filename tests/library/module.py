@@ -4,7 +4,6 @@ which words, where it finds the library, threads, draws of the reflection and of
 against their densities, what is measured, and the example that draws a viewing cone. Ends with
 what a question costs, which nothing is claimed of.
 """
-import json
 import os
 import shutil
 import subprocess

@@ -9,7 +9,7 @@ import os
 import re
 import sys
 
-from report import ROOT, Report, project_files, read
+from report import Report, project_files, read
 
 TOP = ("src", "shaders", "scenes", "assets", "tests", "third_party", ".ci")
 WORD = re.compile(r"(?<![\w./{}$<>*\-])((?:[\w-]+|\.{1,2}|\.ci)(?:/[\w.+*-]+)*)(?![\w{}<>])")
