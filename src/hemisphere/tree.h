@@ -40,10 +40,8 @@ typedef struct TreeReport {
     size_t   stored_values; /* numbers in these */
     uint32_t nodes;
     size_t   bytes;        /* of the blob */
-    size_t   source_bytes; /* leaves * components * 4 */
     float    max_error;
     float    rms_error;      /* area-weighted over the sphere's part, mean over components */
-    float    relative_l2;    /* rms_error over the rms of the source */
 } TreeReport;
 
 typedef struct TreeHeader {

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Chains of objects: they add up, their intervals hold, what they foretell comes true; and what
- * a display sees. */
+/* Chains of objects: they add up, their intervals hold, what they foretell comes true. */
 #include "fixture.h"
 
 #include "base/sampler.h"

@@ -262,7 +262,7 @@ static TreeReport report_of(const Choice *choice, const TreeHeader *header, Aren
     size_t           n = (size_t)shape->components;
     double          *areas = ARENA_NEW(&scratch, double, (size_t)1 << 2 * shape->level);
     const float     *leaves = reconstructed(choice, &scratch);
-    double           max = 0, error = 0, source = 0, area = 0;
+    double           max = 0, error = 0, area = 0;
     geodesic_areas(shape->level, areas);
     for (size_t i = 0; i < choice->leaf_count * n; i++) {
         double weight = areas[i / n & ((1u << 2 * shape->level) - 1)];
@@ -270,7 +270,6 @@ static TreeReport report_of(const Choice *choice, const TreeHeader *header, Aren
         double s = scale * (double)choice->source[i], e = scale * (double)leaves[i] - s;
         max = fmax(max, fabs(e));
         error += weight * e * e;
-        source += weight * s * s;
         area += weight;
     }
     return (TreeReport){
@@ -279,10 +278,8 @@ static TreeReport report_of(const Choice *choice, const TreeHeader *header, Aren
         .stored_values = (header->row_count + header->octants) * n,
         .nodes = header->node_count,
         .bytes = header->size,
-        .source_bytes = choice->leaf_count * n * sizeof(float),
         .max_error = (float)max,
-        .rms_error = (float)sqrt(error / area),
-        .relative_l2 = source > 0 ? (float)sqrt(error / source) : 0};
+        .rms_error = (float)sqrt(error / area)};
 }
 
 /* ---- build ------------------------------------------------------------------------------- */

@@ -330,10 +330,9 @@ static void fill_report(const Coder *c, const float *rebuilt, const Trial *best,
 {
     uint32_t count = vertex_count(c->code.lattice);
     size_t   numbers = count * (size_t)c->code.components;
-    double   square = 0, error_square = 0, most = 0;
+    double   error_square = 0, most = 0;
     for (size_t i = 0; i < numbers; i++) {
         double error = (double)rebuilt[i] - (double)c->values[i];
-        square += (double)c->values[i] * (double)c->values[i];
         error_square += error * error;
         most = fmax(most, fabs(error));
     }
@@ -341,11 +340,8 @@ static void fill_report(const Coder *c, const float *rebuilt, const Trial *best,
                            .stored_rows = best->stored,
                            .stored_values = best->stored * (size_t)c->code.components,
                            .bytes = best->size,
-                           .source_bytes = numbers * sizeof(float),
                            .max_error = (float)most,
-                           .rms_error = (float)sqrt(error_square / (double)numbers),
-                           .relative_l2 =
-                               square > 0 ? (float)sqrt(error_square / square) : 0.0f};
+                           .rms_error = (float)sqrt(error_square / (double)numbers)};
 }
 
 bool vertex_tree_build(const VertexTreeOptions *options, const float *values, Arena *arena,

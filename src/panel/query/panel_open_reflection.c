@@ -354,7 +354,7 @@ static PanelReflection *expand(const PanelReflectionStored *s, const ReflectionL
         .has_lobe = s->has_lobe, .frame_exponent = s->frame_exponent,
         .refractive_index = s->refractive_index, .cone_cos = s->cone_cos,
         .cone_theta = (float)acos_d((double)s->cone_cos),
-        .first_theta = from->incidence[0], .last_theta = from->incidence[s->incidences - 1]};
+        .last_theta = from->incidence[s->incidences - 1]};
     memcpy(r->azimuth, from->azimuth, sizeof(float) * s->azimuths);
     memcpy(r->wavelength_nm, from->wavelength_nm, sizeof(float) * s->wavelengths);
     memcpy(r->node_theta, from->node_theta, sizeof(float) * s->nodes);

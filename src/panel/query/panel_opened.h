@@ -77,7 +77,7 @@ typedef struct PanelReflection {
     bool     is_cubic, has_mirror, has_lobe;
     bool     is_grey; /* all wavelengths have the same numbers */
     float    frame_exponent, refractive_index, cone_cos, cone_theta;
-    float    first_theta, last_theta; /* measured incidences, radians */
+    float    last_theta; /* the last measured incidence, radians */
     float    last_sine, last_cosine, last_fresnel; /* of last_theta */
     PanelFrameKind  frame;
     PanelBeyondKind beyond;
