@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""moved.py [--all] [--scenes NAME,...] PARHELION -- where a scene stands, how it is turned and
+"""moved.py [--all] PARHELION -- where a scene stands, how it is turned and
 in which order its file names things changes no figure.
 
   closed forms  a lamp that lights a parallel plate at a grazing angle, and a large tilted plane
@@ -28,6 +28,7 @@ import rooms  # noqa: E402
 
 CLOSE = 0.005       # of a closed form
 SEEDS = 4           # of each frame: their means' spread tells the standard error
+SAMPLES = 64        # of a pixel of the scenes that ship
 TOO_FAR = 10        # such standard errors (Student's, 6 degrees of freedom: once in 17,000)
 TOO_WIDE = 1.6      # rms of many, 1.22 by chance
 BLOCKS = 2          # to a side of a room's frame; 4 of a scene's
@@ -268,11 +269,10 @@ def write_moved(beside, file, place, turn):
     return path
 
 
-def check_scenes(renderer, draw, names, samples):
+def check_scenes(renderer, draw):
     beside = link_scenes(renderer.folder)
-    for name in names:
-        files, options = SCENES[name]
-        ask = [*options, "--root", "/"], "96x54", samples // SEEDS, 4
+    for name, (files, options) in SCENES.items():
+        ask = [*options, "--root", "/"], "96x54", SAMPLES // SEEDS, 4
         before = renderer.means([os.path.join(beside, file) for file in files], *ask)
         for distance in (*DISTANCES_M, 0):
             turn = turn_about_vertical(0 if distance else draw.uniform(0, 2 * math.pi))
@@ -290,20 +290,15 @@ def check_scenes(renderer, draw, names, samples):
 def main():
     options = argparse.ArgumentParser()
     options.add_argument("--all", action="store_true")
-    options.add_argument("--scenes")
-    options.add_argument("--samples", type=int, default=64)
     options.add_argument("program")
     options = options.parse_args()
     report, draw = Report(), random.Random(7)
     with tempfile.TemporaryDirectory() as folder:
         renderer = Renderer(os.path.abspath(options.program), folder, report)
-        if options.scenes:
-            check_scenes(renderer, draw, options.scenes.split(","), options.samples)
-        else:
-            check_closed_forms(renderer, draw, 100 if options.all else 8)
-            check_rooms(renderer, draw, range(200 if options.all else 3))
-            if options.all:
-                check_scenes(renderer, draw, SCENES, options.samples)
+        check_closed_forms(renderer, draw, 100 if options.all else 8)
+        check_rooms(renderer, draw, range(200 if options.all else 3))
+        if options.all:
+            check_scenes(renderer, draw)
     renderer.conclude()
     report.finish()
 

@@ -1,16 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""slit_sweep.py [--all] [--paths N] PARHELION -- a sweep of the shipped car whose sun comes
+"""slit_sweep.py PARHELION -- a sweep of the shipped car whose sun comes
 through a slit of its roof blind: each step beside a moment of many paths.
 
 Blinds are drawn about the whole car, black, a slit of 1 cm is open over the glass of the roof:
 the sun's stripe on seats and console lights the cluster, and nothing else does but the sky in
-the slit. Two steps of a sweep of four; --all: each of a sweep of twelve, and a slit of 3 mm.
+the slit. Two steps of a sweep of four.
 
-A moment of so many paths (262,144; --all 4,194,304) must be known within 5 %, and a step must
+A moment of 262,144 paths must be known within 5 %, and a step must
 be as bright within 6 %, or as far as chance allows by the intervals that both print; so must a
 step's own interval reach it.
 """
-import argparse
 import csv
 import json
 import math
@@ -23,14 +22,15 @@ from gltf import Scene
 from review import ROOT, Report, Reviewer, moment
 
 LOW, HIGH = (-1.1, 0.03, -2.6), (1.1, 1.56, 2.4)  # of the blinds: the car stands in them
-SLIT_Z, SLIT_HALF = 0.35, 0.4                     # over the glass of the roof
+SLIT_Z, SLIT_HALF, WIDTH = 0.35, 0.4, 0.01        # over the glass of the roof
 KNOWN_WITHIN, AGREES_WITHIN, TOO_FAR = 0.05, 0.06, 3.9
 LEVEL = 0.002
-FEW = [165, 195, 30], [50, 60, 10]
-EVERY = [150, 210, 20], [44, 64, 10]
+AZIMUTHS, ELEVATIONS = [165, 195, 30], [50, 60, 10]  # of the sweep
+SUNS = [(165, 60), (195, 50)]                        # of the moments
+PATHS = 1 << 18
 
 
-def blinds(path, width):
+def blinds(path):
     scene = Scene()
     cloth = scene.lambert(0.03, double_sided=True)
     (x0, y0, z0), (x1, y1, z1) = LOW, HIGH
@@ -39,7 +39,7 @@ def blinds(path, width):
         scene.quad(cloth, corner, side, [0, y1 - y0, 0])
     level_sheet(scene, cloth, (x0, z0, x1, z1), y0)
     level_sheet(scene, cloth, (x0, z0, x1, z1), y1,
-                [(-SLIT_HALF, SLIT_Z - width / 2, SLIT_HALF, SLIT_Z + width / 2)])
+                [(-SLIT_HALF, SLIT_Z - WIDTH / 2, SLIT_HALF, SLIT_Z + WIDTH / 2)])
     scene.write(path)
 
 
@@ -64,10 +64,10 @@ def review_of(report, reviewer, document, out):
         return json.load(file)
 
 
-def steps_of(report, reviewer, azimuths, elevations):
+def steps_of(report, reviewer):
     """(azimuth, elevation) -> row of the sweep's table."""
     document = request(reviewer.folder, [{"name": "suns", "sweep": {
-        "sun": {"azimuth_deg": azimuths, "elevation_deg": elevations}, "sky": "sky"}}])
+        "sun": {"azimuth_deg": AZIMUTHS, "elevation_deg": ELEVATIONS}, "sky": "sky"}}])
     review = review_of(report, reviewer, document, "sweep")
     table = os.path.join(reviewer.folder, "sweep", review["sweeps"][0]["table"])
     with open(table, encoding="utf-8") as file:
@@ -75,12 +75,12 @@ def steps_of(report, reviewer, azimuths, elevations):
                 for r in csv.DictReader(file)}
 
 
-def moments_of(report, reviewer, suns, paths):
+def moments_of(report, reviewer):
     """What each reflects, with its interval, the mean over the symbol, and what is shown."""
     document = request(reviewer.folder, [
         moment(f"{a} {e}", type="sky", sun={
             "azimuth_deg": a, "elevation_deg": e, "illuminance_lx": reviewer.sun_lux(e)})
-        for a, e in suns], precision={"contrast": 1e-3, "clear": 1e-3, "paths": paths})
+        for a, e in SUNS], precision={"contrast": 1e-3, "clear": 1e-3, "paths": PATHS})
     return review_of(report, reviewer, document, "moments")["cases"]
 
 
@@ -109,30 +109,15 @@ def check_step(report, name, row, case):
                  most + half + AGREES_WITHIN * wanted, f"{words}: out of its interval")
 
 
-def check_slit(report, reviewer, width, sweep, suns, paths):
-    blinds(os.path.join(reviewer.folder, "blinds.gltf"), width)
-    rows = steps_of(report, reviewer, *sweep)
-    suns = suns or sorted(rows)
-    for sun, case in zip(suns, moments_of(report, reviewer, suns, paths)):
-        check_step(report, f"slit of {1000 * width:g} mm, sun {sun}", rows[sun], case)
-
-
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("parhelion")
-    parser.add_argument("--all", action="store_true")
-    parser.add_argument("--paths", type=int)
-    words = parser.parse_args()
     report = Report()
     os.makedirs(os.path.join(ROOT, ".build"), exist_ok=True)
     with tempfile.TemporaryDirectory(dir=os.path.join(ROOT, ".build")) as folder:
-        reviewer = Reviewer(words.parhelion, folder)
-        paths = words.paths or (1 << 22 if words.all else 1 << 18)
-        if words.all:
-            check_slit(report, reviewer, 0.01, EVERY, None, paths)
-            check_slit(report, reviewer, 0.003, FEW, None, paths)
-        else:
-            check_slit(report, reviewer, 0.01, FEW, [(165, 60), (195, 50)], paths)
+        reviewer = Reviewer(sys.argv[1], folder)
+        blinds(os.path.join(folder, "blinds.gltf"))
+        rows = steps_of(report, reviewer)
+        for sun, case in zip(SUNS, moments_of(report, reviewer)):
+            check_step(report, f"sun {sun}", rows[sun], case)
     return report.finish()
 
 
