@@ -86,7 +86,7 @@ static bool is_above_half(void *user, MeanInterval in, Arena scratch)
     return in.low > 0.5 || in.high < 0.5;
 }
 
-static const ReadingQuestion QUESTION = {is_above_half, NULL, 0.05, "half"};
+static const ReadingQuestion QUESTION = {is_above_half, NULL, 0.05};
 
 /* With a question, and without. */
 static const ReadingGoal GOALS[2] = {{.precision = 0.05, .most = MOST},
