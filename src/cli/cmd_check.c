@@ -422,7 +422,7 @@ static Outcome run_check(int argc, char **argv, Arena *arena, Error *err)
         STATE_OPTIONS(&words.state),
     };
     const CliCommand command = {
-        "check", "what is in a scene, and everything that is wrong with it",
+        "check", command_check.summary,
         "SCENE.gltf|.glb [LIGHTS.gltf|.glb ...]",
         "parhelion check scenes/car_dashboard.gltf scenes/noon.gltf", options,
         COUNT_OF(options), 1, -1};

@@ -382,4 +382,5 @@ static Outcome run_compare(int argc, char **argv, Arena *arena, Error *err)
 }
 
 const Command command_compare = {
-    "compare", "are two frames, pictures or folders the same, given their noise?", run_compare};
+    "compare", "are two frames, pictures or folders of them the same, given their noise?",
+    run_compare};

@@ -43,7 +43,7 @@ static bool parse(int argc, char **argv, Arena *arena, DevelopWords *out, Error 
          .low = 8, .high = 16},
     };
     const CliCommand command = {
-        "develop", "make a picture of a frame", "FRAME.exr -o FRAME.png",
+        "develop", command_develop.summary, "FRAME.exr -o FRAME.png",
         "parhelion develop frame.exr -o frame.png --view \"ACES SDR\" --exposure 12",
         options, COUNT_OF(options), 1, 1};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;

@@ -20,8 +20,6 @@
 #include "text/json_text.h"
 #include "text/text.h"
 
-#define SUMMARY "displays, eyes and materials for a model, clicked in a page"
-
 typedef struct EquipWords {
     const char *output, *with, *root;
     const char *reach; /* the root, or where all lies that ships */
@@ -43,7 +41,7 @@ static bool parse(int argc, char **argv, Arena *arena, EquipWords *out, Error *e
          &out->root},
     };
     const CliCommand command = {
-        "equip", SUMMARY,
+        "equip", command_equip.summary,
         "MODEL.gltf|.glb [-o PAGE.html] | MODEL --with EQUIP.json -o NEW.gltf",
         "parhelion equip scenes/cockpit.gltf -o equip.html", options, COUNT_OF(options), 1, 1};
     return cli_parse(&command, argc, argv, arena, &out->cli, err);
@@ -166,4 +164,5 @@ static Outcome run_equip(int argc, char **argv, Arena *arena, Error *err)
     return outcome_of(words.with ? apply(&words, arena, err) : make_page(&words, arena, err));
 }
 
-const Command command_equip = {"equip", SUMMARY, run_equip};
+const Command command_equip = {
+    "equip", "displays, eyes and materials for a model, clicked in a page", run_equip};

@@ -115,7 +115,7 @@ static bool help(const Cli *cli, Arena *arena, Error *err)
 static Outcome run_help(int argc, char **argv, Arena *arena, Error *err)
 {
     const CliCommand command = {
-        "help", "the commands and the guides, or one of them", "[COMMAND|GUIDE]",
+        "help", command_help.summary, "[COMMAND|GUIDE]",
         "parhelion help comparing", NULL, 0, 0, WORDS_MAX};
     Cli cli;
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;

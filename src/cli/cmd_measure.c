@@ -83,7 +83,7 @@ static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error 
         SCENE_OPTIONS(&out->scene, &out->luxmeter.scene, &out->luxmeter.environment),
     };
     const CliCommand command = {
-        "measure", "luminance, colour and contrast of a part of a frame, with 95 % intervals",
+        "measure", command_measure.summary,
         "FRAME.exr|.hdr [--region X0,Y0,X1,Y1] [--display NAME] | FRAME.exr|.hdr --glare | "
         "SCENE... --illuminance ...",
         "parhelion measure frame.exr --display cluster --json",
@@ -380,4 +380,5 @@ static Outcome run_measure(int argc, char **argv, Arena *arena, Error *err)
 }
 
 const Command command_measure = {
-    "measure", "luminance, colour and contrast of a part of a frame", run_measure};
+    "measure", "luminance, colour and contrast of a part of a frame, with 95 % intervals",
+    run_measure};

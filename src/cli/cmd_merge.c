@@ -53,8 +53,7 @@ static bool parse(int argc, char **argv, MergeRun *work, Error *err)
     };
     const CliCommand command = {
         "merge",
-        "make one frame of parts that were rendered with --part, --samples or --crop; of reviews "
-        "of some conditions each (review --only) one of all",
+        command_merge.summary,
         "PART.exr ... -o FRAME.exr | REVIEW_DIR ... -o DIR",
         "parhelion merge part1.exr part2.exr -o frame.exr",
         options, COUNT_OF(options), 1, -1};

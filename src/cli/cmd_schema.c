@@ -30,7 +30,7 @@ static const NamedFormat *find(const char *name, Arena *arena, Error *err)
 static Outcome run_schema(int argc, char **argv, Arena *arena, Error *err)
 {
     const CliCommand command = {
-        "schema", "the JSON Schema of a file format, for an editor or a script", "FORMAT",
+        "schema", command_schema.summary, "FORMAT",
         "parhelion schema profile", NULL, 0, 1, 1, "formats", each_format};
     Cli cli;
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;

@@ -484,7 +484,7 @@ static Outcome run_sky(int argc, char **argv, Arena *arena, Error *err)
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &work.root},
     };
     const CliCommand command = {
-        "sky", "draw a sky and print its figures", "[SCENE.gltf ...] [-o SKY.exr|.png|.svg]",
+        "sky", command_sky.summary, "[SCENE.gltf ...] [-o SKY.exr|.png|.svg]",
         "parhelion sky --environment sky:clear --when 2026-06-21T08:30+02:00 "
         "--where 48.14,11.58,520 -o sky.png",
         options, COUNT_OF(options), 0, -1};

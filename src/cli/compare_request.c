@@ -5,6 +5,7 @@
 
 #include "base/count.h"
 #include "base/file.h"
+#include "cli/commands.h"
 #include "cli/compare_request.h"
 #include "compare/report/html_report.h"
 #include "image/exposure.h"
@@ -195,7 +196,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, CompareWords *words,
          "its name and such options", .out = &out->pairs_file},
     };
     const CliCommand command = {
-        "compare", "are two frames, pictures or folders of them the same, given their noise?",
+        "compare", command_compare.summary,
         "REFERENCE TEST [--max METRIC=VALUE ...] [--report OUT.html]",
         "parhelion compare before.exr after.exr --max flip=0.05 --report after.html",
         options, COUNT_OF(options), 2, 2};

@@ -90,7 +90,7 @@ static bool add_gap(const Pair *pair, size_t i, long place, ChannelDifference *o
 static ChannelDifference compare_channel(const char *name, const Pair *pair,
                                          const Selection *selection, ChannelDifferences *all)
 {
-    ChannelDifference out = {.name = name, .is_light = pair->is_light};
+    ChannelDifference out = {.name = name};
     long              finite = 0;
     for (size_t i = 0; i < pair->count; i++) {
         long  place = pair->frame ? selection_place(pair->frame, i) : (long)i;

@@ -15,7 +15,6 @@
 
 typedef struct ChannelDifference {
     const char *name;
-    bool   is_light;
     long   differing;     /* pixels whose values are not equal */
     long   nonfinite[2];  /* of light: in the reference, in the test */
     int    first[2][2];   /* x, y of the first of those, each side */

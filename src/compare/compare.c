@@ -277,7 +277,7 @@ static ChannelDifferences picture_bands_channels(const CompareOptions *options,
     for (int c = 0; c < (both_have_alpha ? 4 : 3); c++) {
         if (metadata_ignores(&options->rules, NAMES[c])) continue;
         channel[found.count] = c;
-        found.list[found.count++] = (ChannelDifference){.name = NAMES[c], .is_light = true};
+        found.list[found.count++] = (ChannelDifference){.name = NAMES[c]};
     }
     Arena scratch = *arena;
     RowBand  band;

@@ -23,7 +23,6 @@
 #define DIGITS 9 /* distinguish any two floats */
 
 typedef struct EquipModel {
-    const char *path;
     json_t     *document;
     FileBytes   bin; /* a .glb's BIN chunk; data NULL: none */
 } EquipModel;
@@ -187,7 +186,7 @@ static bool equip_model_read(const char *path, Arena *arena, EquipModel *out, Er
 {
     FileBytes    bytes, json;
     json_error_t fault;
-    EquipModel   model = {.path = path};
+    EquipModel   model = {0};
     if (!file_read(path, FILE_BYTES_MAX, arena, &bytes, err)) return false;
     json = bytes;
     if (bytes.size >= GLB_HEADER && !memcmp(bytes.data, "glTF", 4))

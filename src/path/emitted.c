@@ -98,7 +98,7 @@ void emitted_distant(PathState *path)
 static PathFound found_on(const Surface *surface, const Hit *hit, Vec3 wo, float weight)
 {
     return (PathFound){.set = LIGHTS_EMITTERS, .source_id = surface->part_id,
-                       .from = surface->position, .way = wo, .weight = weight, .met = surface,
+                       .from = surface->position, .way = wo, .weight = weight,
                        .triangle = hit->triangle, .point = &surface->point};
 }
 

@@ -46,7 +46,6 @@ typedef struct PathFound {
     float    weight;    /* of an emitter that the path met itself: its MIS weight */
     uint32_t             triangle; /* of an emitter, where `point` is set */
     const TrianglePoint *point;    /* on the emitter; NULL: no emitter */
-    const Surface   *met; /* the emitter's surface, if the path met it itself; else NULL */
     const Surface   *by;  /* the surface that scatters a light sample towards wo; else NULL */
     Vec3             wo, local_wi;
     const ShadowRay *shadow; /* from `by` to the light, or to the mirror */

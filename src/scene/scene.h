@@ -54,7 +54,6 @@ typedef struct Triangle {
 typedef struct Part {
     const char *name;     /* the node's name, else the mesh's, else "node N" */
     const char *node_name, *mesh_name; /* "" where the file has none */
-    const char *file;     /* SceneOptions' path; NULL: no file's, as a hood */
     int      material_id; /* always valid: glTF's default material has an id too */
     uint32_t first_triangle, triangle_count;
     uint32_t first_vertex;

@@ -134,7 +134,6 @@ static Spectrum floor_radiance(const Builder *b, double altitude, double sun_cos
 
 /* A step of a ray: all that does not depend on where the sun stands. */
 typedef struct Step {
-    AirPoint     at;
     BeamHeight   height;
     DiffusePlace place;
     Spectrum     seen;         /* mean transmittance from the observer, times the length */
@@ -150,7 +149,6 @@ static void start_step(const Builder *b, const AirPoint *at, float length, Spect
     const AirOptics *optics = &b->beam.optics;
     float    density[AIR_PARTS];
     Spectrum depth = spectrum_all(0);
-    step->at = *at;
     step->height = beam_table_height(&b->beam, at->altitude);
     /* the source sends towards the eye, against the ray */
     step->place = diffuse_light_place(&b->light[0], at->altitude, (float)-at->cosine);

@@ -245,7 +245,7 @@ bool weather_read(const char *file, Arena *arena, Weather *out, Error *err)
         !file_text(file, &bytes, &text, err))
         return false;
     EpwReader reader = {file, arena_string(arena, text, strlen(text)), 0, arena};
-    Weather   weather = {.file = file, .rows_per_hour = 1};
+    Weather   weather = {.rows_per_hour = 1};
     if (!next_line(&reader, field, &count))
         return error_at(err, ERROR_INPUT, file, "", "is empty, required: an EPW weather file");
     if (!read_location(&reader, field, count, &weather, err)) return false;

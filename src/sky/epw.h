@@ -26,7 +26,7 @@ typedef struct WeatherHour {
 } WeatherHour;
 
 typedef struct Weather {
-    const char  *file, *city;
+    const char  *city;
     SkyPlace     place;
     double       zone_h;
     int          rows_per_hour, fields; /* fields: of every row */

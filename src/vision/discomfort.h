@@ -49,10 +49,6 @@ typedef struct GlareSource {
     double position_index; /* position_index, at least 1 */
 } GlareSource;
 
-/* UGR's range of a source's solid angle (CIE 117-1995). */
-#define UGR_SOLID_ANGLE_MIN_SR 0.0003
-#define UGR_SOLID_ANGLE_MAX_SR 0.1
-
 /* ---- a source from its pieces ------------------------------------------------------------ */
 
 /* Start with zeros. */

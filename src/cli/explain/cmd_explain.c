@@ -37,7 +37,6 @@ typedef struct SceneQuestion {
     const Outputs    *outputs;
 } SceneQuestion;
 
-#define SUMMARY "by which ways light comes to a symbol, a display or a pixel"
 #define BOUNCES 64
 #define WAYS 10
 #define SEED 0x6578706cu /* of what is no pixel, with --seed 0 */
@@ -307,7 +306,7 @@ static bool parse(int argc, char **argv, Arena *arena, ExplainWords *out, Error 
         SCENE_OPTIONS(&out->scene_words, &scene->scene, &scene->environment),
     };
     const CliCommand command = {
-        "explain", SUMMARY,
+        "explain", command_explain.summary,
         "REVIEW.json [--condition NAME] [--symbol NAME] [--eye NAME] | SCENE... --display NAME "
         "| SCENE... --pixel X,Y",
         "parhelion explain scenes/glance.review.json --condition night",
@@ -377,4 +376,5 @@ static Outcome run(int argc, char **argv, Arena *arena, Error *err)
     return outcome_of(explain_answer(&words.cli, &answer, arena, err));
 }
 
-const Command command_explain = {"explain", SUMMARY, run, NULL, 0};
+const Command command_explain = {
+    "explain", "by which ways light comes to a symbol, a display or a pixel", run};

@@ -469,7 +469,7 @@ static Outcome run_eval(int argc, char **argv, Arena *arena, Error *err)
          &r.wants_csv},
     };
     const CliCommand command = {"panel eval",
-        "what a panel emits (cd/m2) or reflects (sr^-1) in one direction, or on a grid",
+        command_panel_eval.summary,
         "X.panel --theta T --phi P --rgb R,G,B | --brdf --incidence T --theta T --phi P",
         "parhelion panel eval assets/panels/ips_cluster.panel --theta 30 --phi 0 "
         "--rgb 255,255,255", options, COUNT_OF(options), 1, 1};
@@ -480,4 +480,5 @@ static Outcome run_eval(int argc, char **argv, Arena *arena, Error *err)
 }
 
 const Command command_panel_eval = {
-    "eval", "what a panel emits or reflects in one direction", run_eval};
+    "eval", "what a panel emits (cd/m2) or reflects (sr^-1) in one direction, or on a grid",
+    run_eval};

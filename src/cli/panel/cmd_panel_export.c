@@ -82,7 +82,7 @@ static Outcome run_export(int argc, char **argv, Arena *arena, Error *err)
          &r.options.mirror_fwhm_deg, 0, 10},
     };
     const CliCommand command = {"panel export",
-        "a panel's tables written back: XYZ in cd/m2, BRDF in sr^-1, angles in degrees",
+        command_panel_export.summary,
         "X.panel -o DIR | --table NAME -o TABLE.csv",
         "parhelion panel export assets/panels/ips_cluster.panel --table 'red 255' -o red.csv",
         options, COUNT_OF(options), 1, 1};
@@ -97,4 +97,4 @@ static Outcome run_export(int argc, char **argv, Arena *arena, Error *err)
 }
 
 const Command command_panel_export = {
-    "export", "a panel's tables written back, readable by fit", run_export};
+    "export", "a panel's tables written back, readable by fit: cd/m2, sr^-1, degrees", run_export};

@@ -74,7 +74,7 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
         {"--force", OPTION_FLAG, NULL,
          "write the panel also where it is judged not usable; its report says so", &out->force},
     };
-    const CliCommand command = {"panel fit", "measurement files to one compressed panel file",
+    const CliCommand command = {"panel fit", command_panel_fit.summary,
         "MANIFEST.json|TABLE.csv -o X.panel [options]",
         "parhelion panel fit measured/MANIFEST.json -o cluster.panel", options,
         COUNT_OF(options), 1, 1};

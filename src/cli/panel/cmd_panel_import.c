@@ -309,7 +309,7 @@ static Outcome run_import(int argc, char **argv, Arena *arena, Error *err)
     Option options[OPTIONS_MAX];
     int    count = list_options(words, options, arena);
     const CliCommand command = {"panel import",
-        "the files that laboratories have as one measurement set",
+        command_panel_import.summary,
         "FILE... -o MANIFEST.json [options]",
         "parhelion panel import ips_cluster/emission/*.csv ips_cluster/brdf/*.csv "
         "-o again/MANIFEST.json", options, count, 1, -1, "formats", each_format};

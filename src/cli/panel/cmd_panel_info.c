@@ -63,7 +63,7 @@ static Outcome run_info(int argc, char **argv, Arena *arena, Error *err)
          "only how far each level of its trees is off, for --level of other commands",
          &wants_levels},
     };
-    const CliCommand command = {"panel info", "what a panel file holds, its sizes and errors",
+    const CliCommand command = {"panel info", command_panel_info.summary,
         "X.panel [--levels]", "parhelion panel info assets/panels/ips_cluster.panel", options,
         COUNT_OF(options), 1, 1};
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;

@@ -137,7 +137,7 @@ static Outcome run_plot(int argc, char **argv, Arena *arena, Error *err)
         {"--dark", OPTION_FLAG, NULL, "light lines on a dark ground", &request.options.is_dark},
     };
     const CliCommand command = {"panel plot",
-        "pictures of a panel: luminance, contrast, colour, grey levels, reflection, fit",
+        command_panel_plot.summary,
         "X.panel -o X.svg|X.png [--kind KIND] [--measured MANIFEST.json]",
         "parhelion panel plot assets/panels/ips_cluster.panel --kind luminance "
         "-o luminance.png", options, COUNT_OF(options), 1, 1};

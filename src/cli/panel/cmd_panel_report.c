@@ -91,7 +91,7 @@ static Outcome run_report(int argc, char **argv, Arena *arena, Error *err)
         {"--dark", OPTION_FLAG, NULL, "light lines on a dark ground", &plot->is_dark},
     };
     const CliCommand command = {"panel report",
-        "a page to sign: viewing angles, colour, gamma, inversion, reflectance, contrast",
+        command_panel_report.summary,
         "X.panel -o X.html [--csv DIR] [--measured MANIFEST.json]",
         "parhelion panel report assets/panels/ips_cluster.panel -o ips.html --csv ips_tables",
         options, COUNT_OF(options), 1, 1};
@@ -108,4 +108,5 @@ static Outcome run_report(int argc, char **argv, Arena *arena, Error *err)
 }
 
 const Command command_panel_report = {
-    "report", "a laboratory's page of a panel, with its tables as CSV and JSON", run_report};
+    "report", "a page to sign: viewing angles, colour, gamma, inversion, reflectance, contrast",
+    run_report};

@@ -440,7 +440,7 @@ static bool parse(int argc, char **argv, Arena *arena, ShowRun *work, Error *err
          &words->layers},
     };
     const CliCommand command = {"panel show",
-        "a bare display as an eye sees it, in given light",
+        command_panel_show.summary,
         "X.panel --content PICTURE --png FILE [-o FRAME.exr] [--theta DEG] [--ambient LUX]",
         "parhelion panel show assets/panels/ips_cluster.panel --content "
         "assets/content/cluster.png --theta 50 --ambient 500 --png cluster.png",

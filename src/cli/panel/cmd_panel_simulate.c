@@ -80,7 +80,7 @@ static Outcome run_simulate(int argc, char **argv, Arena *arena, Error *err)
          .given = &has_grid},
     };
     const CliCommand command = {"panel simulate",
-        "a virtual Fourier-optics instrument measures a recipe's panel: cd/m2, sr^-1, degrees",
+        command_panel_simulate.summary,
         "RECIPE.json -o DIR",
         "parhelion panel simulate assets/panels/ips_cluster.recipe.json -o ips_cluster",
         options, COUNT_OF(options), 1, 1};
@@ -102,4 +102,4 @@ static Outcome run_simulate(int argc, char **argv, Arena *arena, Error *err)
 }
 
 const Command command_panel_simulate = {
-    "simulate", "a virtual instrument writes a synthetic measurement set", run_simulate};
+    "simulate", "a virtual Fourier-optics instrument writes a recipe's measurement set", run_simulate};

@@ -435,5 +435,4 @@ static Outcome run_render(int argc, char **argv, Arena *arena, Error *err)
     return request.cli.help_shown ? OUTCOME_DONE : cmd_render_request(&request, arena, err);
 }
 
-const Command command_render = {
-    "render", "render a scene to a linear, photometric EXR", run_render};
+const Command command_render = {"render", RENDER_SUMMARY, run_render};

@@ -388,7 +388,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
          typed->replay, .count = 3, .given = &typed->has_replay},
     };
     const CliCommand command = {
-        "render", "render a scene to a linear, photometric EXR",
+        "render", RENDER_SUMMARY,
         "SCENE.gltf|.glb [LIGHTS.gltf|.glb ...] -o FRAME.exr",
         "parhelion render scenes/car_dashboard.gltf scenes/noon.gltf -o noon.exr "
         "--png noon.png --spp 64",

@@ -15,6 +15,8 @@
 #include "render/render.h"
 #include "scene/scene.h"
 
+#define RENDER_SUMMARY "render a scene to a linear, photometric EXR" /* of the command */
+
 typedef struct RenderRequest {
     Cli           cli;
     SceneOptions  scene;

@@ -91,7 +91,7 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
          &out->isa},
     };
     const CliCommand command = {
-        "review", "can displays be read, under every light? verdicts, causes, a page",
+        "review", command_review.summary,
         "REVIEW.json -o DIR | --init REVIEW.json SCENE.gltf ...",
         "parhelion review scenes/car_dashboard.review.json -o review",
         options, COUNT_OF(options), 1, -1};
@@ -361,5 +361,4 @@ static Outcome run(int argc, char **argv, Arena *arena, Error *err)
 }
 
 const Command command_review = {
-    "review", "can displays be read, under every light? verdicts, causes, a page", run, NULL,
-    0};
+    "review", "can displays be read, under every light? verdicts, causes, a page", run};

@@ -24,7 +24,6 @@ typedef struct BlobWriter {
 
 /* One level's stored edges, sorted into cells. */
 typedef struct Filling {
-    int               level;
     uint32_t          count;
     const VertexEdge *edges;
     int               shift; /* from the lattice's steps to cells */
@@ -219,8 +218,7 @@ static void write_levels(BlobWriter *w, Arena scratch)
         int         level = code->base_level + l;
         VertexEdge *edges = ARENA_NEW(&inner, VertexEdge,
                                       vertex_edges(code->lattice, level, NULL));
-        Filling     f = {.level = level,
-                         .count = stored_edges(code, level, edges),
+        Filling     f = {.count = stored_edges(code, level, edges),
                          .edges = edges,
                          .shift = code->lattice.level - level};
         VertexLevel *out = &w->level[l];

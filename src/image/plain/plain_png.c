@@ -40,7 +40,6 @@ static bool read_head(png_structp png, png_infop info, PlainPng *out)
         return false;
     out->width = (int)width;
     out->height = (int)height;
-    out->channels = png_get_channels(png, info);
     return true;
 }
 

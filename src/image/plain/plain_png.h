@@ -22,7 +22,6 @@ typedef struct PlainPng {
     const unsigned char *bytes; /* the file: whole, with the right checksums */
     size_t size;
     int    width, height; /* 1 to 65536 */
-    int    channels;      /* of the file, 1 to 4: grey, grey and alpha, RGB, RGBA */
 } PlainPng;
 
 /* False: not plain. */

@@ -6,7 +6,7 @@
 ImportRows import_rows(Arena *arena, int capacity, int masked, int channels)
 {
     size_t values = (size_t)capacity * (size_t)channels;
-    return (ImportRows){.capacity = capacity, .channels = channels,
+    return (ImportRows){.channels = channels,
                         .theta_deg = ARENA_NEW(arena, double, capacity),
                         .phi_deg = ARENA_NEW(arena, double, capacity),
                         .value = ARENA_NEW(arena, double, values),

@@ -7,7 +7,7 @@
 #include "import/set/import.h"
 
 typedef struct ImportRows {
-    int     rows, capacity, channels;
+    int     rows, channels;
     double *theta_deg, *phi_deg, *value; /* value: rows x channels */
     int     masked;                      /* directions marked as not measured */
     double *masked_theta_deg, *masked_phi_deg;

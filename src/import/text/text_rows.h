@@ -20,7 +20,6 @@ typedef struct NamedColumn {
 
 /* The common form of lists and matrices. */
 typedef struct NamedRows {
-    const char *file;
     NamedColumn column[TEXT_COLUMNS_MAX];
     TextRows    rows; /* its width is the number of columns */
 } NamedRows;

@@ -551,7 +551,7 @@ bool text_scan(const char *file, const TextOptions *options, Arena *arena, Named
 {
     TextFile text;
     if (!text_file_read(file, options->encoding, arena, &text, err)) return false;
-    *out = (NamedRows){.file = file};
+    *out = (NamedRows){0};
     *metadata = text_metadata();
     TextScan scan = {.text = &text, .options = options, .dialect = options->dialect,
                  .arena = arena, .err = err, .metadata = metadata, .table = out,

@@ -98,7 +98,6 @@ static bool check_white(const JsonView *view, Error *err)
 static bool check_emission(const JsonView *view, void *item, Error *err)
 {
     ManifestEmission *emission = item;
-    emission->path = view->path;
     if (record_has(view, "white")) return check_white(view, err);
     if (record_has(view, "levels"))
         return record_fails(view, "levels", err, "is for a set of 'white' alone; these "

@@ -23,7 +23,6 @@ typedef struct ManifestLevel {
 
 typedef struct ManifestEmission {
     bool           is_there;
-    const char    *path; /* in the manifest: "/emission", "/spots/3/emission" */
     ManifestTable  black, white;
     ManifestLevel *primary[3]; /* red, green, blue: levels, rising */
     int            level_count[3];

@@ -75,7 +75,7 @@ void panel_spline_expand(const uint8_t *term, int terms, int components, const f
     size_t row = (size_t)(terms * stride);
     float *table = ARENA_NEW(arena, float, PANEL_SPLINE_ANGLES * row + 4);
     float *power = ARENA_NEW(arena, float, row + 4);
-    *out = (PanelSpline){.terms = terms, .components = components, .stride = stride,
+    *out = (PanelSpline){.terms = terms, .stride = stride,
                          .harmonics = terms ? panel_spline_harmonic(term[terms - 1]) : 0,
                          .table = table, .power = power};
     for (int t = 0; t < terms; t++) {

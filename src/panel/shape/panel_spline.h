@@ -43,7 +43,7 @@ static inline int panel_spline_harmonic(int term)
 
 /* Ready for queries. table[angle][term][stride], power[term][stride]. */
 typedef struct PanelSpline {
-    int          terms, components, stride; /* stride: a multiple of 4 */
+    int          terms, stride; /* stride: a multiple of 4 */
     int          harmonics;                 /* the highest */
     uint8_t      term[PANEL_SPLINE_TERMS_MAX];
     const float *table, *power;

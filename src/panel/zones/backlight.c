@@ -187,7 +187,7 @@ const Backlight *backlight_make(const DimmingZones *zones, const LevelShares *le
     work.out = ARENA_NEW(arena, float, (size_t)work.size[0] * (size_t)work.size[1]);
     *out = (Backlight){.width = work.size[0], .height = work.size[1], .light = work.out,
                        .is_log = zones->sigma_mm > 0,
-                       .compensates = zones->compensates, .zones = zones, .drive = drive,
+                       .compensates = zones->compensates,
                        .log_share = log_shares(levels, arena)};
     for (int i = 0; i < count; i++) out->mean_drive += drive[i] / count;
     if (zones->sigma_mm > 0)

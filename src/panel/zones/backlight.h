@@ -37,8 +37,6 @@ typedef struct Backlight {
     bool         is_log;        /* light is ln b, of a Gaussian spread; else b */
     bool         compensates;
     const float (*log_share)[256]; /* ln of LevelShares, of compensation; [0] is unused */
-    const DimmingZones *zones;
-    const double *drive;        /* of each zone, row by row */
     double       mean_drive;    /* the backlight's power over its full power */
 } Backlight;
 

@@ -22,14 +22,13 @@
 
 #define EYE_NEAR_DEG 1.0 /* from the gaze; about the fovea, where the eye sees sharply */
 #define EYE_CLOSE_DEG 5.0
-#define EYE_ROUNDS_MOST ESTIMATE_BATCHES
 
 /* Where an eye looks from, and how surely it is to be known: rounds of 4096 paths, which differ
  * in nothing but chance. */
 typedef struct EyeLook {
     Vec3 eye;     /* m, scene */
     Vec3 towards; /* any length but 0 */
-    int  rounds;  /* 1 .. EYE_ROUNDS_MOST */
+    int  rounds;  /* 1 .. ESTIMATE_BATCHES */
     const FalseSuns *images; /* from there; NULL: nobody looked */
     bool is_close; /* within EYE_CLOSE_DEG of the gaze glowing surfaces and displays are read by
                       the paths, which lie ever closer there, not by light samples, of which few

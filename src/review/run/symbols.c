@@ -21,7 +21,7 @@
 typedef struct SymbolList {
     const Setup *setup;
     SetupSymbol *list;
-    int          count, room;
+    int          count;
 } SymbolList;
 
 static const Image *shown_content(const Scene *scene, const ReviewDisplay *display)
@@ -246,7 +246,7 @@ LightParts symbol_parts(const SetupSymbol *symbol, const ProbeAim *aim, int most
 bool setup_symbols(const Setup *setup, Arena *arena, SetupSymbol **out, int *count, Error *err)
 {
     int        most = setup->request->symbol_count * SYMBOLS_FOUND_MOST;
-    SymbolList list = {setup, ARENA_NEW(arena, SetupSymbol, most), 0, most};
+    SymbolList list = {setup, ARENA_NEW(arena, SetupSymbol, most), 0};
     for (int id = 0; id < setup->request->symbol_count; id++) {
         if (add_asked(&list, id, arena, err)) continue;
         error_prefix(err, "symbol '%s'", setup->request->symbols[id].name);

@@ -13,7 +13,6 @@
 
 /* Packed bytes, and the elements that they hold. */
 typedef struct Packed {
-    const GltfValue *at;
     FileBytes bytes;
     size_t    count, stride;
 } Packed;
@@ -22,8 +21,7 @@ static bool find_packed(GltfFile *file, const GltfValue *at, Packed *out)
 {
     FileBytes buffer = file->buffers[tree_int(at, "buffer", 0)];
     size_t offset = (size_t)tree_number(at, "byteOffset", 0);
-    *out = (Packed){.at = at,
-                    .count = (size_t)tree_number(at, "count", 0),
+    *out = (Packed){.count = (size_t)tree_number(at, "count", 0),
                     .stride = (size_t)tree_number(at, "byteStride", 0)};
     if (!buffer.data)
         return file_error(file, at, "the packed bytes are missing: their buffer is not there");

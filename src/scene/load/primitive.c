@@ -377,7 +377,7 @@ void primitive_build(GltfFile *file, const GltfValue *node, const Transform *wor
     int material_id = material >= 0 ? file->material_base + material : material_default(file);
     Arena begun = load->scratch;
     PartDraft draft = {
-        .part = {.name = part_name(load, node, mesh), .file = file->path,
+        .part = {.name = part_name(load, node, mesh),
                  .node_name = load_keep(load, tree_text(node, "name", "")),
                  .mesh_name = load_keep(load, tree_text(mesh, "name", "")),
                  .material_id = material_id},

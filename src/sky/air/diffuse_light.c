@@ -275,7 +275,7 @@ void diffuse_light_build(const DiffuseInput *input, Arena *arena, DiffuseLight *
 {
     double direction[DIRECTIONS];
     size_t slots = slot(DIFFUSE_LEVELS, 0, 0);
-    *out = (DiffuseLight){.floor_m = input->floor_m, .sun_cosine = input->sun_cosine,
+    *out = (DiffuseLight){.floor_m = input->floor_m,
                           .top_m = input->optics->top_m, .level_count = DIFFUSE_LEVELS,
                           .ground_direct = spectrum_all(0), .ground_diffuse = spectrum_all(0),
                           .top_exitance = spectrum_all(0)};

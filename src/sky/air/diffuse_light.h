@@ -21,7 +21,7 @@
 
 typedef struct DiffuseLight {
     double floor_m;   /* where the ground or the cloud deck is */
-    double sun_cosine, top_m;
+    double top_m;
     int    level_count;
     double level_m[DIFFUSE_LEVELS]; /* rising from the floor to the top, as diffuse_level_m */
     /* Scattered into a direction at a level, m^-1 sr^-1, from light that was scattered or

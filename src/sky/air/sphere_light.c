@@ -408,7 +408,7 @@ static void start_lights(const SphereInput *in, Arena *arena, DiffuseLight *out)
     BeamHeight floor = beam_table_height(in->beam, in->beam->floor_m);
     for (int a = 0; a < in->count; a++) {
         double cosine = cos_d(in->first_zenith + a * in->step);
-        out[a] = (DiffuseLight){.floor_m = in->beam->floor_m, .sun_cosine = cosine,
+        out[a] = (DiffuseLight){.floor_m = in->beam->floor_m,
                                 .top_m = o->top_m, .level_count = SPHERE_LEVELS,
                                 .ground_diffuse = spectrum_all(0),
                                 .top_exitance = spectrum_all(0)};

@@ -337,7 +337,7 @@ void direction_grid_taps(const DirectionGrid *grid, float theta, float phi, Grid
 {
     int   n = grid->thetas;
     float here = wrapped_phi(grid, phi), there = wrapped_phi(grid, phi + PI_F);
-    *taps = (GridTaps){.is_outside = theta > grid->theta[n - 1] + SAME_ANGLE};
+    *taps = (GridTaps){0};
     if (n == 1 || theta >= grid->theta[n - 1]) {
         add_ring(grid, n - 1, here, 1, taps);
         return;

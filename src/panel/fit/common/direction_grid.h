@@ -36,7 +36,6 @@ typedef struct GridTaps {
     int   count;
     int   cell[16];
     float weight[16];
-    bool  is_outside; /* beyond the last ring: its value stands */
 } GridTaps;
 
 /* mirrored: the table is symmetric in phi (isotropic reflection); both halves are averaged. */

@@ -206,7 +206,6 @@ static void compare(const Thinned *thinned, int way, double core, const bool *st
         double noise = NOISE_SIGMAS * reflection_parts_noise(parts, thinned->table, value);
         double found = predict(thinned, table->theta[i], table->phi[i]);
         double miss = fabs(found / value - 1) - noise;
-        out->rows++;
         if (miss > out->error) out->error = miss, out->theta = theta, out->phi = phi;
     }
 }

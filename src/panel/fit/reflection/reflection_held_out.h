@@ -20,7 +20,6 @@ typedef struct HeldOut {
     double estimate;   /* between the rows with none left out */
     double between;    /* of the tree halfway between rows, relative */
     double theta, phi; /* radians, in the table's frame */
-    int    rows;       /* that were left out and counted */
     bool   is_scattered; /* no grid: none of the above, but gaps */
     ScatterGaps  gaps;
     ScatterDoubt mirror; /* of the surface in the mirror direction */
