@@ -133,8 +133,6 @@ bool primaries_read(const char *file, const TextOptions *options, ImportSet *set
     return check_reach(set, file, err);
 }
 
-/* ---- files beside a file ---------------------------------------------------------------- */
-
 /* ---- a gamma table ----------------------------------------------------------------------- */
 
 #define NORMAL_DEG 10.0 /* white nearer to the normal than this is compared */

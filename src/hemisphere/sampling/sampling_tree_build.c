@@ -429,7 +429,7 @@ static bool expand_structure(Expand *expand)
     return true;
 }
 
-/* ---- probabilities ----------------------------------------------------------------------- */
+/* ---- probabilities of a stored tree ------------------------------------------------------ */
 
 static bool get_step(SamplingBits *bits, uint32_t k, uint8_t *step)
 {

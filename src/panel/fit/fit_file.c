@@ -14,8 +14,6 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-/* ---- places ----------------------------------------------------------------------------- */
-
 /* ---- which panels ------------------------------------------------------------------------ */
 
 static bool has_part(const MeasuredSpot *spot, bool is_reflection)

@@ -334,7 +334,7 @@ static void plan(GazePair *pilot)
     pilot->whole_paths = estimate_plan(&whole);
 }
 
-/* ---- figures ----------------------------------------------------------------------------- */
+/* ---- what both kinds of paths found ------------------------------------------------------ */
 
 static GazeFound figure_of(const GazePair *pair, GazeFigure figure)
 {

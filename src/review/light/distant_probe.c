@@ -397,7 +397,7 @@ DistantReading distant_probe_read(const DistantProbe *probe, const DistantTools 
     return reading;
 }
 
-/* ---- x ----------------------------------------------------------------------------------- */
+/* ---- readings that are kept -------------------------------------------------------------- */
 
 #define ROOM_FIRST 1024
 

@@ -157,11 +157,9 @@ ReviewFacts review_facts_of(const Review *review, const ReviewCase *c,
     return facts;
 }
 
-/* ---- x ----------------------------------------------------------------------------------- */
+/* ---- counting ---------------------------------------------------------------------------- */
 
 #define NAMES_LISTED 3
-
-/* ---- counting ---------------------------------------------------------------------------- */
 
 /* Of one kind and basis. */
 static long count_of(const Review *review, RestKind kind, RestBasis basis)

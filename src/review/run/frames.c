@@ -265,8 +265,6 @@ static bool frame_make(const FrameArgs *args, Arena *arena, const char **out, Er
     return true;
 }
 
-/* ---- x ----------------------------------------------------------------------------------- */
-
 #define RIM_STEPS 8 /* points along a side of a symbol's rectangle */
 #define SETUP_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
 

@@ -14,8 +14,6 @@
 #include "review/light/setup.h"
 #include "review/review_decide.h"
 
-/* ---- x ----------------------------------------------------------------------------------- */
-
 #define OWN_PRECISION 0.02
 #define OWN_PATHS 8192
 #define OWN_BYTES ((size_t)1 << 30) /* address space: what is not touched costs nothing */
@@ -145,7 +143,7 @@ static bool responses_trace(const ReviewRun *run, const Setup *setup, ResponseAr
 #define EYE_SEED 0x73776579u
 #define METER_SEED 0x73776d65u
 
-/* ---- the scene's own light --------------------------------------------------------------- */
+/* ---- a scene without a sky --------------------------------------------------------------- */
 
 static void set_all_levels(Setup *setup, float level)
 {

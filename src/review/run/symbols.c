@@ -300,7 +300,7 @@ void symbol_put_on_glasses(const Setup *setup, const SetupSymbol *symbol, ProbeA
     c->glasses_display_loss = bare > 0 ? 1 - brighter(&c->luminance_cd_m2) / bare : 0;
 }
 
-/* ---- x ----------------------------------------------------------------------------------- */
+/* ---- cells, of which the worst is read --------------------------------------------------- */
 
 #define CELLS_MOST 1024
 #define SUN_PATHS 2048   /* the direct sun's, of all cells together */

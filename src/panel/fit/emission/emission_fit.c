@@ -15,69 +15,6 @@
 #include "panel/set/primary_bands.h"
 #include "panel/shape/spectral_warp.h"
 
-/* ---- holes in the data ------------------------------------------------------------------ */
-
-/* What a panel may miss of an emission between samples that are no grid.
- *
- * Of the brightest channel. */
-
-typedef struct LightRead {
-    const EmissionModel  *model;
-    const ScatterSurface *surface;
-    Tree                  tree;
-    int                   channel;
-    float                *total; /* of all channels */
-} LightRead;
-
-static double log_of(const LightRead *read, float value)
-{
-    return log_d(fmax((double)value, fmax(read->model->samples->floor[read->channel],
-                                          1e-9)));
-}
-
-static double read_gap(void *context, Vec3 at, double *off)
-{
-    const LightRead *read = context;
-    float components[PANEL_COMPONENTS_MAX], log;
-    emission_coder_components(read->model, &read->tree, at, components);
-    emission_model_totals(read->model, components, at, read->total);
-    scatter_surface_read(read->surface, at, &log);
-    double panel = log_of(read, read->total[read->channel]);
-    *off = (double)log - panel;
-    return panel;
-}
-
-static int brightest(const EmissionSamples *s)
-{
-    double most = -1;
-    int    out = 0;
-    for (int c = 0; c < s->channels; c++) {
-        double sum = 0;
-        for (int i = 0; i < s->rows; i++) sum += (double)s->total[i * s->channels + c];
-        if (sum > most) most = sum, out = c;
-    }
-    return out;
-}
-
-/* tree: of what the smooth part leaves. */
-static bool emission_gaps_find(const EmissionModel *model, const EmissionTree *tree,
-                               Arena scratch, ScatterGaps *out, Error *err)
-{
-    const EmissionSamples *s = model->samples;
-    LightRead read = {.model = model, .channel = brightest(s),
-                    .total = ARENA_NEW(&scratch, float, s->channels)};
-    float *log = ARENA_NEW(&scratch, float, s->rows);
-    for (int i = 0; i < s->rows; i++)
-        log[i] = (float)log_of(&read, s->total[i * s->channels + read.channel]);
-    read.surface = scatter_surface_make(s->master, false, log, 1, &scratch);
-    if (!tree_open(tree->bytes, tree_size(tree->bytes), geodesic_create(tree->level, &scratch),
-                   &read.tree, err))
-        return false;
-    ScatterAsked asked = {read.surface, read_gap, &read};
-    *out = scatter_gaps_find(&asked, scratch);
-    return true;
-}
-
 #define TOLERANCE 0.0025 /* relative, where the noise does not allow more */
 #define SIGMAS 4.0      /* of the noise that the components have left */
 
@@ -254,6 +191,205 @@ static const void *write_section(const EmissionModel *model, Arena *arena, size_
     return bytes;
 }
 
+/* ---- the model ------------------------------------------------------------------------- */
+
+/* Noise of every component's score at a row, from differences of neighbours. */
+static void find_score_noise(EmissionModel *model, Arena *arena)
+{
+    const EmissionSamples *s = model->samples;
+    int        n = model->rank->components;
+    AngleTable table = *s->master;
+    table.channels = n;
+    table.value = model->rank->score;
+    model->score_noise = ARENA_NEW(arena, float, n);
+    for (int k = 0; k < n; k++)
+        model->score_noise[k] = (float)(model->is_scattered
+            ? scatter_surface_table_noise(&table, k, false, *arena)
+            : table_noise_plain(&table, k, *arena));
+}
+
+/* Noise of a channel due to the scores' noise; the median of all. */
+static double channel_noise(const EmissionModel *model, Arena scratch)
+{
+    const EmissionRank *rank = model->rank;
+    int     n = rank->components, channels = model->samples->channels;
+    double *list = ARENA_NEW(&scratch, double, channels);
+    for (int c = 0; c < channels; c++) {
+        for (int k = 0; k < n; k++)
+            list[c] +=
+                pow_d((double)rank->loading[c * n + k] * (double)model->score_noise[k], 2);
+        list[c] = sqrt(list[c]);
+    }
+    return sort_median(list, channels);
+}
+
+static double choose_tolerance(const EmissionModel *model, const FitOptions *options)
+{
+    if (options->bound > 0) return (double)options->bound;
+    return fmax(TOLERANCE, SIGMAS * model->noise);
+}
+
+/* Rounding steps of the components: together they may cost a sixth of the tolerance. */
+static void choose_steps(EmissionModel *model, Arena *arena)
+{
+    const EmissionRank *rank = model->rank;
+    int n = rank->components;
+    model->step = ARENA_NEW(arena, float, n);
+    for (int k = 0; k < n; k++) {
+        float most = 1e-6f;
+        for (int c = 0; c < model->samples->channels; c++)
+            most = fmaxf(most, fabsf(rank->loading[c * n + k]));
+        model->step[k] = (float)(2 * model->tolerance / (6 * sqrt((double)n))) / most;
+    }
+}
+
+/* A logarithm follows darkness without end: nothing goes below this share of the floor. A
+ * smooth surface pays for depth, one with edges does not. */
+#define HELD 0.01
+#define HELD_EDGED 0.0015
+
+static void gather(EmissionModel *model, const Measurement *set, const EmissionResult *out,
+                   EmissionSamples *samples, Arena *arena)
+{
+    emission_samples_gather(set, out->has_black, out->outlier, arena, samples);
+    emission_rank_find(samples, arena, model->rank);
+}
+
+static bool build_model(const Measurement *set, const FitOptions *options, Arena *arena,
+                        FitNotes *notes, EmissionResult *out, EmissionModel *model)
+{
+    EmissionSamples *samples = ARENA_NEW(arena, EmissionSamples, 1);
+    samples->tolerance = options->bound > 0 ? (double)options->bound : TOLERANCE;
+    samples->floor_share = (double)options->error_floor;
+    EmissionRank    *rank = ARENA_NEW(arena, EmissionRank, 1);
+    samples->held_share = HELD;
+    *model = (EmissionModel){.samples = samples, .rank = rank,
+                             .dim = (const double (*)[3])out->dim,
+                             .tolerance = samples->tolerance};
+    gather(model, set, out, samples, arena);
+    if (emission_edges_are_there(model, *arena)) {
+        samples->held_share = HELD_EDGED;
+        gather(model, set, out, samples, arena);
+    }
+    model->is_scattered = emission_samples_are_scattered(samples->master, *arena);
+    emission_samples_note(samples, *arena, notes);
+    find_score_noise(model, arena);
+    model->noise = channel_noise(model, *arena);
+    model->tolerance = choose_tolerance(model, options);
+    round_model(model);
+    choose_steps(model, arena);
+    return emission_model_fit_smooth(model, arena);
+}
+
+/* ---- holes in the data ------------------------------------------------------------------ */
+
+/* What a panel may miss of an emission between samples that are no grid.
+ *
+ * Of the brightest channel. */
+
+typedef struct LightRead {
+    const EmissionModel  *model;
+    const ScatterSurface *surface;
+    Tree                  tree;
+    int                   channel;
+    float                *total; /* of all channels */
+} LightRead;
+
+static double log_of(const LightRead *read, float value)
+{
+    return log_d(fmax((double)value, fmax(read->model->samples->floor[read->channel],
+                                          1e-9)));
+}
+
+static double read_gap(void *context, Vec3 at, double *off)
+{
+    const LightRead *read = context;
+    float components[PANEL_COMPONENTS_MAX], log;
+    emission_coder_components(read->model, &read->tree, at, components);
+    emission_model_totals(read->model, components, at, read->total);
+    scatter_surface_read(read->surface, at, &log);
+    double panel = log_of(read, read->total[read->channel]);
+    *off = (double)log - panel;
+    return panel;
+}
+
+static int brightest(const EmissionSamples *s)
+{
+    double most = -1;
+    int    out = 0;
+    for (int c = 0; c < s->channels; c++) {
+        double sum = 0;
+        for (int i = 0; i < s->rows; i++) sum += (double)s->total[i * s->channels + c];
+        if (sum > most) most = sum, out = c;
+    }
+    return out;
+}
+
+/* tree: of what the smooth part leaves. */
+static bool emission_gaps_find(const EmissionModel *model, const EmissionTree *tree,
+                               Arena scratch, ScatterGaps *out, Error *err)
+{
+    const EmissionSamples *s = model->samples;
+    LightRead read = {.model = model, .channel = brightest(s),
+                    .total = ARENA_NEW(&scratch, float, s->channels)};
+    float *log = ARENA_NEW(&scratch, float, s->rows);
+    for (int i = 0; i < s->rows; i++)
+        log[i] = (float)log_of(&read, s->total[i * s->channels + read.channel]);
+    read.surface = scatter_surface_make(s->master, false, log, 1, &scratch);
+    if (!tree_open(tree->bytes, tree_size(tree->bytes), geodesic_create(tree->level, &scratch),
+                   &read.tree, err))
+        return false;
+    ScatterAsked asked = {read.surface, read_gap, &read};
+    *out = scatter_gaps_find(&asked, scratch);
+    return true;
+}
+
+/* ---- all of it --------------------------------------------------------------------------- */
+
+bool emission_fit(const Measurement *set, const FitOptions *options, Arena *arena,
+                  FitNotes *notes, EmissionResult *out, Error *err)
+{
+    EmissionModel *model = ARENA_NEW(arena, EmissionModel, 1);
+    out->has_black = black_shines(set);
+    survey_tables(set, arena, out);
+    note_flags(out, notes);
+    if (set->has_black && !out->has_black)
+        fit_note(notes, "the black pattern is below 0.0001 cd/m2 or noise: black is 0");
+    if (!build_model(set, options, arena, notes, out, model))
+        return error_set(err, ERROR_INPUT, "emission: the smooth part cannot be stored");
+    if (!emission_tree_build(model, options, arena, &out->tree, err)) return false;
+    if (!out->tree.has_grid && !emission_gaps_find(model, &out->tree, *arena, &out->gaps, err))
+        return false;
+    emission_beam_note(model, notes);
+    if (out->tree.has_grid) emission_edges_note(&out->tree.edges, notes);
+    if (out->tree.missed)
+        fit_note(notes, "emission: %d of %d directions miss %.2g%% beyond 5 sigma of noise",
+                 out->tree.missed, model->samples->rows, 100 * model->tolerance);
+    out->section = write_section(model, arena, &out->section_size);
+    out->model = model;
+    return true;
+}
+
+bool emission_fit_scale(EmissionResult *e, const double *integral_error, Arena *arena)
+{
+    EmissionModel *model = ARENA_NEW(arena, EmissionModel, 1);
+    EmissionRank  *rank = ARENA_NEW(arena, EmissionRank, 1);
+    bool           any = false;
+    *model = *e->model;
+    *rank = *model->rank;
+    rank->mean = ARENA_NEW(arena, float, model->samples->channels);
+    for (int c = 0; c < model->samples->channels; c++) {
+        float step = -(float)log_d(1 + fmax(-0.5, integral_error[c / 3]));
+        rank->mean[c] = ldexpf((float)rounded_to(model->rank->mean[c] + step, PANEL_MEAN_BITS),
+                               -PANEL_MEAN_BITS);
+        any |= rank->mean[c] != model->rank->mean[c];
+    }
+    model->rank = rank;
+    e->model = model;
+    e->section = write_section(model, arena, &e->section_size);
+    return any;
+}
+
 /* ---- the primaries' section -------------------------------------------------------------- */
 
 #define SPECTRA_STEPS 6
@@ -409,138 +545,4 @@ void emission_fit_primaries(const Measurement *set, FitNotes *notes, Arena *aren
         assume_bands(set, arena, out, notes);
     }
     write_primaries(out, head, arena);
-}
-
-/* ---- the model ------------------------------------------------------------------------- */
-
-/* Noise of every component's score at a row, from differences of neighbours. */
-static void find_score_noise(EmissionModel *model, Arena *arena)
-{
-    const EmissionSamples *s = model->samples;
-    int        n = model->rank->components;
-    AngleTable table = *s->master;
-    table.channels = n;
-    table.value = model->rank->score;
-    model->score_noise = ARENA_NEW(arena, float, n);
-    for (int k = 0; k < n; k++)
-        model->score_noise[k] = (float)(model->is_scattered
-            ? scatter_surface_table_noise(&table, k, false, *arena)
-            : table_noise_plain(&table, k, *arena));
-}
-
-/* Noise of a channel due to the scores' noise; the median of all. */
-static double channel_noise(const EmissionModel *model, Arena scratch)
-{
-    const EmissionRank *rank = model->rank;
-    int     n = rank->components, channels = model->samples->channels;
-    double *list = ARENA_NEW(&scratch, double, channels);
-    for (int c = 0; c < channels; c++) {
-        for (int k = 0; k < n; k++)
-            list[c] +=
-                pow_d((double)rank->loading[c * n + k] * (double)model->score_noise[k], 2);
-        list[c] = sqrt(list[c]);
-    }
-    return sort_median(list, channels);
-}
-
-static double choose_tolerance(const EmissionModel *model, const FitOptions *options)
-{
-    if (options->bound > 0) return (double)options->bound;
-    return fmax(TOLERANCE, SIGMAS * model->noise);
-}
-
-/* Rounding steps of the components: together they may cost a sixth of the tolerance. */
-static void choose_steps(EmissionModel *model, Arena *arena)
-{
-    const EmissionRank *rank = model->rank;
-    int n = rank->components;
-    model->step = ARENA_NEW(arena, float, n);
-    for (int k = 0; k < n; k++) {
-        float most = 1e-6f;
-        for (int c = 0; c < model->samples->channels; c++)
-            most = fmaxf(most, fabsf(rank->loading[c * n + k]));
-        model->step[k] = (float)(2 * model->tolerance / (6 * sqrt((double)n))) / most;
-    }
-}
-
-/* A logarithm follows darkness without end: nothing goes below this share of the floor. A
- * smooth surface pays for depth, one with edges does not. */
-#define HELD 0.01
-#define HELD_EDGED 0.0015
-
-static void gather(EmissionModel *model, const Measurement *set, const EmissionResult *out,
-                   EmissionSamples *samples, Arena *arena)
-{
-    emission_samples_gather(set, out->has_black, out->outlier, arena, samples);
-    emission_rank_find(samples, arena, model->rank);
-}
-
-static bool build_model(const Measurement *set, const FitOptions *options, Arena *arena,
-                        FitNotes *notes, EmissionResult *out, EmissionModel *model)
-{
-    EmissionSamples *samples = ARENA_NEW(arena, EmissionSamples, 1);
-    samples->tolerance = options->bound > 0 ? (double)options->bound : TOLERANCE;
-    samples->floor_share = (double)options->error_floor;
-    EmissionRank    *rank = ARENA_NEW(arena, EmissionRank, 1);
-    samples->held_share = HELD;
-    *model = (EmissionModel){.samples = samples, .rank = rank,
-                             .dim = (const double (*)[3])out->dim,
-                             .tolerance = samples->tolerance};
-    gather(model, set, out, samples, arena);
-    if (emission_edges_are_there(model, *arena)) {
-        samples->held_share = HELD_EDGED;
-        gather(model, set, out, samples, arena);
-    }
-    model->is_scattered = emission_samples_are_scattered(samples->master, *arena);
-    emission_samples_note(samples, *arena, notes);
-    find_score_noise(model, arena);
-    model->noise = channel_noise(model, *arena);
-    model->tolerance = choose_tolerance(model, options);
-    round_model(model);
-    choose_steps(model, arena);
-    return emission_model_fit_smooth(model, arena);
-}
-
-bool emission_fit(const Measurement *set, const FitOptions *options, Arena *arena,
-                  FitNotes *notes, EmissionResult *out, Error *err)
-{
-    EmissionModel *model = ARENA_NEW(arena, EmissionModel, 1);
-    out->has_black = black_shines(set);
-    survey_tables(set, arena, out);
-    note_flags(out, notes);
-    if (set->has_black && !out->has_black)
-        fit_note(notes, "the black pattern is below 0.0001 cd/m2 or noise: black is 0");
-    if (!build_model(set, options, arena, notes, out, model))
-        return error_set(err, ERROR_INPUT, "emission: the smooth part cannot be stored");
-    if (!emission_tree_build(model, options, arena, &out->tree, err)) return false;
-    if (!out->tree.has_grid && !emission_gaps_find(model, &out->tree, *arena, &out->gaps, err))
-        return false;
-    emission_beam_note(model, notes);
-    if (out->tree.has_grid) emission_edges_note(&out->tree.edges, notes);
-    if (out->tree.missed)
-        fit_note(notes, "emission: %d of %d directions miss %.2g%% beyond 5 sigma of noise",
-                 out->tree.missed, model->samples->rows, 100 * model->tolerance);
-    out->section = write_section(model, arena, &out->section_size);
-    out->model = model;
-    return true;
-}
-
-bool emission_fit_scale(EmissionResult *e, const double *integral_error, Arena *arena)
-{
-    EmissionModel *model = ARENA_NEW(arena, EmissionModel, 1);
-    EmissionRank  *rank = ARENA_NEW(arena, EmissionRank, 1);
-    bool           any = false;
-    *model = *e->model;
-    *rank = *model->rank;
-    rank->mean = ARENA_NEW(arena, float, model->samples->channels);
-    for (int c = 0; c < model->samples->channels; c++) {
-        float step = -(float)log_d(1 + fmax(-0.5, integral_error[c / 3]));
-        rank->mean[c] = ldexpf((float)rounded_to(model->rank->mean[c] + step, PANEL_MEAN_BITS),
-                               -PANEL_MEAN_BITS);
-        any |= rank->mean[c] != model->rank->mean[c];
-    }
-    model->rank = rank;
-    e->model = model;
-    e->section = write_section(model, arena, &e->section_size);
-    return any;
 }
