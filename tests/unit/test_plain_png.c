@@ -116,11 +116,10 @@ static void assert_as_the_library(const Bytes *png)
     ImageFileInfo info = image_decoder_info(decoder);
     assert_int_equal(info.width, head.width);
     assert_int_equal(info.height, head.height);
-    assert_int_equal(info.channels, head.channels);
-    assert_int_equal(info.alpha_channel, head.channels % 2 ? -1 : head.channels - 1);
+    assert_int_equal(info.alpha_channel, info.channels % 2 ? -1 : info.channels - 1);
     assert_done(image_decoder_read(decoder, pixels, &err));
     for (int i = 0; i < head.width * head.height; i++)
-        assert_rgba_of(pixels + i * head.channels, head.channels, rgba + 4 * i);
+        assert_rgba_of(pixels + i * info.channels, info.channels, rgba + 4 * i);
     image_decoder_destroy(decoder);
 }
 

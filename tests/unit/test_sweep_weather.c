@@ -37,7 +37,7 @@ static Fixture *year_of(int steps)
                                    .direct_normal_w_m2 = is_day(i + 1) ? 100 + i + 1 : 0,
                                    .diffuse_horizontal_w_m2 = is_day(i + 1) ? 50 + i + 1 : 0};
     f.weather = (ReviewWeather){.path = "w.epw",
-                                .weather = {.file = "w.epw", .city = "Here", .rows_per_hour = 1,
+                                .weather = {.city = "Here", .rows_per_hour = 1,
                                             .hour = f.hours, .count = DAY},
                                 .clock = {.offset_h = -0.5}};
     f.request = (ReviewRequest){.weathers = &f.weather, .weather_count = 1};
