@@ -217,7 +217,8 @@ run 'verdicts of what must not be read' verdicts-private claim \
     python3 tests/bench/verdicts.py .build/release --rooms open --trials 100 --private
 of "$render scenes tests/slurm tests/image"
 run 'a frame in parts by Slurm' render-array python3 tests/slurm/render_array.py $program
-of "$review scenes tests/hostile tests/image"
+of "$review scenes tests/hostile tests/slurm tests/image"
+run 'a review in parts by Slurm' review-array python3 tests/slurm/review_array.py $program
 run 'reviews killed, stopped and starved' review-resume-long \
     python3 tests/hostile/review_resume.py --all --kills 40 $program
 run 'models of others equipped' equip-models python3 tests/hostile/equip.py $program

@@ -64,8 +64,7 @@ def check_figures(report, with_it, without):
 
 
 def check_labels(report, with_it, without):
-    """Two cards, two pictures of the variant, the first screen; in each file of the pictures;
-    the script that shows the page's, once a frame."""
+    """Two cards, two pictures of the variant, the first screen; in each file of the pictures."""
     page = bytes_of(with_it, "index.html").decode()
     cards = re.findall(r"<figcaption>[^<]*(?:<b>([^<]*)</b>)?[^<]*</figcaption>", page)
     report.claim(cards.count(LABEL) == 2 + 2 and page.count(LABEL) == 2 + 2 + 1,
@@ -75,8 +74,6 @@ def check_labels(report, with_it, without):
                 zip(figures, re.findall(r"<figure.*?</figure>", page, re.S)) if LABEL in figure]
     report.claim(sorted(labelled) == ["As it stands", "Frame", "Frame", "dimmer"],
                  f"labelled: {labelled}")
-    live = bytes_of(with_it, "live.js").decode()
-    report.claim(live.count(LABEL) == 2, f"labels in live.js: {live.count(LABEL)}")
     for name in os.listdir(os.path.join(with_it, "frames")):
         if name.endswith(".png"):
             report.claim((LABEL.encode() in bytes_of(with_it, "frames", name)) ==

@@ -207,15 +207,10 @@ static bool make_all(const ReviewWords *words, ReviewFolder *folder, ReviewRun *
     bool ok = review_run(run, words->is_strict, arena, outcome, err);
     progress_clear(run->progress);
     cli_print_warnings(run->problems);
+    if (words->merge && folder->has_own_responses)
+        ok = ok && review_merge_responses(words->merge, &outcome->review, folder->responses,
+                                          *arena, err);
     return ok && review_folder_write(folder, outcome, arena, err);
-}
-
-/* Of a merge: its parts' responses. */
-static bool take_parts(const ReviewWords *words, const ReviewFolder *folder, Arena scratch,
-                       Error *err)
-{
-    return !words->merge || !folder->has_own_responses ||
-           review_merge_responses(words->merge, folder->responses, scratch, err);
 }
 
 static Outcome make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
@@ -230,7 +225,7 @@ static Outcome make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *r
     run->unfinished = folder->draft.unfinished;
     run->responses = folder->responses;
     run->responses_shown = folder->responses_shown;
-    if (!take_parts(words, folder, *arena, err) || !make_all(words, folder, run, &found, arena, err)) {
+    if (!make_all(words, folder, run, &found, arena, err)) {
         Outcome outcome = err->code ? tell_kept(folder, err) : report_stopped(folder, arena);
         review_folder_close(folder);
         return outcome;

@@ -261,23 +261,30 @@ bool review_merge_check(const ReviewMerge *merge, ReviewRun *run, Arena *arena, 
 
 /* ---- responses --------------------------------------------------------------------------- */
 
-static bool copy(const char *from, const char *to, Arena scratch, Error *err)
+/* From the first part that has it; of a folder that all share there is nothing to copy. */
+static bool copy_response(const ReviewMerge *merge, const char *name, const char *folder,
+                          Arena scratch, Error *err)
 {
-    FileBytes bytes;
-    return file_exists(to) || (file_read(from, SIZE_MAX, &scratch, &bytes, err) &&
-                               file_write(to, bytes.data, bytes.size, err));
+    FileBytes   bytes;
+    const char *to = arena_format(&scratch, "%s/%s", folder, name);
+    for (int i = 0; i < merge->count && !file_exists(to); i++) {
+        Arena       room = scratch;
+        const char *from = arena_format(&room, "%s/responses/%s", merge->parts[i].folder, name);
+        if (file_exists(from) && (!file_read(from, SIZE_MAX, &room, &bytes, err) ||
+                                  !file_write(to, bytes.data, bytes.size, err)))
+            return false;
+    }
+    return true;
 }
 
-bool review_merge_responses(const ReviewMerge *merge, const char *folder, Arena scratch,
-                            Error *err)
+bool review_merge_responses(const ReviewMerge *merge, const Review *review, const char *folder,
+                            Arena scratch, Error *err)
 {
-    for (int i = 0; i < merge->count; i++) {
-        const char *from = arena_format(&scratch, "%s/responses", merge->parts[i].folder);
-        Lines       files = files_with(from, ".response", &scratch);
-        for (int k = 0; k < files.count; k++) {
-            const char *to = arena_format(&scratch, "%s/%s", folder, path_name(files.list[k]));
-            if (!copy(files.list[k], to, scratch, err)) return false;
-        }
+    for (int v = -1; v < review->variant_count; v++) {
+        const Review *of = v < 0 ? review : review->variants[v].review;
+        for (int i = 0; i < of->response_count; i++)
+            if (!copy_response(merge, path_name(of->responses[i].file), folder, scratch, err))
+                return false;
     }
     return true;
 }

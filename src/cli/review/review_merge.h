@@ -36,6 +36,6 @@ const char *const *review_merge_words(int argc, char **argv, Arena *arena, int *
 /* Sets run->merged. */
 bool review_merge_check(const ReviewMerge *merge, ReviewRun *run, Arena *arena, Error *err);
 
-/* The parts' responses, into the review's own folder. */
-bool review_merge_responses(const ReviewMerge *merge, const char *folder, Arena scratch,
-                            Error *err);
+/* The responses that the review names, into its own folder. */
+bool review_merge_responses(const ReviewMerge *merge, const Review *review, const char *folder,
+                            Arena scratch, Error *err);
