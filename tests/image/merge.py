@@ -250,7 +250,8 @@ def check_foreign(report, program):
     claim_refused(report, program, ["frame.exr"], "frame.exr: carries no sums, only means")
     claim_refused(report, program, [a, "text.exr"], "text.exr: not an OpenEXR file")
     claim_refused(report, program, ["missing.exr"], "missing.exr: cannot be opened: No such")
-    claim_refused(report, program, ["."], ".: is a folder, a file is required")
+    claim_refused(report, program, ["."],
+                  ".: has no conditions to be merged: `parhelion review --only` makes them")
 
 
 def check_damage(report, program):

@@ -259,10 +259,8 @@ LAB_TEST(hostile_sizes_are_bounded)
 /* Light beyond the last angle of a set is left out, but never all of it. */
 LAB_TEST(light_that_only_grazes)
 {
-    lab->request->options.wavelength_nm = 550;
-    lab_write(lab, "sheet.txt", "type bsdf_data\nformat angles=deg bsdf=value scale=1\n89.5 0\n"
-                                "0 0 0.1\n20 90 0.1\n20 180 0.1\n20 270 0.1\n");
-    lab_refused(lab, "sheet.txt: has light from 89.5 degrees and no file from less, required: "
+    lab_write(lab, "i89.5.csv", "theta,phi,450nm\n0,0,0.1\n20,90,0.1\n20,270,0.1\n");
+    lab_refused(lab, "i89.5.csv: has light from 89.5 degrees and no file from less, required: "
                      "one of 0 to 89 degrees");
 }
 

@@ -69,12 +69,21 @@ static void check_vertex_indices(GltfFile *file, const GltfValue *primitive)
     const GltfAccessor *position = accessor_get(file, attribute(primitive, "POSITION"));
     if (!indices || !position) return;
     const uint32_t *list = accessor_integers(file, tree_int(primitive, "indices", NO_ID));
-    size_t wrong = 0, first = 0;
+    size_t wrong = 0, first = 0, restart = 0;
+    uint32_t greatest =
+        (uint32_t)(0xFFFFFFFFu >> (32 - 8 * component_size(indices->component_type)));
     for (size_t i = indices->count; i-- > 0;)
         if (list[i] >= position->count) {
             wrong++;
             first = i;
+        } else if (list[i] == greatest) {
+            restart++;
         }
+    if (restart)
+        file_warning(file, tree_member(primitive, "indices"),
+                     "the greatest index of its type, %u, "
+                     "stands there %zu times: glTF reserves it",
+                     greatest, restart);
     if (wrong)
         file_error(file, tree_member(primitive, "indices"),
                    "index %zu is %u, the primitive has "
