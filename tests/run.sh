@@ -22,6 +22,7 @@ start 'no shell, no socket, no mapped file' calls python3 tests/structure/calls.
 start 'folders include what they may' layers python3 tests/structure/layers.py
 start 'the module is the file' modules python3 tests/structure/modules.py
 start 'sizes and contents of the sources' source python3 tests/structure/source.py
+start 'the layout of the sources' format python3 tests/structure/format.py
 start 'every source says its licence' spdx python3 tests/structure/spdx.py
 start 'the README names what is there' readme python3 tests/structure/readme.py
 start 'a surface model is known by its own files' models python3 tests/structure/models.py
